@@ -1,0 +1,69 @@
+"""Every error a caller may see, as one tree.
+
+::
+
+    QuizgenError
+    |-- BankError        a template, solver or bank folder is wrong (names file and place)
+    |-- BlueprintError   a blueprint file is wrong (names file, key and what is allowed)
+    |-- DrawError        a template cannot produce an admissible draw
+    |-- MathError        a formula has no value for these numbers (pole, negative root, ...)
+    |   `-- Undecided    the value is too close to a branch point to certify
+    |-- FormulaError     mathematics typed by an author or a student cannot be read
+    |-- CodeError        a paper's code cannot be rebuilt here
+    |-- RenderError      an output could not be made or written
+    `-- KeyFileError     a key or an answer file cannot be read
+
+What a student types never raises out of the checker: it becomes a verdict.
+"""
+
+
+class QuizgenError(Exception):
+    """Base of all errors that the command line shows as one line."""
+
+
+class BankError(QuizgenError):
+    """A template, a solver or a bank folder is wrong."""
+
+
+class BlueprintError(QuizgenError):
+    """A blueprint file is wrong."""
+
+
+class DrawError(QuizgenError):
+    """A template cannot produce an admissible draw."""
+
+
+class MathError(QuizgenError, ValueError):
+    """A formula has no finite real value for these numbers."""
+
+
+class Undecided(MathError):  # noqa: N818 - a state of knowledge, not a failure
+    """A comparison could not be certified at the working precision."""
+
+
+class FormulaError(QuizgenError, ValueError):
+    """Typed mathematics cannot be read.
+
+    Parameters
+    ----------
+    message : str
+        What is wrong and what was expected.
+    column : int, optional
+        Position in the typed text, counted from 1.
+    """
+
+    def __init__(self, message: str, column: int | None = None) -> None:
+        super().__init__(message)
+        self.column = column
+
+
+class CodeError(QuizgenError):
+    """A paper's code cannot be rebuilt here."""
+
+
+class RenderError(QuizgenError):
+    """An output could not be made or written."""
+
+
+class KeyFileError(QuizgenError):
+    """A key or an answer file cannot be read."""
