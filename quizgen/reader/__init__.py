@@ -1,0 +1,89 @@
+"""Typed mathematics to formula trees and back.
+
+``parse`` reads the strict notation of authors: decimal point, declared names, explicit products
+(or juxtaposition of declared names). ``to_text`` writes a tree in the same notation. Students'
+spelling is normalised first (``quizgen.check.reading``) and ends in the same grammar.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from quizgen.expr import Call, Expr
+from quizgen.reader.grammar import build
+from quizgen.reader.lexer import Piece, ReadError, double_reading, number_node, tokens
+from quizgen.reader.names import CONSTANTS, FUNCTIONS
+from quizgen.reader.writer import to_text
+
+LONGEST = 4000
+"""Most characters in an author's formula."""
+
+DEEPEST = 100
+"""Most levels of nesting in a formula."""
+
+
+def parse(text: str, *, symbols: Iterable[str] | None = None) -> Expr:
+    """Read an author's formula.
+
+    Parameters
+    ----------
+    text : str
+        For example ``f*X/Z``, ``sqrt(x^2 + y^2) <= 1 and x > 0``, ``2 f X`` (declared names).
+    symbols : iterable of str, optional
+        The names that may occur; without it any name may.
+
+    Raises
+    ------
+    ReadError
+        With the column and what was expected (a ``FormulaError``).
+    """
+    if len(text) > LONGEST:
+        raise ReadError("too-long", LONGEST + 1)
+    pieces = tokens(text, None if symbols is None else frozenset(symbols))
+    doubtful = double_reading(pieces)
+    if doubtful is not None:
+        raise ReadError("two-readings", doubtful.column, doubtful.text, ["/(…)", "*"])
+    return parse_pieces(pieces, len(text), tight=False)
+
+
+def parse_pieces(pieces: list[Piece], length: int, *, tight: bool) -> Expr:
+    """Parse tokens; ``tight`` lets juxtaposition bind stronger than a division sign.
+
+    Raises
+    ------
+    ReadError
+        With the column and what was expected.
+    """
+    if not pieces:
+        raise ReadError("empty", 1)
+    if not tight:
+        pieces = [
+            Piece("TIMES", p.value, p.text, p.column) if p.kind == "JOIN" else p for p in pieces
+        ]
+    tree = build(pieces, length)
+    if depth(tree) > DEEPEST:
+        raise ReadError("too-deep", 1)
+    return tree
+
+
+def depth(expr: Expr) -> int:
+    """Levels of nesting of a tree, found without recursion."""
+    level, layer = 0, [expr]
+    while layer:
+        level += 1
+        layer = [arg for node in layer if isinstance(node, Call) for arg in node.args]
+    return level
+
+
+__all__ = [
+    "CONSTANTS",
+    "FUNCTIONS",
+    "ReadError",
+    "depth",
+    "double_reading",
+    "number_node",
+    "parse",
+    "parse_pieces",
+    "to_text",
+    "tokens",
+]

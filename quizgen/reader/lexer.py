@@ -1,0 +1,248 @@
+"""Formula text to tokens: numbers, names, operators, and the products written by juxtaposition."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+
+from quizgen.errors import FormulaError
+from quizgen.expr import Num
+from quizgen.reader.names import CONSTANTS, FUNCTIONS, KEYWORDS, folded, spellings, split
+
+LARGEST_EXPONENT = 400
+"""Largest decimal exponent read: 1e400 is beyond anything measurable and still a small integer."""
+
+LONGEST_NUMBER = 60
+"""Most digits read in one number."""
+
+
+class ReadError(FormulaError):
+    """Typed mathematics cannot be read; says why in a form that can be put into any language.
+
+    Parameters
+    ----------
+    code : str
+        Stable language-free reason, for example ``unexpected`` or ``unknown-name``.
+    column : int
+        Position in the typed text, counted from 1.
+    found : str
+        The piece of text in question.
+    expected : tuple of str
+        What could have stood there (token kinds, or names).
+    """
+
+    def __init__(
+        self, code: str, column: int = 1, found: str = "", expected: Iterable[str] = ()
+    ) -> None:
+        self.code = code
+        self.found = found
+        self.expected = tuple(expected)
+        wanted = f", expected {' '.join(self.expected)}" if self.expected else ""
+        what = f" {found!r}" if found else ""
+        super().__init__(f"column {column}: {code.replace('-', ' ')}{what}{wanted}", column)
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """One token: its kind in the grammar, its value, the text and the column it came from."""
+
+    kind: str
+    value: object
+    text: str
+    column: int
+
+
+TOKEN = re.compile(
+    r"(?P<space>\s+)"
+    r"|(?P<number>(?:\d+\.\d*|\.\d+|\d+)(?:[eE][+-]?\d+)?)"
+    r"|(?P<literal>\{[^{}]*\})"
+    r"|(?P<quoted>`[^`]+`)"
+    r"|(?P<name>[^\W\d_][^\W_]*'*(?:_[^\W_]+'*)*)"
+    r"|(?P<op>\*\*|<=|>=|!=|==|[-+*/^(),<>=|≤≥≠·×√−])"
+)
+
+OPERATORS = {
+    "+": "PLUS",
+    "-": "MINUS",
+    "−": "MINUS",
+    "*": "TIMES",
+    "·": "TIMES",
+    "×": "TIMES",
+    "/": "SLASH",
+    "^": "POWER",
+    "**": "POWER",
+    "(": "LPAR",
+    ")": "RPAR",
+    ",": "COMMA",
+}
+
+RELATIONS = {
+    "=": "eq",
+    "==": "eq",
+    "!=": "ne",
+    "≠": "ne",
+    "<": "lt",
+    "<=": "le",
+    "≤": "le",
+    ">": "gt",
+    ">=": "ge",
+    "≥": "ge",
+}
+
+_LITERAL = re.compile(r"\{(-?)(\d+)(?:\.(\d*))?(?:/(\d+)(\.?))?\}")
+_ENDS = frozenset({"NUMBER", "NAME", "RPAR", "RBAR", "CONSTANT"})
+_STARTS = frozenset({"NUMBER", "NAME", "LPAR", "LBAR", "CONSTANT", "FUNCTION", "ROOT"})
+_BREAKS = frozenset({"PLUS", "MINUS", "TIMES", "RELATION", "COMMA", "AND", "OR", "NOT"})
+
+
+def tokens(text: str, symbols: frozenset[str] | None, *, loose: bool = False) -> list[Piece]:
+    """Split a formula into tokens, with ``JOIN`` where a product is written by juxtaposition.
+
+    Parameters
+    ----------
+    text : str
+        Decimal point, ASCII digits.
+    symbols : frozenset of str or None
+        Declared names; None takes any name and allows no juxtaposition of names.
+    loose : bool
+        A student's spelling: ``k1`` for ``k_1``, Greek letters, ``R`` for ``r`` stays an error.
+
+    Raises
+    ------
+    ReadError
+        If a character or a name is not part of the grammar.
+    """
+    pieces = list(_pieces(text, symbols, loose=loose))
+    return _joined(_bars(pieces), named=symbols is not None)
+
+
+def _pieces(text: str, symbols: frozenset[str] | None, *, loose: bool) -> Iterator[Piece]:
+    position = 0
+    while position < len(text):
+        match = TOKEN.match(text, position)
+        if match is None:
+            raise ReadError("bad-character", position + 1, text[position])
+        position = match.end()
+        if match.lastgroup != "space":
+            yield from _piece(match, symbols, loose=loose)
+
+
+def _piece(match: re.Match[str], symbols: frozenset[str] | None, *, loose: bool) -> Iterator[Piece]:
+    word, column, kind = match[0], match.start() + 1, match.lastgroup
+    if kind == "number":
+        yield Piece("NUMBER", number_node(word, column), word, column)
+    elif kind == "literal":
+        yield Piece("NUMBER", _literal(word, column), word, column)
+    elif kind == "quoted":
+        yield Piece("NAME", word[1:-1], word, column)
+    elif kind == "name":
+        yield from _named(match, symbols, loose=loose)
+    elif word in RELATIONS:
+        yield Piece("RELATION", RELATIONS[word], word, column)
+    else:
+        yield Piece(OPERATORS.get(word, "ROOT" if word == "√" else "BAR"), word, word, column)
+
+
+def _named(match: re.Match[str], symbols: frozenset[str] | None, *, loose: bool) -> Iterator[Piece]:
+    word, column = match[0], match.start() + 1
+    if symbols is not None and word in symbols:
+        yield Piece("NAME", word, word, column)
+    elif word in KEYWORDS:
+        yield Piece(word.upper(), word, word, column)
+    elif word in CONSTANTS or word == "π":
+        yield Piece("CONSTANT", "pi", word, column)
+    elif word in FUNCTIONS and match.string[match.end() :].lstrip().startswith("("):
+        yield Piece("FUNCTION", word, word, column)
+    elif symbols is None:
+        yield Piece("NAME", word, word, column)
+    else:
+        yield from _declared(word, column, symbols, loose=loose)
+
+
+def _declared(word: str, column: int, symbols: frozenset[str], *, loose: bool) -> Iterator[Piece]:
+    table = spellings(symbols)
+    single = table.get(word, table.get(folded(word))) if loose else None
+    ways = [[single]] if single else split(word, symbols)
+    if not ways:
+        raise ReadError("unknown-name", column, word, sorted(symbols))
+    if len(ways) > 1:
+        raise ReadError("two-readings", column, word, ["·".join(way) for way in ways])
+    for name in ways[0]:
+        yield Piece("NAME", name, word, column)
+
+
+def number_node(word: str, column: int = 1) -> Num:
+    """Read an unsigned decimal literal such as ``2``, ``2.50`` or ``1e-3`` exactly.
+
+    Raises
+    ------
+    ReadError
+        If it has too many digits or too large an exponent.
+    """
+    mantissa, _, exponent = word.lower().partition("e")
+    if len(mantissa) > LONGEST_NUMBER or len(exponent) > 5:
+        raise ReadError("number-too-long", column, word)
+    if exponent and abs(int(exponent)) > LARGEST_EXPONENT:
+        raise ReadError("number-too-large", column, word)
+    value = Fraction(f"{mantissa or 0}e{exponent or 0}")
+    return Num(value, "." in mantissa or value.denominator != 1)
+
+
+def _literal(word: str, column: int) -> Num:
+    match = _LITERAL.fullmatch(word)
+    if match is None or len(word) > 2 * LONGEST_NUMBER or (match[4] and not int(match[4])):
+        raise ReadError("bad-number", column, word)
+    sign, whole, decimals, below, flag = match.groups()
+    value = Fraction(f"{sign}{whole}.{decimals or 0}") / int(below or 1)
+    return Num(value, decimals is not None or bool(flag))
+
+
+def _bars(pieces: list[Piece]) -> list[Piece]:
+    """Decide for each ``|`` whether it opens or closes an absolute value."""
+    result: list[Piece] = []
+    for piece in pieces:
+        if piece.kind == "BAR":
+            closes = bool(result) and result[-1].kind in _ENDS
+            kind = "RBAR" if closes else "LBAR"
+            result.append(Piece(kind, piece.value, piece.text, piece.column))
+        else:
+            result.append(piece)
+    return result
+
+
+def _joined(pieces: list[Piece], *, named: bool) -> list[Piece]:
+    result: list[Piece] = []
+    for piece in pieces:
+        if result and result[-1].kind in _ENDS and piece.kind in _STARTS:
+            _allow_join(result[-1], piece, named=named)
+            result.append(Piece("JOIN", "*", piece.text, piece.column))
+        result.append(piece)
+    return result
+
+
+def _allow_join(left: Piece, right: Piece, *, named: bool) -> None:
+    """Two numbers side by side are a slip; undeclared names could be misspelt functions."""
+    if right.kind == "NUMBER":
+        raise ReadError("unexpected", right.column, right.text, ["OPERATOR"])
+    if not named and left.kind == "NAME":
+        code = "unknown-function" if right.kind == "LPAR" else "unexpected"
+        raise ReadError(code, left.column, left.text, ["OPERATOR"])
+
+
+def double_reading(pieces: list[Piece]) -> Piece | None:
+    """Where ``a/b c`` could mean ``(a/b) c`` or ``a/(b c)``, else None."""
+    after_slash = [False]
+    for piece in pieces:
+        if piece.kind == "SLASH":
+            after_slash[-1] = True
+        elif piece.kind in _BREAKS:
+            after_slash[-1] = False
+        elif piece.kind in {"LPAR", "LBAR"}:
+            after_slash.append(False)
+        elif piece.kind in {"RPAR", "RBAR"} and len(after_slash) > 1:
+            after_slash.pop()
+        elif piece.kind == "JOIN" and after_slash[-1]:
+            return piece
+    return None

@@ -1,0 +1,123 @@
+"""Words of the formula grammar: functions, constants, and how a name may be spelled."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+
+FUNCTIONS: dict[str, tuple[int, int]] = {
+    "sqrt": (1, 1),
+    "exp": (1, 1),
+    "ln": (1, 1),
+    "log2": (1, 1),
+    "log10": (1, 1),
+    "sin": (1, 1),
+    "cos": (1, 1),
+    "tan": (1, 1),
+    "asin": (1, 1),
+    "acos": (1, 1),
+    "atan": (1, 1),
+    "atan2": (2, 2),
+    "erf": (1, 1),
+    "erfc": (1, 1),
+    "abs": (1, 1),
+    "sign": (1, 1),
+    "floor": (1, 1),
+    "ceil": (1, 1),
+    "round": (1, 1),
+    "mod": (2, 2),
+    "min": (1, 64),
+    "max": (1, 64),
+    "piecewise": (3, 63),
+}
+"""Function name to the smallest and largest number of arguments."""
+
+CONSTANTS = frozenset({"pi"})
+KEYWORDS = frozenset({"and", "or", "not"})
+
+NAME = re.compile(r"[^\W\d_][^\W_]*'*(?:_[^\W_]+'*)*")
+"""A letter, letters and digits, primes, then subscripts: ``f``, ``k_1``, ``p'_x``, ``Delta``."""
+
+GREEK = {
+    "α": "alpha",
+    "β": "beta",
+    "γ": "gamma",
+    "δ": "delta",
+    "ε": "epsilon",
+    "η": "eta",
+    "θ": "theta",
+    "κ": "kappa",
+    "λ": "lambda",
+    "μ": "mu",
+    "µ": "mu",
+    "ν": "nu",
+    "ρ": "rho",
+    "σ": "sigma",
+    "τ": "tau",
+    "φ": "phi",
+    "ω": "omega",
+    "Δ": "Delta",
+    "∆": "Delta",
+    "Σ": "Sigma",
+    "Φ": "Phi",
+    "Ω": "Omega",
+}
+"""Greek letters that students type or paste, and the names authors use."""
+
+
+def plain(name: str) -> bool:
+    """Whether a name can stand in a formula without back quotes."""
+    reserved = name in CONSTANTS or name in KEYWORDS or name in FUNCTIONS
+    return not reserved and NAME.fullmatch(name) is not None
+
+
+def folded(name: str) -> str:
+    """Spelling without subscript marks and Greek letters: ``k_1`` and ``k1`` are one name."""
+    for letter, word in GREEK.items():
+        name = name.replace(letter, word)
+    return name.replace("_", "")
+
+
+@cache
+def spellings(symbols: frozenset[str]) -> dict[str, str]:
+    """Every accepted spelling of the declared names, to the declared name.
+
+    Two declared names that fold to one spelling keep only their exact spellings.
+    """
+    table: dict[str, str] = {}
+    clash: set[str] = set()
+    for name in sorted(symbols):
+        for spelling in {folded(name), *_greek(name)}:
+            clash |= {spelling} if table.get(spelling, name) != name else set()
+            table[spelling] = name
+    for spelling in clash:
+        del table[spelling]
+    return table | {name: name for name in symbols}
+
+
+def _greek(name: str) -> set[str]:
+    return {
+        name.replace(word, letter).replace("_", cut)
+        for letter, word in GREEK.items()
+        for cut in ("_", "")
+        if word in name
+    }
+
+
+def split(word: str, symbols: frozenset[str]) -> list[list[str]]:
+    """All ways to read an undeclared word as a product of declared names (at most two)."""
+    table = spellings(symbols)
+    ways: list[list[list[str]]] = [[] for _ in range(len(word) + 1)]
+    ways[0] = [[]]
+    for end in range(1, len(word) + 1):
+        for start in range(max(0, end - 24), end):
+            name = table.get(word[start:end])
+            if name is not None:
+                ways[end] += [[*way, name] for way in ways[start]]
+        ways[end] = _different(ways[end])[:2]
+    return ways[-1]
+
+
+def _different(ways: list[list[str]]) -> list[list[str]]:
+    """Products of the same factors are the same reading."""
+    return list({tuple(sorted(way)): way for way in ways}.values())
