@@ -1,0 +1,210 @@
+"""A pen that works in points and leaves a handful of artists on a matplotlib figure.
+
+Strokes of one part in one style become one compound path. A figure of about ten artists is drawn
+in 2-3 ms; one made of axes, ticks and texts takes ten times as long.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from math import cos, hypot, pi, sin
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path
+from matplotlib.transforms import Affine2D
+
+from quizgen.figures._letters import outline
+
+Point = tuple[float, float]
+CM = 72 / 2.54
+WIDTH, HEIGHT = 11 * CM, 6 * CM
+"""Usual size of a figure in points: 11 cm by 6 cm."""
+
+LABEL = 10.5
+"""Size of labels in points."""
+
+_HEAD, _HALF = 7.0, 2.4
+_CIRCLE = [(cos(2 * pi * i / 24), sin(2 * pi * i / 24)) for i in range(24)]
+
+
+@dataclass(frozen=True, slots=True)
+class Style:
+    """How a part is painted: line width in points (0 fills instead), colour, dashes."""
+
+    width: float = 0.0
+    colour: str = "#000000"
+    dashes: tuple[float, ...] = ()
+
+
+INK = Style()
+SHADE = Style(colour="#dcdcdc")
+DEEP = Style(colour="#b4b4b4")
+LINE = Style(1.0)
+BOLD = Style(1.8)
+THIN = Style(0.7)
+RAY = Style(1.1)
+DASHED = Style(0.9, dashes=(4.0, 2.5))
+DOTTED = Style(0.7, dashes=(1.2, 2.2))
+GREY = Style(0.7, "#a0a0a0")
+RED = Style(1.8, "#c00000")
+
+
+@dataclass
+class Pen:
+    """Collects strokes, fills and labels of one figure.
+
+    Parameters
+    ----------
+    width, height : float
+        Size of the figure in points. The origin is at the lower left.
+    """
+
+    width: float = WIDTH
+    height: float = HEIGHT
+    paths: dict[tuple[str, Style], list[tuple[np.ndarray, np.ndarray]]] = field(
+        default_factory=dict
+    )
+    labels: list[str] = field(default_factory=list)
+
+    def _add(self, part: str, style: Style, points: np.ndarray, codes: np.ndarray) -> None:
+        self.paths.setdefault((part, style), []).append((points, codes))
+
+    def line(self, part: str, points: Sequence[Point] | np.ndarray, style: Style = LINE) -> None:
+        """Draw a polyline."""
+        codes = np.full(len(points), Path.LINETO, np.uint8)
+        codes[0] = Path.MOVETO
+        self._add(part, style, np.asarray(points, float), codes)
+
+    def area(self, part: str, points: Sequence[Point] | np.ndarray, style: Style = SHADE) -> None:
+        """Fill a polygon, or outline it if the style is a line."""
+        closed = np.vstack([points, points[:1]])
+        codes = np.full(len(closed), Path.LINETO, np.uint8)
+        codes[0], codes[-1] = Path.MOVETO, Path.CLOSEPOLY
+        self._add(part, style, closed, codes)
+
+    def dot(self, part: str, at: Point, radius: float = 2.2, style: Style = INK) -> None:
+        """Draw a disc."""
+        self.area(part, [(at[0] + radius * x, at[1] + radius * y) for x, y in _CIRCLE], style)
+
+    def head(self, part: str, tip: Point, way: Point, style: Style = INK) -> None:
+        """Draw an arrow head with its tip at a point, pointing along ``way``."""
+        length = hypot(*way)
+        x, y = way[0] / length, way[1] / length
+        base = (tip[0] - _HEAD * x, tip[1] - _HEAD * y)
+        self.area(
+            f"{part}-head",
+            [
+                tip,
+                (base[0] - _HALF * y, base[1] + _HALF * x),
+                (base[0] + _HALF * y, base[1] - _HALF * x),
+            ],
+            Style(colour=style.colour),
+        )
+
+    def arrow(self, part: str, start: Point, tip: Point, style: Style = LINE) -> None:
+        """Draw a straight arrow; the shaft ends inside the head."""
+        way = (tip[0] - start[0], tip[1] - start[1])
+        cut = 1 - min(1.0, (_HEAD - 1) / hypot(*way))
+        self.line(part, [start, (start[0] + cut * way[0], start[1] + cut * way[1])], style)
+        self.head(part, tip, way, style)
+
+    def ray(self, part: str, points: Sequence[Point], style: Style = RAY) -> None:
+        """Draw light along a polyline, with an arrow head a little past the middle of the first."""
+        self.line(part, points, style)
+        (x1, y1), (x2, y2) = points[0], points[1]
+        self.head(part, (x1 + 0.58 * (x2 - x1), y1 + 0.58 * (y2 - y1)), (x2 - x1, y2 - y1), style)
+
+    def label(self, at: Point, text: str, anchor: str = "c", size: float = LABEL) -> None:
+        """Write a label.
+
+        Parameters
+        ----------
+        at : tuple of float
+            Anchor in points.
+        text : str
+            Markup of ``quizgen.figures._letters``.
+        anchor : {"c", "l", "r"}
+            The anchor is the centre, the left or the right end; vertically it is the middle of
+            the digits.
+        size : float
+            Size of the letters in points.
+        """
+        shape = outline(text)
+        shift = {"c": 0.5, "l": 0.0, "r": 1.0}[anchor] * shape.width * size
+        origin = (at[0] - shift, at[1] - 0.33 * size)
+        self._add("labels", INK, shape.points * size + origin, shape.codes)
+        self.labels.append(text)
+
+    def dimension(self, start: Point, end: Point, text: str) -> None:
+        """Draw a level double arrow with its label in a gap, or under it when it is short."""
+        (x1, y), (x2, _) = sorted([start, end])
+        middle, half = (x1 + x2) / 2, text_width(text) / 2 + 3
+        if x2 - x1 > 2 * half + 2 * _HEAD:
+            self.arrow("dimensions", (middle - half, y), (x1, y), THIN)
+            self.arrow("dimensions", (middle + half, y), (x2, y), THIN)
+            self.label((middle, y), text)
+        else:
+            self._short(x1, x2, y)
+            self.label((middle, y - 9), text)
+
+    def _short(self, x1: float, x2: float, y: float) -> None:
+        if x2 - x1 > 2 * _HEAD:
+            self.arrow("dimensions", ((x1 + x2) / 2, y), (x1, y), THIN)
+            self.arrow("dimensions", ((x1 + x2) / 2, y), (x2, y), THIN)
+        else:
+            self.arrow("dimensions", (x1 - 14, y), (x1, y), THIN)
+            self.arrow("dimensions", (x2 + 14, y), (x2, y), THIN)
+
+    def break_mark(self, at: Point) -> None:
+        """Draw two slanted strokes on an axis: distances along it are not to scale."""
+        for shift in (-2.0, 2.0):
+            x = at[0] + shift
+            self.line("break", [(x - 2.5, at[1] - 5), (x + 2.5, at[1] + 5)], LINE)
+
+    def onto(self, figure: Figure, background: str | None = None) -> None:
+        """Size a figure and put everything on it, in the order of drawing.
+
+        Parameters
+        ----------
+        figure : matplotlib.figure.Figure
+            An empty figure.
+        background : str, optional
+            Colour of the paper; without it the figure is transparent.
+        """
+        figure.set_size_inches(self.width / 72, self.height / 72)
+        figure.patch.set_visible(background is not None)
+        figure.patch.set_facecolor(background or "none")
+        points_to_display = Affine2D().scale(1 / 72) + figure.dpi_scale_trans
+        for (part, style), pieces in self.paths.items():
+            figure.add_artist(_artist(part, style, _compound(pieces), points_to_display))
+        if self.labels:
+            figure.artists[-1].set_label("\n".join(self.labels))
+
+
+def _compound(pieces: Iterable[tuple[np.ndarray, np.ndarray]]) -> Path:
+    points, codes = zip(*pieces, strict=True)
+    return Path(np.round(np.concatenate(points), 2), np.concatenate(codes))
+
+
+def _artist(part: str, style: Style, path: Path, transform: Affine2D) -> PathPatch:
+    filled = style.width == 0
+    patch = PathPatch(
+        path,
+        transform=transform,
+        facecolor=style.colour if filled else "none",
+        edgecolor="none" if filled else style.colour,
+        linewidth=style.width,
+        linestyle=(0, style.dashes) if style.dashes else "solid",
+        capstyle="butt",
+        joinstyle="round",
+    )
+    patch.set_gid(f"part-{part}")
+    return patch
+
+
+def text_width(text: str, size: float = LABEL) -> float:
+    """Width of a label in points."""
+    return outline(text).width * size
