@@ -1,0 +1,156 @@
+"""Building blocks for printed formulas: numbers, quantities, chains of relations, brackets."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from fractions import Fraction
+
+from quizgen.errors import RenderError
+from quizgen.formula.nodes import (
+    NEGATIVE,
+    PRODUCT,
+    RELATION,
+    Fence,
+    Frac,
+    Node,
+    Number,
+    Op,
+    Quantity,
+    Row,
+    Scripts,
+    Unit,
+)
+
+RELATIONS = frozenset(["=", "≠", "<", "≤", ">", "≥", "≈", "∝", "→", "∈", "±", "~", "≪", "≫", "⇒"])
+_DIGITS = r"\d[\d\u0020\u00a0\u2009\u202f]*(?:[.,]\d+)?"
+_NUMBER = re.compile(
+    rf"(?P<sign>[-−+]?)(?P<digits>{_DIGITS})"
+    rf"(?:/(?P<bottom>{_DIGITS})|(?:[eE]|\s*[·×*]\s*10\^)(?P<power>[-−+]?\d+))?"
+)
+
+
+def number(value: Fraction | int | str, lang: str = "en") -> Node:
+    """Lay a number out.
+
+    Parameters
+    ----------
+    value : Fraction, int or str
+        A rational is shown exactly (as an integer or a fraction). A text keeps its digits:
+        ``2.50``, ``-3``, ``20/3``, ``1.2e-5``.
+    lang : str
+        Language of the reader. English and Bangla both write Western digits and a point.
+
+    Raises
+    ------
+    RenderError
+        If a text is not a number.
+    """
+    del lang  # both languages write numbers alike; the parameter keeps callers honest
+    if not isinstance(value, str):
+        return _rational(Fraction(value))
+    match = _NUMBER.fullmatch(value.strip())
+    if match is None:
+        raise RenderError(f"cannot show {value!r} as a number")
+    node: Node = Number(match["digits"].strip())
+    if match["bottom"]:
+        node = Frac(node, Number(match["bottom"].strip()))
+    elif match["power"]:
+        node = Row((node, Op("·"), power_of_ten(int(match["power"].replace("−", "-")))), PRODUCT)
+    return negative(node) if match["sign"] in {"-", "−"} else node
+
+
+def _rational(value: Fraction) -> Node:
+    top: Node = Number(str(abs(value.numerator)))
+    node = top if value.denominator == 1 else Frac(top, Number(str(value.denominator)))
+    return negative(node) if value < 0 else node
+
+
+def decimal(value: Fraction) -> str:
+    """Write a rational as a finite decimal, or as a fraction if it has none.
+
+    Sizes below 0.0001 are written with a power of ten, for example ``2.5e-6``.
+    """
+    rest, twos, fives = value.denominator, 0, 0
+    while rest % 2 == 0:
+        rest, twos = rest // 2, twos + 1
+    while rest % 5 == 0:
+        rest, fives = rest // 5, fives + 1
+    if rest != 1:
+        return str(value)
+    places = max(twos, fives)
+    return _pointed(value.numerator * 10**places // value.denominator, places)
+
+
+def _pointed(digits: int, places: int) -> str:
+    sign, text = "-" * (digits < 0), str(abs(digits))
+    if places == 0:
+        return sign + text
+    if places - len(text) >= 4:
+        mantissa = text[0] + ("." + text[1:] if len(text) > 1 else "")
+        return f"{sign}{mantissa}e-{places - len(text) + 1}"
+    text = text.zfill(places + 1)
+    return f"{sign}{text[:-places]}.{text[-places:]}"
+
+
+def power_of_ten(exponent: int) -> Node:
+    """Lay out 10 to an integer power."""
+    return Scripts(Number("10"), None, _rational(Fraction(exponent)))
+
+
+def negative(node: Node) -> Row:
+    """Put a minus sign before a node."""
+    return Row((Op("neg"), node), NEGATIVE)
+
+
+def quantity(value: Node | str, unit: str) -> Node:
+    """Lay out a number with its unit, for example ``quantity("2.5", "um/px")``.
+
+    An empty unit (or ``1``) gives the number alone.
+    """
+    node = number(value) if isinstance(value, str) else value
+    if unit in {"", "1"}:
+        return node
+    if isinstance(node, Row) and node.items[0] == Op("neg"):
+        return Row((Op("neg"), Quantity(node.items[1], Unit(unit))), NEGATIVE)
+    return Quantity(node, Unit(unit))
+
+
+def relation(signs: Sequence[str], nodes: Sequence[Node]) -> Row:
+    """Chain nodes with relation signs, one sign fewer than nodes.
+
+    Parameters
+    ----------
+    signs : sequence of str
+        Each one of ``= ≠ < ≤ > ≥ ≈ ∝ → ∈ ± ~ ≪ ≫ ⇒``.
+    nodes : sequence of Node
+        The sides, for example symbol, formula, numbers in place, result.
+
+    Raises
+    ------
+    RenderError
+        If a sign is unknown or the counts do not fit.
+    """
+    if len(nodes) != len(signs) + 1:
+        raise RenderError(f"{len(nodes)} sides need {len(nodes) - 1} signs, not {len(signs)}")
+    items = [nodes[0]]
+    for sign, node in zip(signs, nodes[1:], strict=True):
+        if sign not in RELATIONS:
+            raise RenderError(f"unknown relation sign {sign!r}")
+        items += [Op(sign), node]
+    return Row(tuple(items), RELATION)
+
+
+def fenced(nodes: Sequence[Node], kind: str = "()") -> Fence:
+    """Put a comma-separated list in brackets: points, tuples, intervals, sets."""
+    return Fence(kind, comma_list(nodes))
+
+
+def comma_list(nodes: Sequence[Node]) -> Node:
+    """Separate nodes by commas."""
+    if len(nodes) == 1:
+        return nodes[0]
+    items = [nodes[0]]
+    for node in nodes[1:]:
+        items += [Op(","), node]
+    return Row(tuple(items), RELATION)

@@ -1,0 +1,205 @@
+"""Layout nodes: what a formula looks like, before it is LaTeX, MathML, Typst or speech.
+
+Every node has a ``level``, the strength with which it holds together; a weaker node inside a
+stronger place gets brackets. Nodes carry no language: words such as *otherwise* are keys.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+WORDS, RELATION, SUM, MODULO, NEGATIVE, PRODUCT, FRACTION, QUANTITY, POWER, ATOM = range(10)
+"""Levels, weakest first."""
+
+
+@dataclass(frozen=True, slots=True)
+class Number:
+    """Digits without a sign, for example ``2.5`` or ``200 000``."""
+
+    text: str
+    level: ClassVar[int] = ATOM
+
+
+@dataclass(frozen=True, slots=True)
+class Ident:
+    """A one-letter quantity, in italics (capital Greek upright); ``bold`` for vectors."""
+
+    text: str
+    bold: bool = False
+    level: ClassVar[int] = ATOM
+
+
+@dataclass(frozen=True, slots=True)
+class Word:
+    """An upright name of several letters: ``SNR``, the ``max`` in a subscript, ``erfc``."""
+
+    text: str
+    level: ClassVar[int] = ATOM
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    """A word of the reader's language, by key: ``if otherwise and or not``."""
+
+    key: str
+    level: ClassVar[int] = WORDS
+
+
+@dataclass(frozen=True, slots=True)
+class Unit:
+    """A unit as written in the closed list, for example ``um/px``."""
+
+    text: str
+    level: ClassVar[int] = ATOM
+
+
+@dataclass(frozen=True, slots=True)
+class Op:
+    """An operator, relation or separator by its character; ``neg`` is the sign, ``""`` times."""
+
+    name: str
+    level: ClassVar[int] = ATOM
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """Nodes side by side."""
+
+    items: tuple[Node, ...]
+    level: int = ATOM
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """A number with its unit."""
+
+    value: Node
+    unit: Unit
+
+    @property
+    def level(self) -> int:
+        """A negative quantity needs brackets where a negative number does."""
+        return min(self.value.level, QUANTITY)
+
+
+@dataclass(frozen=True, slots=True)
+class Frac:
+    """A fraction, with a bar or (``inline``) with a slash."""
+
+    top: Node
+    bottom: Node
+    inline: bool = False
+
+    @property
+    def level(self) -> int:
+        """A bar groups, a slash does not."""
+        return PRODUCT if self.inline else FRACTION
+
+
+@dataclass(frozen=True, slots=True)
+class Root:
+    """A root; ``index`` is left out for the square root."""
+
+    body: Node
+    index: Node | None = None
+    level: ClassVar[int] = ATOM
+
+
+@dataclass(frozen=True, slots=True)
+class Scripts:
+    """A base with primes, a subscript and a superscript."""
+
+    base: Node
+    sub: Node | None = None
+    sup: Node | None = None
+    primes: int = 0
+
+    @property
+    def level(self) -> int:
+        """A power as soon as there is a superscript."""
+        return ATOM if self.sup is None else POWER
+
+
+@dataclass(frozen=True, slots=True)
+class Accent:
+    """A mark above: ``bar``, ``hat`` or ``tilde``."""
+
+    kind: str
+    base: Node
+    level: ClassVar[int] = ATOM
+
+
+@dataclass(frozen=True, slots=True)
+class Fence:
+    """Brackets around a node: ``()``, ``[]``, ``{}``, ``||``, ``⌊⌋``, ``⌈⌉``, ``[)``, ``(]``."""
+
+    kind: str
+    body: Node
+    level: ClassVar[int] = ATOM
+
+
+@dataclass(frozen=True, slots=True)
+class Func:
+    """A named function (an upright word, maybe with scripts) of its arguments."""
+
+    head: Node
+    args: tuple[Node, ...]
+    level: ClassVar[int] = ATOM
+
+
+@dataclass(frozen=True, slots=True)
+class Big:
+    """A sum, product or integral sign with its bounds."""
+
+    sign: str
+    lower: Node | None = None
+    upper: Node | None = None
+    level: ClassVar[int] = ATOM
+
+
+@dataclass(frozen=True, slots=True)
+class Under:
+    """A node with another one centred below it, as in limits."""
+
+    base: Node
+    below: Node
+    level: ClassVar[int] = ATOM
+
+
+@dataclass(frozen=True, slots=True)
+class Cases:
+    """Values with their conditions; the last condition ``None`` means otherwise."""
+
+    rows: tuple[tuple[Node, Node | None], ...]
+    level: ClassVar[int] = WORDS
+
+
+@dataclass(frozen=True, slots=True)
+class Matrix:
+    """A matrix or, with one column, a vector."""
+
+    rows: tuple[tuple[Node, ...], ...]
+    level: ClassVar[int] = ATOM
+
+
+Node = (
+    Number
+    | Ident
+    | Word
+    | Text
+    | Unit
+    | Op
+    | Row
+    | Quantity
+    | Frac
+    | Root
+    | Scripts
+    | Accent
+    | Fence
+    | Func
+    | Big
+    | Under
+    | Cases
+    | Matrix
+)

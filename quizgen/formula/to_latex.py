@@ -1,0 +1,260 @@
+"""LaTeX for LaTeX with amsmath, MathJax (Anki, Moodle) and KaTeX.
+
+Two closing braces never touch, because Anki would read them as the end of a cloze. ``<`` and ``&``
+are left as they are: whoever puts the result into HTML escapes it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from functools import lru_cache
+from typing import Any
+
+from quizgen.errors import RenderError
+from quizgen.formula import nodes as n
+from quizgen.formula.names import GREEK, KNOWN
+from quizgen.formula.units import TIGHT, parts
+from quizgen.formula.words import TEXTS
+
+_LETTERS = {char: "\\" + word for word, char in GREEK.items() if word != "lamda"}
+_LETTERS |= {"ε": r"\varepsilon", "φ": r"\varphi", "ℓ": r"\ell"}
+_OPERATORS = {
+    "": "",
+    "neg": "-",
+    "·": r"\cdot",
+    "×": r"\times",
+    "≠": r"\neq",
+    "≤": r"\le",
+    "≥": r"\ge",
+    "≈": r"\approx",
+    "∝": r"\propto",
+    "→": r"\to",
+    "⇒": r"\Rightarrow",
+    "∈": r"\in",
+    "±": r"\pm",
+    "~": r"\sim",
+    "≪": r"\ll",
+    "≫": r"\gg",
+    "mod": r"\bmod",
+    "′": "'",
+    "…": r"\dots",
+    ",": ",",
+    ";": ";",
+    "|": r"\mid",
+    "ᵀ": r"\mathsf{T}",
+    **{same: same for same in "+-=<>/:"},
+}
+_BRACKETS = {
+    "(": "(",
+    ")": ")",
+    "[": "[",
+    "]": "]",
+    "{": r"\{",
+    "}": r"\}",
+    "|": "|",
+    "⌊": r"\lfloor",
+    "⌋": r"\rfloor",
+    "⌈": r"\lceil",
+    "⌉": r"\rceil",
+}
+_ACCENTS = {"bar": r"\bar", "hat": r"\hat", "tilde": r"\tilde"}
+_SIGNS = {"∑": r"\sum", "∏": r"\prod", "∫": r"\int"}
+_TALL = re.compile(r"\\(?:[dt]?frac|begin|sum|prod|int)\b")
+_TOUCHING = re.compile(r"\}(?=\})")
+_SPECIAL = re.compile(r"([%#&_$])")
+
+
+def latex(node: n.Node, lang: str = "en") -> str:
+    r"""Write a layout as LaTeX mathematics, without delimiters.
+
+    Parameters
+    ----------
+    node : Node
+        The layout.
+    lang : str
+        Language of words such as *otherwise*.
+
+    Raises
+    ------
+    RenderError
+        If the layout holds something that has no LaTeX form.
+
+    Examples
+    --------
+    >>> from quizgen.formula import latex, name
+    >>> latex(name("p'_x"))
+    "p'_{x}"
+    """
+    return _TOUCHING.sub("} ", _emit(node, lang))
+
+
+def _emit(node: n.Node, lang: str) -> str:
+    rule = _RULES.get(type(node))
+    if rule is None:
+        raise RenderError(f"no LaTeX for {type(node).__name__}")
+    return rule(node, lang)
+
+
+def _known(table: dict[str, str], key: str, what: str) -> str:
+    try:
+        return table[key]
+    except KeyError:
+        raise RenderError(f"no LaTeX for the {what} {key!r}") from None
+
+
+def _number(node: n.Number, _lang: str) -> str:
+    return re.sub(r"\s", r"\\,", node.text)
+
+
+def _ident(node: n.Ident, _lang: str) -> str:
+    letter = _LETTERS.get(node.text, node.text)
+    return rf"\boldsymbol{{{letter}}}" if node.bold else letter
+
+
+def _word(node: n.Word, _lang: str) -> str:
+    return rf"\mathrm{{{_escaped(node.text)}}}"
+
+
+def _escaped(text: str) -> str:
+    return _SPECIAL.sub(r"\\\1", text)
+
+
+def _text(node: n.Text, lang: str) -> str:
+    return rf"\text{{ {_known(TEXTS[lang], node.key, 'word')} }}"
+
+
+@lru_cache(maxsize=512)
+def _unit_text(text: str) -> str:
+    written = ""
+    for part in parts(text):
+        sign = r" \cdot " if part.sign == "·" else part.sign
+        written += sign + _simple_unit(part.shown) + (f"^{{{part.power}}}" if part.power else "")
+    return written
+
+
+def _simple_unit(shown: str) -> str:
+    if shown == "°":
+        return r"^{\circ}"
+    if shown == "e⁻":
+        return r"\mathrm{e}^{-}"
+    return rf"\text{{{shown}}}" if "µ" in shown else rf"\mathrm{{{_escaped(shown)}}}"
+
+
+def _unit(node: n.Unit, _lang: str) -> str:
+    return _unit_text(node.text)
+
+
+def _quantity(node: n.Quantity, lang: str) -> str:
+    space = "" if node.unit.text in TIGHT else r"\,"
+    return f"{_emit(node.value, lang)}{space}{_unit_text(node.unit.text)}"
+
+
+def _op(node: n.Op, _lang: str) -> str:
+    return _known(_OPERATORS, node.name, "operator")
+
+
+def _row(node: n.Row, lang: str) -> str:
+    return " ".join([text for item in node.items if (text := _emit(item, lang))])
+
+
+def _frac(node: n.Frac, lang: str) -> str:
+    top, bottom = _emit(node.top, lang), _emit(node.bottom, lang)
+    return f"{top} / {bottom}" if node.inline else rf"\frac{{{top}}}{{{bottom}}}"
+
+
+def _root(node: n.Root, lang: str) -> str:
+    index = f"[{_emit(node.index, lang)}]" if node.index else ""
+    return rf"\sqrt{index}{{{_emit(node.body, lang)}}}"
+
+
+def _scripts(node: n.Scripts, lang: str) -> str:
+    written = _emit(node.base, lang) + "'" * node.primes
+    if node.sup is not None:
+        written += f"^{{{_emit(node.sup, lang)}}}"
+    if node.sub is not None:
+        written += f"_{{{_emit(node.sub, lang)}}}"
+    return written
+
+
+def _accent(node: n.Accent, lang: str) -> str:
+    return f"{_known(_ACCENTS, node.kind, 'accent')}{{{_emit(node.base, lang)}}}"
+
+
+def _fence(node: n.Fence, lang: str) -> str:
+    body = _emit(node.body, lang)
+    left, right = (_known(_BRACKETS, bracket, "bracket") for bracket in node.kind)
+    if _TALL.search(body):
+        return rf"\left{left} {body} \right{right}"
+    return f"{left}{' ' * left[1:].isalpha()}{body}{' ' * right[1:].isalpha()}{right}"
+
+
+def _func(node: n.Func, lang: str) -> str:
+    arguments = ", ".join([_emit(arg, lang) for arg in node.args])
+    head = _head(node.head, lang)
+    if _TALL.search(arguments):
+        return rf"{head}\!\left( {arguments} \right)"
+    return f"{head}({arguments})"
+
+
+def _head(node: n.Node, lang: str) -> str:
+    if isinstance(node, n.Word):
+        return f"\\{node.text}" if node.text in KNOWN else rf"\operatorname{{{node.text}}}"
+    if isinstance(node, n.Scripts):
+        scripts = _scripts(n.Scripts(n.Op(""), node.sub, node.sup, node.primes), lang)
+        return _head(node.base, lang) + scripts
+    return _emit(node, lang)
+
+
+def _big(node: n.Big, lang: str) -> str:
+    bounds = n.Scripts(n.Op(""), node.lower, node.upper)
+    return _known(_SIGNS, node.sign, "sign") + _scripts(bounds, lang)
+
+
+def _under(node: n.Under, lang: str) -> str:
+    if isinstance(node.base, n.Word) and node.base.text in KNOWN:
+        return f"{_head(node.base, lang)}_{{{_emit(node.below, lang)}}}"
+    return rf"\underset{{{_emit(node.below, lang)}}}{{{_emit(node.base, lang)}}}"
+
+
+def _cases(node: n.Cases, lang: str) -> str:
+    rows = []
+    for value, condition in node.rows:
+        when = r"\text{otherwise}".replace("otherwise", TEXTS[lang]["otherwise"])
+        if condition is not None:
+            when = _case(_emit(condition, lang), lang)
+        rows.append(f"{_emit(value, lang)} & {when}")
+    return r"\begin{cases} " + r" \\ ".join(rows) + r" \end{cases}"
+
+
+def _case(condition: str, lang: str) -> str:
+    before, after = TEXTS[lang]["if"].split("{}")
+    left = rf"\text{{{before}}} " if before else ""
+    return left + condition + (rf" \text{{{after}}}" if after else "")
+
+
+def _matrix(node: n.Matrix, lang: str) -> str:
+    rows = [" & ".join([_emit(cell, lang) for cell in row]) for row in node.rows]
+    return r"\begin{pmatrix} " + r" \\ ".join(rows) + r" \end{pmatrix}"
+
+
+_RULES: dict[type, Callable[[Any, str], str]] = {
+    n.Number: _number,
+    n.Ident: _ident,
+    n.Word: _word,
+    n.Text: _text,
+    n.Unit: _unit,
+    n.Op: _op,
+    n.Row: _row,
+    n.Quantity: _quantity,
+    n.Frac: _frac,
+    n.Root: _root,
+    n.Scripts: _scripts,
+    n.Accent: _accent,
+    n.Fence: _fence,
+    n.Func: _func,
+    n.Big: _big,
+    n.Under: _under,
+    n.Cases: _cases,
+    n.Matrix: _matrix,
+}

@@ -1,0 +1,256 @@
+"""Presentation MathML (Core) for HTML: no JavaScript, about 200 bytes a formula."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import lru_cache
+from html import escape
+from typing import Any
+
+from quizgen.errors import RenderError
+from quizgen.formula import nodes as n
+from quizgen.formula.names import GREEK_LETTERS
+from quizgen.formula.units import TIGHT, parts
+from quizgen.formula.words import TEXTS
+
+THIN = '<mspace width="0.17em"/>'
+_APPLY, _TIMES = "<mo>\u2061</mo>", "<mo>\u2062</mo>"
+_OPERATORS = {
+    "": _TIMES,
+    "neg": '<mo form="prefix">−</mo>',
+    "-": "<mo>−</mo>",
+    "·": "<mo>⋅</mo>",
+    "mod": '<mo lspace="0.22em" rspace="0.22em">mod</mo>',
+    "<": "<mo>&lt;</mo>",
+    ">": "<mo>&gt;</mo>",
+    "~": "<mo>∼</mo>",
+    "/": '<mo lspace="0.1em" rspace="0.1em">/</mo>',
+    "→": '<mo stretchy="false">→</mo>',
+    "⇒": '<mo stretchy="false">⇒</mo>',
+    ",": '<mo separator="true" lspace="0" rspace="0.17em">,</mo>',
+    ";": '<mo separator="true" lspace="0" rspace="0.28em">;</mo>',
+    "|": '<mo stretchy="false" lspace="0.28em" rspace="0.28em">|</mo>',
+    "ᵀ": '<mi mathvariant="normal">T</mi>',
+    **{same: f"<mo>{same}</mo>" for same in "+=≠≤≥≈∝∈±≪≫×′…:"},
+}
+_ACCENTS = {"bar": "¯", "hat": "^", "tilde": "~"}
+_OPENING, _CLOSING = "([{|⌊⌈", ")]}|⌋⌉"
+
+
+def mathml(node: n.Node, lang: str = "en", *, display: bool = False) -> str:
+    """Write a layout as a ``<math>`` element.
+
+    Parameters
+    ----------
+    node : Node
+        The layout.
+    lang : str
+        Language of words such as *otherwise*.
+    display : bool
+        Set as a block of its own, with big fractions.
+
+    Raises
+    ------
+    RenderError
+        If the layout holds something that has no MathML form.
+    """
+    start = '<math display="block">' if display else "<math>"
+    if isinstance(node, n.Row):
+        return start + _joined(node.items, lang) + "</math>"
+    return start + _emit(node, lang) + "</math>"
+
+
+def _emit(node: n.Node, lang: str) -> str:
+    rule = _RULES.get(type(node))
+    if rule is None:
+        raise RenderError(f"no MathML for {type(node).__name__}")
+    return rule(node, lang)
+
+
+def _known(table: dict[str, str], key: str, what: str) -> str:
+    try:
+        return table[key]
+    except KeyError:
+        raise RenderError(f"no MathML for the {what} {key!r}") from None
+
+
+def _joined(items: tuple[n.Node, ...], lang: str) -> str:
+    return "".join([_emit(item, lang) for item in items])
+
+
+def _number(node: n.Number, _lang: str) -> str:
+    return f"<mn>{node.text.replace(' ', chr(0x202F))}</mn>"
+
+
+def _ident(node: n.Ident, _lang: str) -> str:
+    if node.bold:
+        return f'<mi mathvariant="normal" style="font-weight:bold">{node.text}</mi>'
+    upright = node.text in GREEK_LETTERS and node.text.isupper()
+    return f'<mi mathvariant="normal">{node.text}</mi>' if upright else f"<mi>{node.text}</mi>"
+
+
+def _word(node: n.Word, _lang: str) -> str:
+    return f"<mi>{escape(node.text)}</mi>"
+
+
+def _text(node: n.Text, lang: str) -> str:
+    return f"<mtext>\u00a0{_known(TEXTS[lang], node.key, 'word')}\u00a0</mtext>"
+
+
+@lru_cache(maxsize=512)
+def _unit_text(text: str) -> str:
+    written, plain = "", ""
+    for part in parts(text):
+        plain += part.sign.replace("·", "⋅") + part.shown
+        if part.power:
+            exponent = f"<mn>{part.power.replace('-', '−')}</mn>"
+            written += f"<msup><mtext>{plain}</mtext>{exponent}</msup>"
+            plain = ""
+    tail = f"<mtext>{plain}</mtext>" if plain else ""
+    return f"<mrow>{written}{tail}</mrow>" if written and tail else written + tail
+
+
+def _unit(node: n.Unit, _lang: str) -> str:
+    return _unit_text(node.text)
+
+
+def _quantity(node: n.Quantity, lang: str) -> str:
+    space = "" if node.unit.text in TIGHT else THIN
+    return f"<mrow>{_emit(node.value, lang)}{space}{_unit_text(node.unit.text)}</mrow>"
+
+
+def _op(node: n.Op, _lang: str) -> str:
+    return _known(_OPERATORS, node.name, "operator")
+
+
+def _row(node: n.Row, lang: str) -> str:
+    return f"<mrow>{_joined(node.items, lang)}</mrow>"
+
+
+def _frac(node: n.Frac, lang: str) -> str:
+    top, bottom = _emit(node.top, lang), _emit(node.bottom, lang)
+    if node.inline:
+        return f"<mrow>{top}{_OPERATORS['/']}{bottom}</mrow>"
+    return f"<mfrac>{top}{bottom}</mfrac>"
+
+
+def _root(node: n.Root, lang: str) -> str:
+    body = _emit(node.body, lang)
+    if node.index is None:
+        return f"<msqrt>{body}</msqrt>"
+    return f"<mroot>{body}{_emit(node.index, lang)}</mroot>"
+
+
+def _scripts(node: n.Scripts, lang: str) -> str:
+    base = _emit(node.base, lang)
+    raised = "<mo>′</mo>" * node.primes
+    if node.sup is not None:
+        raised += _emit(node.sup, lang)
+    if node.primes and (node.sup is not None or node.primes > 1):
+        raised = f"<mrow>{raised}</mrow>"
+    if node.sub is None:
+        return f"<msup>{base}{raised}</msup>" if raised else base
+    sub = _emit(node.sub, lang)
+    if raised:
+        return f"<msubsup>{base}{sub}{raised}</msubsup>"
+    return f"<msub>{base}{sub}</msub>"
+
+
+def _accent(node: n.Accent, lang: str) -> str:
+    mark = _known(_ACCENTS, node.kind, "accent")
+    over = f'<mo stretchy="false">{mark}</mo>'
+    return f'<mover accent="true">{_emit(node.base, lang)}{over}</mover>'
+
+
+def _fence(node: n.Fence, lang: str) -> str:
+    return f"<mrow>{_between(node.kind, _inside(node.body, lang))}</mrow>"
+
+
+def _inside(node: n.Node, lang: str) -> str:
+    return _joined(node.items, lang) if isinstance(node, n.Row) else _emit(node, lang)
+
+
+def _between(kind: str, body: str) -> str:
+    left, right = kind[0], kind[-1]
+    if left not in _OPENING or right not in _CLOSING:
+        raise RenderError(f"no MathML for the brackets {kind!r}")
+    return (
+        f'<mo form="prefix" fence="true" stretchy="true">{left}</mo>{body}'
+        f'<mo form="postfix" fence="true" stretchy="true">{right}</mo>'
+    )
+
+
+def _func(node: n.Func, lang: str) -> str:
+    arguments = _OPERATORS[","].join([_inside(arg, lang) for arg in node.args])
+    head = _emit(node.head, lang)
+    return f"<mrow>{head}{_APPLY}<mrow>{_between('()', arguments)}</mrow></mrow>"
+
+
+def _big(node: n.Big, lang: str) -> str:
+    if node.sign not in {"∑", "∏", "∫"}:
+        raise RenderError(f"no MathML for the sign {node.sign!r}")
+    sign = f"<mo>{node.sign}</mo>"
+    low, high = (bound and _emit(bound, lang) for bound in (node.lower, node.upper))
+    kind = ("sub", "sup") if node.sign == "∫" else ("under", "over")
+    if low and high:
+        return f"<m{kind[0]}{kind[1]}>{sign}{low}{high}</m{kind[0]}{kind[1]}>"
+    if low or high:
+        tag = "m" + (kind[0] if low else kind[1])
+        return f"<{tag}>{sign}{low or high}</{tag}>"
+    return sign
+
+
+def _under(node: n.Under, lang: str) -> str:
+    return f"<munder>{_emit(node.base, lang)}{_emit(node.below, lang)}</munder>"
+
+
+def _cases(node: n.Cases, lang: str) -> str:
+    rows = []
+    for value, condition in node.rows:
+        when = f"<mtext>{TEXTS[lang]['otherwise']}</mtext>"
+        if condition is not None:
+            when = _case(_inside(condition, lang), lang)
+        rows.append(f"<mtr>{_cell(_emit(value, lang))}{_cell(when)}</mtr>")
+    brace = '<mo form="prefix" fence="true" stretchy="true">{</mo>'
+    return f"<mrow>{brace}<mtable>{''.join(rows)}</mtable></mrow>"
+
+
+def _cell(body: str) -> str:
+    return f'<mtd style="text-align:left;padding:0.2em 0.4em">{body}</mtd>'
+
+
+def _case(condition: str, lang: str) -> str:
+    before, after = (half.strip() for half in TEXTS[lang]["if"].split("{}"))
+    left = f"<mtext>{before}\u00a0</mtext>" if before else ""
+    return left + condition + (f"<mtext>\u00a0{after}</mtext>" if after else "")
+
+
+def _matrix(node: n.Matrix, lang: str) -> str:
+    rows = [
+        "<mtr>" + "".join([f"<mtd>{_emit(cell, lang)}</mtd>" for cell in row]) + "</mtr>"
+        for row in node.rows
+    ]
+    table = f"<mtable>{''.join(rows)}</mtable>"
+    return f"<mrow>{_between('()', table)}</mrow>"
+
+
+_RULES: dict[type, Callable[[Any, str], str]] = {
+    n.Number: _number,
+    n.Ident: _ident,
+    n.Word: _word,
+    n.Text: _text,
+    n.Unit: _unit,
+    n.Op: _op,
+    n.Row: _row,
+    n.Quantity: _quantity,
+    n.Frac: _frac,
+    n.Root: _root,
+    n.Scripts: _scripts,
+    n.Accent: _accent,
+    n.Fence: _fence,
+    n.Func: _func,
+    n.Big: _big,
+    n.Under: _under,
+    n.Cases: _cases,
+    n.Matrix: _matrix,
+}

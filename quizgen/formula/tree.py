@@ -1,0 +1,444 @@
+"""From a formula tree to its layout: brackets, dots, signs and fractions are decided here, once.
+
+All four outputs print the same layout, so none can disagree with another on what is bracketed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from fractions import Fraction
+
+from quizgen.errors import RenderError
+from quizgen.expr import Call, Expr, Num, Sym
+from quizgen.formula.build import decimal, negative, number
+from quizgen.formula.names import name
+from quizgen.formula.nodes import (
+    ATOM,
+    FRACTION,
+    MODULO,
+    NEGATIVE,
+    PRODUCT,
+    QUANTITY,
+    RELATION,
+    SUM,
+    WORDS,
+    Accent,
+    Cases,
+    Fence,
+    Frac,
+    Func,
+    Ident,
+    Node,
+    Number,
+    Op,
+    Quantity,
+    Root,
+    Row,
+    Scripts,
+    Text,
+    Word,
+)
+
+SIGNS = {"eq": "=", "ne": "≠", "lt": "<", "le": "≤", "gt": ">", "ge": "≥"}
+FENCES = {"abs": "||", "floor": "⌊⌋", "ceil": "⌈⌉"}
+FUNCTIONS: dict[str, Node] = {
+    "ln": Word("ln"),
+    "log2": Scripts(Word("log"), Number("2")),
+    "log10": Scripts(Word("log"), Number("10")),
+    "sin": Word("sin"),
+    "cos": Word("cos"),
+    "tan": Word("tan"),
+    "asin": Word("arcsin"),
+    "acos": Word("arccos"),
+    "atan": Word("arctan"),
+    "atan2": Word("atan2"),
+    "erf": Word("erf"),
+    "erfc": Word("erfc"),
+    "sign": Word("sgn"),
+    "round": Word("round"),
+    "min": Word("min"),
+    "max": Word("max"),
+}
+_POWER_ON_NAME = frozenset({"sin", "cos", "tan", "ln", "log2", "log10"})
+_READ_AS_FUNCTION = frozenset("fghPVEFGNLφψ")
+"""Letters before a bracket that readers take for a function: they get a dot."""
+
+_TIMES, _DOT, _NEG = Op(""), Op("·"), Op("neg")
+_ONE = Fraction(1)
+
+
+def layout(expr: Expr, *, leaves: Mapping[str, Node] | None = None, inline: bool = False) -> Node:
+    """Lay a formula out in the order in which it is written.
+
+    Parameters
+    ----------
+    expr : Expr
+        The formula tree.
+    leaves : mapping of str to Node, optional
+        What to print instead of a symbol, for example the drawn number with its unit. It gets
+        brackets where a negative number or a unit would be misread.
+    inline : bool
+        Print divisions with a slash.
+
+    Raises
+    ------
+    RenderError
+        If an operator is unknown or has the wrong number of arguments.
+    """
+    return _Layout(leaves or {}, inline=inline).lay(expr)
+
+
+class _Layout:
+    """One run of the layout: the printed leaves, and whether divisions take a slash."""
+
+    __slots__ = ("inline", "leaves")
+
+    def __init__(self, leaves: Mapping[str, Node], *, inline: bool) -> None:
+        self.leaves = leaves
+        self.inline = inline
+
+    def lay(self, expr: Expr) -> Node:
+        """Lay out one node of the tree."""
+        if isinstance(expr, Sym):
+            return self.leaf(expr.name)
+        if isinstance(expr, Num):
+            return self.slashed(number(decimal(expr.value) if expr.decimal else expr.value))
+        rule = _RULES.get(expr.op)
+        if rule is None:
+            raise RenderError(f"no way to write the operator {expr.op!r}")
+        try:
+            return rule(self, expr.args)
+        except (ValueError, IndexError) as error:
+            raise RenderError(f"{expr.op!r} cannot have {len(expr.args)} arguments") from error
+
+    def leaf(self, symbol: str) -> Node:
+        """Print the drawn number of a symbol, or its name."""
+        node = self.leaves.get(symbol)
+        return name(symbol) if node is None else self.slashed(node)
+
+    def slashed(self, node: Node) -> Node:
+        """Let a fraction of two numbers follow the style of the formula around it."""
+        if self.inline and isinstance(node, Frac):
+            return replace(node, inline=True)
+        if self.inline and isinstance(node, Row) and isinstance(node.items[-1], Frac):
+            return replace(node, items=(*node.items[:-1], replace(node.items[-1], inline=True)))
+        return node
+
+    def small(self, expr: Expr) -> Node:
+        """Exponents are set on one line."""
+        return self.lay(expr) if self.inline else _Layout(self.leaves, inline=True).lay(expr)
+
+    def held(self, expr: Expr, level: int) -> Node:
+        """Lay out, in brackets unless it holds together at ``level``."""
+        return bracketed(self.lay(expr), level)
+
+
+Rule = Callable[[_Layout, tuple[Expr, ...]], Node]
+
+
+def bracketed(node: Node, level: int) -> Node:
+    """Put round brackets around a node that is weaker than ``level``."""
+    return node if node.level >= level else Fence("()", node)
+
+
+# Sums
+
+
+def _add(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    if not args:
+        raise ValueError
+    items = [run.held(args[0], SUM)]
+    for arg in args[1:]:
+        minus, term = split_sign(arg)
+        items += [Op("-"), _subtrahend(run, term)] if minus else [Op("+"), _term(run, term)]
+    return Row(_flat(items, SUM), SUM)
+
+
+def _sub(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    first, second = args
+    return Row(_flat([run.held(first, SUM), Op("-"), _subtrahend(run, second)], SUM), SUM)
+
+
+def _subtrahend(run: _Layout, expr: Expr) -> Node:
+    node = run.lay(expr)
+    return node if node.level == MODULO else bracketed(node, PRODUCT)
+
+
+def _term(run: _Layout, expr: Expr) -> Node:
+    """Lay out a later term of a sum: a sum needs no brackets, a minus sign does."""
+    node = run.lay(expr)
+    return node if node.level in {SUM, MODULO} and not _signed(node) else bracketed(node, PRODUCT)
+
+
+def _signed(node: Node) -> bool:
+    while isinstance(node, Row):
+        node = node.items[0]
+    return node == _NEG
+
+
+def _neg(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    (arg,) = args
+    return negative(run.held(arg, PRODUCT))
+
+
+def split_sign(expr: Expr) -> tuple[bool, Expr]:
+    """Take a leading minus sign off a term of a sum."""
+    if isinstance(expr, Num) and expr.value < 0:
+        return True, Num(-expr.value, expr.decimal)
+    if not isinstance(expr, Call) or not expr.args:
+        return False, expr
+    if expr.op == "neg":
+        return True, expr.args[0]
+    if expr.op not in {"mul", "div"}:
+        return False, expr
+    minus, first = split_sign(expr.args[0])
+    return minus, _with_first(expr, first) if minus else expr
+
+
+def _with_first(expr: Call, first: Expr) -> Expr:
+    """Replace the first factor; a factor 1 is not written."""
+    rest = expr.args[1:]
+    if expr.op == "mul" and first == Num(_ONE) and rest:
+        return rest[0] if len(rest) == 1 else Call("mul", rest)
+    return Call(expr.op, (first, *rest))
+
+
+def _flat(items: list[Node], level: int) -> tuple[Node, ...]:
+    """Merge rows of the same kind, so that a long sum or product is one row."""
+    flat: list[Node] = []
+    for item in items:
+        if isinstance(item, Row) and item.level == level:
+            flat += item.items
+        else:
+            flat.append(item)
+    return tuple(flat)
+
+
+# Products and quotients
+
+
+def _mul(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    if args[0] == Num(-_ONE) and len(args) > 1:
+        return negative(run.held(_with_first(Call("mul", args), Num(_ONE)), PRODUCT))
+    items = [run.held(args[0], NEGATIVE)]
+    for arg in args[1:]:
+        factor = run.held(arg, PRODUCT)
+        items += [_between(items[-1], factor), factor]
+    level = NEGATIVE if items[0].level == NEGATIVE else PRODUCT
+    return Row(_flat(items, PRODUCT), level)
+
+
+def _between(left: Node, right: Node) -> Op:
+    """Put a dot where juxtaposed factors would be misread."""
+    before, after = _last(left), _first(right)
+    if _starts_number(after) or isinstance(before, Quantity):
+        return _DOT
+    if isinstance(before, Word) or isinstance(after, Word) or _slashed(left, right):
+        return _DOT
+    return _DOT if isinstance(after, Fence) and _calls(before, after) else _TIMES
+
+
+def _slashed(left: Node, right: Node) -> bool:
+    """Whether one factor is a quotient with a slash, whose end would be unclear."""
+    ends = _last(left), right
+    return any(isinstance(node, Frac) and node.inline for node in ends)
+
+
+def _calls(before: Node, after: Fence) -> bool:
+    """Whether a factor before a bracket looks like a function, or bars like one pair of bars."""
+    if isinstance(before, Number | Func):
+        return after.kind == "()"
+    if isinstance(before, Ident):
+        return after.kind == "()" and before.text in _READ_AS_FUNCTION
+    return isinstance(before, Fence) and "|" in (before.kind[0], after.kind[0])
+
+
+def _first(node: Node) -> Node:
+    """Find what a reader meets first in a factor."""
+    while True:
+        match node:
+            case Row():
+                node = node.items[0]
+            case Scripts() | Accent():
+                node = node.base
+            case Frac():
+                node = node.top
+            case _:
+                return node
+
+
+def _last(node: Node) -> Node:
+    """Find what a reader meets last in a factor."""
+    while True:
+        match node:
+            case Row():
+                node = node.items[-1]
+            case Scripts(sup=None) | Accent():
+                node = node.base
+            case _:
+                return node
+
+
+def _starts_number(node: Node) -> bool:
+    """Whether a factor is a number, maybe in brackets with a sign or a unit."""
+    if isinstance(node, Fence):
+        node = node.body
+        if isinstance(node, Row) and node.level == NEGATIVE:
+            node = node.items[1]
+    return isinstance(node, Number | Quantity)
+
+
+def _div(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    top, bottom = (run.lay(arg) for arg in args)
+    if run.inline:
+        over = Fence("()", top) if _has_slash(top) else bracketed(top, NEGATIVE)
+        return Frac(over, bracketed(bottom, QUANTITY), inline=True)
+    return Frac(bracketed(top, SUM), bracketed(bottom, SUM))
+
+
+def _has_slash(node: Node) -> bool:
+    if isinstance(node, Row):
+        return node.level >= NEGATIVE and any(map(_has_slash, node.items))
+    return isinstance(node, Frac) and node.inline
+
+
+def _mod(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    left, right = (run.held(arg, FRACTION) for arg in args)
+    return Row((left, Op("mod"), right), MODULO)
+
+
+# Powers and functions
+
+
+def _pow(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    base, exponent = args
+    return power(run.lay(base), run.small(exponent), on_name=_takes_power(base))
+
+
+def _takes_power(base: Expr) -> bool:
+    return isinstance(base, Call) and base.op in _POWER_ON_NAME
+
+
+def power(base: Node, exponent: Node, *, on_name: bool = False) -> Node:
+    """Raise a node, merging with its subscript; ``on_name`` writes sin²(x)."""
+    if on_name and isinstance(base, Func):
+        return Func(power(base.head, exponent), base.args)
+    base = bracketed(base, ATOM)
+    if isinstance(base, Scripts):
+        return replace(base, sup=exponent)
+    return Scripts(base, None, exponent)
+
+
+def _exp(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    (exponent,) = args
+    return Scripts(Ident("e"), None, run.small(exponent))
+
+
+def _sqrt(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    (body,) = args
+    return Root(run.lay(body))
+
+
+def _fence(kind: str) -> Rule:
+    def rule(run: _Layout, args: tuple[Expr, ...]) -> Node:
+        (body,) = args
+        return Fence(kind, run.lay(body))
+
+    return rule
+
+
+def _function(op: str) -> Rule:
+    head = FUNCTIONS[op]
+    counts = {"min": range(1, 99), "max": range(1, 99), "atan2": (2,)}.get(op, (1,))
+
+    def rule(run: _Layout, args: tuple[Expr, ...]) -> Node:
+        if len(args) not in counts:
+            raise ValueError
+        return Func(head, tuple([run.lay(arg) for arg in args]))
+
+    return rule
+
+
+# Relations and choices
+
+
+def _relation(sign: str) -> Rule:
+    def rule(run: _Layout, args: tuple[Expr, ...]) -> Node:
+        left, right = (run.held(arg, SUM) for arg in args)
+        return Row((left, Op(sign), right), RELATION)
+
+    return rule
+
+
+def _join(word: str) -> Rule:
+    def rule(run: _Layout, args: tuple[Expr, ...]) -> Node:
+        between = _between_bounds(run, args) if word == "and" and len(args) == 2 else None
+        if between is not None:
+            return between
+        items = [run.held(args[0], RELATION)]
+        for arg in args[1:]:
+            items += [Text(word), run.held(arg, RELATION)]
+        return Row(tuple(items), WORDS)
+
+    return rule
+
+
+def _between_bounds(run: _Layout, args: tuple[Expr, ...]) -> Node | None:
+    """Write ``x >= 0 and x < 1`` as 0 ≤ x < 1."""
+    first, second = map(_ascending, args)
+    if first is None or second is None:
+        return None
+    if first[2] != second[1]:
+        first, second = second, first
+    if first[2] != second[1]:
+        return None
+    parts = [run.held(expr, SUM) for expr in (first[1], first[2], second[2])]
+    return Row((parts[0], Op(first[0]), parts[1], Op(second[0]), parts[2]), RELATION)
+
+
+def _ascending(expr: Expr) -> tuple[str, Expr, Expr] | None:
+    if not isinstance(expr, Call) or expr.op not in {"lt", "le", "gt", "ge"}:
+        return None
+    low, high = expr.args if expr.op in {"lt", "le"} else expr.args[::-1]
+    return ("<" if expr.op in {"lt", "gt"} else "≤"), low, high
+
+
+def _not(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    (arg,) = args
+    return Row((Text("not"), Fence("()", run.lay(arg))), WORDS)
+
+
+def _piecewise(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    if len(args) % 2 == 0:
+        raise ValueError
+    pairs = zip(args[:-1:2], args[1::2], strict=True)
+    rows = [(run.lay(value), run.lay(condition)) for value, condition in pairs]
+    return Cases((*rows, (run.lay(args[-1]), None)))
+
+
+def _pi(_run: _Layout, args: tuple[Expr, ...]) -> Node:
+    if args:
+        raise ValueError
+    return Ident("π")
+
+
+_RULES: dict[str, Rule] = {
+    "add": _add,
+    "sub": _sub,
+    "neg": _neg,
+    "mul": _mul,
+    "div": _div,
+    "mod": _mod,
+    "pow": _pow,
+    "exp": _exp,
+    "sqrt": _sqrt,
+    "not": _not,
+    "piecewise": _piecewise,
+    "pi": _pi,
+    "and": _join("and"),
+    "or": _join("or"),
+    **{op: _relation(sign) for op, sign in SIGNS.items()},
+    **{op: _fence(kind) for op, kind in FENCES.items()},
+    **{op: _function(op) for op in FUNCTIONS},
+}

@@ -1,0 +1,48 @@
+"""How units are printed: ``um^2/px`` as upright parts with exponents."""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+from typing import NamedTuple
+
+from quizgen.errors import RenderError
+from quizgen.units import SHOWN, SIMPLE
+
+TIGHT = frozenset({"deg", "°"})
+"""Units set without a space after the number."""
+
+_PART = re.compile(r"(?P<sign>[*/·]?)(?P<name>e[-⁻]|[^*/·^⁻⁰-⁹²³]+)(?:\^?(?P<power>-?\d|⁻?[²³¹]))?")
+_SUPERSCRIPTS = str.maketrans("⁻¹²³", "-123")
+
+
+class Part(NamedTuple):
+    """One simple unit: the sign before it, its listed name, how it is shown, its power."""
+
+    sign: str
+    name: str
+    shown: str
+    power: str
+
+
+@lru_cache(maxsize=512)
+def parts(text: str) -> tuple[Part, ...]:
+    """Split a unit into its simple parts.
+
+    Raises
+    ------
+    RenderError
+        If a part is not in the closed list of units.
+    """
+    compact = text.replace(" ", "")
+    found, position = [], 0
+    while position < len(compact):
+        match = _PART.match(compact, position)
+        listed = match and match["name"].replace("⁻", "-")
+        if match is None or listed not in SIMPLE:
+            raise RenderError(f"no way to print the unit {text!r}")
+        sign = "/" if match["sign"] == "/" else "·" * bool(match["sign"])
+        power = (match["power"] or "").translate(_SUPERSCRIPTS)
+        found.append(Part(sign, listed, SHOWN.get(listed, listed), power))
+        position = match.end()
+    return tuple(found)
