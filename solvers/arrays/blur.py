@@ -1,0 +1,62 @@
+"""Blur disc (circle of confusion) of a thin lens.
+
+Source: c = D |z'_s - z'_p| / z'_p with D = f/N and both image distances eliminated, which
+removes the cancellation near the plane of focus.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from .domain import POSITIVE, Kernel, Numbers, Result, Rule
+from .double_double import pairs
+
+
+def _formula(f: Any, N: Any, s: Any, z: Any) -> Any:
+    return f * f * abs(z - s) / (N * (s - f) * z)
+
+
+def _compute(f: Any, N: Any, s: Any, z: Any) -> Any:
+    return _formula(*pairs(f, N, s, z)).rounded(), s == f
+
+
+def _exact(f: Any, N: Any, s: Any, z: Any) -> Any:
+    if s == f:
+        return 0.0 if z == s else math.inf
+    return _formula(f, N, s, z)
+
+
+_BLUR = Kernel(
+    _compute,
+    (POSITIVE,) * 4,
+    rules=(Rule("no-real-image", lambda f, _N, s, _z: s < f),),
+    exact=_exact,
+)
+
+
+def blur_disc(f: Numbers, N: Numbers, s: Numbers, z: Numbers) -> Result:
+    """Diameter of the blur disc of a point, c = (f/N) (f/(s - f)) |z - s|/z.
+
+    Parameters
+    ----------
+    f : array_like
+        Focal length, > 0.
+    N : array_like
+        f-number, > 0.
+    s : array_like
+        Distance in focus, >= f.
+    z : array_like
+        Distance of the point, > 0 (closer than f is allowed: its rays still diverge).
+
+    Returns
+    -------
+    float or array
+        Unit of f, s and z; 0 in the plane of focus, infinity for s = f.
+
+    Raises
+    ------
+    DomainError
+        ``no-real-image`` (s < f), ``not-positive``, ``not-finite`` (arrays: masked).
+    """
+    return _BLUR(f, N, s, z)

@@ -1,0 +1,156 @@
+"""Depth of field of a thin lens: hyperfocal distance, near and far limit, total depth.
+
+Source: the distances at which the blur disc of the thin lens equals c, in closed form with
+A = f**2 and B = N c (s - f); no image distance occurs, so nothing cancels but A - B.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from .domain import POSITIVE, Kernel, Numbers, Result, Rule
+from .double_double import pairs
+
+_CLOSE = 2.0**-40
+"""Relative distance from the hyperfocal distance below which A - B is settled exactly."""
+
+
+def _hyperfocal(f: Any, N: Any, c: Any) -> Any:
+    return f * f / (N * c) + f
+
+
+def _near(f: Any, N: Any, c: Any, s: Any) -> Any:
+    A = f * f
+    return A * s / (A + N * c * (s - f))
+
+
+def _far(f: Any, N: Any, c: Any, s: Any) -> Any:
+    A = f * f
+    return A * s / (A - N * c * (s - f))
+
+
+def _total(f: Any, N: Any, c: Any, s: Any) -> Any:
+    A, B = f * f, N * c * (s - f)
+    return 2 * s * A * B / ((A - B) * (A + B))
+
+
+def _gap(f: Any, N: Any, c: Any, s: Any) -> Any:
+    """(A - B)/A: positive below the hyperfocal distance."""
+    return 1 - N * (s - f) * c / (f * f)
+
+
+def _limited(formula: Any) -> Any:
+    """Infinity at or beyond the hyperfocal distance; doubtful next to it."""
+
+    def compute(f: Any, N: Any, c: Any, s: Any) -> Any:
+        gap = _gap(f, N, c, s)
+        value = formula(*pairs(f, N, c, s)).rounded()
+        return np.where(gap > 0, value, math.inf), np.abs(gap) < _CLOSE
+
+    return compute
+
+
+def _limited_exact(formula: Any) -> Any:
+    def exact(f: Any, N: Any, c: Any, s: Any) -> Any:
+        return formula(f, N, c, s) if N * c * (s - f) < f * f else math.inf
+
+    return exact
+
+
+def _plain(formula: Any) -> Any:
+    return lambda *args: (formula(*pairs(*args)).rounded(), None)
+
+
+_RULES = (Rule("no-real-image", lambda f, _N, _c, s: s < f),)
+_HYPERFOCAL = Kernel(_plain(_hyperfocal), (POSITIVE,) * 3, exact=_hyperfocal)
+_NEAR = Kernel(_plain(_near), (POSITIVE,) * 4, _RULES, exact=_near)
+_FAR = Kernel(_limited(_far), (POSITIVE,) * 4, _RULES, exact=_limited_exact(_far))
+_TOTAL = Kernel(_limited(_total), (POSITIVE,) * 4, _RULES, exact=_limited_exact(_total))
+
+
+def hyperfocal(f: Numbers, N: Numbers, c: Numbers) -> Result:
+    """Hyperfocal distance H = f**2/(N c) + f.
+
+    Parameters
+    ----------
+    f, N, c : array_like
+        Focal length, f-number, largest blur disc still called sharp; all > 0, f and c in the
+        same unit.
+
+    Returns
+    -------
+    float or array
+        Unit of f.
+
+    Raises
+    ------
+    DomainError
+        ``not-positive``, ``not-finite`` (arrays: masked).
+    """
+    return _HYPERFOCAL(f, N, c)
+
+
+def near_limit(f: Numbers, N: Numbers, c: Numbers, s: Numbers) -> Result:
+    """Nearest distance that is still sharp, f**2 s/(f**2 + N c (s - f)).
+
+    Parameters
+    ----------
+    f, N, c, s : array_like
+        As for ``hyperfocal``; s >= f is the distance in focus.
+
+    Returns
+    -------
+    float or array
+        Unit of f, between f and s.
+
+    Raises
+    ------
+    DomainError
+        ``no-real-image`` (s < f), ``not-positive``, ``not-finite`` (arrays: masked).
+    """
+    return _NEAR(f, N, c, s)
+
+
+def far_limit(f: Numbers, N: Numbers, c: Numbers, s: Numbers) -> Result:
+    """Farthest distance that is still sharp; infinity at or beyond the hyperfocal distance.
+
+    Parameters
+    ----------
+    f, N, c, s : array_like
+        As for ``near_limit``.
+
+    Returns
+    -------
+    float or array
+        Unit of f, s or more. Whether s reaches the hyperfocal distance is decided exactly.
+
+    Raises
+    ------
+    DomainError
+        ``no-real-image`` (s < f), ``not-positive``, ``not-finite`` (arrays: masked).
+    """
+    return _FAR(f, N, c, s)
+
+
+def total_depth(f: Numbers, N: Numbers, c: Numbers, s: Numbers) -> Result:
+    """Depth of field, far limit minus near limit, without subtracting them.
+
+    Parameters
+    ----------
+    f, N, c, s : array_like
+        As for ``near_limit``.
+
+    Returns
+    -------
+    float or array
+        Unit of f; infinity at or beyond the hyperfocal distance.
+
+    Raises
+    ------
+    DomainError
+        ``no-real-image`` (s < f), ``not-positive``, ``not-finite`` (arrays: masked).
+    """
+    return _TOTAL(f, N, c, s)

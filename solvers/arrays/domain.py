@@ -1,0 +1,259 @@
+"""What happens when there is no answer, and how kernels are run over arrays.
+
+Policy, the same for every function of this package:
+
+* A pole is an infinity (object in the focal plane, far limit beyond the hyperfocal distance).
+* A value beyond the range of binary64 is rounded like any other: to infinity, or to zero.
+* No answer (beyond the fold, hue of a gray, empty range, ...) raises ``DomainError`` when all
+  arguments are scalars. With arrays the result is a ``numpy.ma.MaskedArray``, masked exactly
+  where there is no answer (NaN lies under the mask). When every element has an answer, the
+  result is a plain array. ``answered(result)`` is the mask to ask for in both cases.
+* Arguments that are not finite have no answer (reason ``not-finite``).
+
+Kernels see one-dimensional blocks that fit the cache and only elements that have an answer.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[np.float64]
+Flags = npt.NDArray[np.bool_]
+Numbers = npt.ArrayLike
+Result = Any
+"""A float for scalar arguments, else an array (masked where there is no answer)."""
+
+BLOCK = 8192
+"""Elements per block: a dozen blocks of doubles fit a level-2 cache."""
+
+
+class DomainError(ValueError):
+    """There is no answer for these arguments.
+
+    Parameters
+    ----------
+    reason : str
+        Language-free name of the reason, for example ``beyond-fold``.
+    """
+
+    def __init__(self, reason: str) -> None:
+        super().__init__(reason)
+        self.reason = reason
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """The interval in which an argument must lie, and the reason given when it does not."""
+
+    low: float = -math.inf
+    high: float = math.inf
+    reason: str = "not-finite"
+    closed: bool = False
+
+    def holds(self, low: Any, high: Any) -> Any:
+        """Whether values from ``low`` to ``high`` all lie inside (false for NaN)."""
+        finite = (low > -math.inf) & (high < math.inf)
+        if self.closed:
+            return finite & (low >= self.low) & (high <= self.high)
+        return finite & (low > self.low) & (high < self.high)
+
+    def reason_for(self, value: float) -> str:
+        """Name what is wrong with a value outside."""
+        return self.reason if math.isfinite(value) else "not-finite"
+
+
+REAL = Span()
+POSITIVE = Span(low=0.0, reason="not-positive")
+NONNEGATIVE = Span(low=0.0, reason="negative", closed=True)
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """A relation between arguments that must not occur."""
+
+    reason: str
+    broken: Callable[..., Any]
+
+
+Exact = Callable[..., Any]
+
+
+@dataclass(frozen=True, slots=True)
+class Kernel:
+    """How to compute a family member on one block.
+
+    Parameters
+    ----------
+    compute : callable
+        Takes blocks, returns an array or a tuple of arrays. With ``exact`` set it returns
+        ``(values, doubtful)``: ``doubtful`` flags elements to be recomputed exactly, or is None.
+    spans : sequence of Span
+        One per argument.
+    rules : sequence of Rule
+        Further relations without an answer.
+    exact : callable, optional
+        The same quantity for ``fractions.Fraction`` arguments; returns what ``nearest`` takes.
+    reach : float
+        ``compute`` is trusted for zero and magnitudes from ``1/reach`` to ``reach``.
+    outputs : int
+        Number of result arrays.
+    """
+
+    compute: Callable[..., Any]
+    spans: Sequence[Span]
+    rules: Sequence[Rule] = ()
+    exact: Exact | None = None
+    reach: float = 2.0**120
+    outputs: int = 1
+
+    def __call__(self, *args: Numbers) -> Result:
+        """Run the kernel on scalars or arrays that broadcast together."""
+        arrays = [np.asarray(arg, dtype=np.float64) for arg in args]
+        shape = np.broadcast_shapes(*[array.shape for array in arrays])
+        with np.errstate(all="ignore"):
+            if shape == ():
+                return self._scalar([array.reshape(1) for array in arrays])
+            return self._array([_flat(array, shape) for array in arrays], shape)
+
+    def _scalar(self, args: list[Array]) -> Result:
+        reason = self._why_not(args)
+        if reason is not None:
+            raise DomainError(reason)
+        values = self._checked(args)
+        if isinstance(values, tuple):
+            return tuple(value[0].item() for value in values)
+        return values[0].item()
+
+    def _why_not(self, args: list[Array]) -> str | None:
+        for span, arg in zip(self.spans, args, strict=True):
+            if not span.holds(arg[0], arg[0]):
+                return span.reason_for(float(arg[0]))
+        for rule in self.rules:
+            if np.any(rule.broken(*args)):
+                return rule.reason
+        return None
+
+    def _array(self, args: list[Array], shape: tuple[int, ...]) -> Result:
+        size = math.prod(shape)
+        parts = [self._block(block) for block in _blocks(args, size)]
+        if not parts:
+            return np.empty(shape)
+        if isinstance(parts[0], tuple):
+            return tuple(_join(list(column), shape) for column in zip(*parts, strict=True))
+        return _join(parts, shape)
+
+    def _block(self, args: list[Array]) -> Any:
+        bad = self._bad(args)
+        if bad is None:
+            return self._checked(args)
+        good = ~bad
+        values: Any = (np.empty(0),) * self.outputs if self.outputs > 1 else np.empty(0)
+        if good.any():
+            values = self._checked([arg[good] if arg.size > 1 else arg for arg in args])
+        if isinstance(values, tuple):
+            return tuple(_scatter(value, good) for value in values)
+        return _scatter(values, good)
+
+    def _bad(self, args: list[Array]) -> Flags | None:
+        spans = list(zip(self.spans, args, strict=True))
+        inside = all(span.holds(arg.min(), arg.max()) for span, arg in spans)
+        broken = [rule.broken(*args) for rule in self.rules] if inside else []
+        if inside and not any(np.any(flags) for flags in broken):
+            return None
+        bad = np.zeros(max(arg.size for arg in args), dtype=bool)
+        for span, arg in spans:
+            bad |= ~span.holds(arg, arg)
+        good = ~bad
+        if good.any():
+            some = [arg[good] if arg.size > 1 else arg for arg in args]
+            for rule in self.rules:
+                bad[good] |= rule.broken(*some)
+        return bad
+
+    def _checked(self, args: list[Array]) -> Any:
+        if self.exact is None:
+            return self.compute(*args)
+        far = extreme(args, self.reach)
+        values, doubtful = self.compute(*args)
+        flags = far if doubtful is None else doubtful if far is None else far | doubtful
+        if flags is not None and flags.any():
+            _settle(values, flags, self.exact, args)
+        return values
+
+
+def answered(result: Result) -> Any:
+    """Tell which elements of an array result have an answer (True for a scalar)."""
+    return ~np.ma.getmaskarray(result) if isinstance(result, np.ndarray) else True
+
+
+def extreme(args: Sequence[Array], reach: float) -> Flags | None:
+    """Flag elements with an argument that is not zero and not within ``1/reach .. reach``."""
+    flags: Flags | None = None
+    for arg in args:
+        low, high = arg.min(), arg.max()
+        if high <= reach and low >= 1 / reach:
+            continue
+        size = np.abs(arg)
+        odd = (size > reach) | ((size < 1 / reach) & (size > 0))
+        if odd.any():
+            flags = odd if flags is None else flags | odd
+    return flags
+
+
+def nearest(value: Any) -> float:
+    """Round a rational (or a float that stands for itself) to the nearest float."""
+    if isinstance(value, float):
+        return value
+    try:
+        return value.numerator / value.denominator
+    except OverflowError:
+        return math.inf if value > 0 else -math.inf
+
+
+def read_decimal(value: Any) -> Fraction:
+    """Read a number as it is written: 2.2 is eleven fifths, not the nearest binary fraction."""
+    return Fraction(repr(value)) if isinstance(value, float) else Fraction(value)
+
+
+def _settle(values: Any, flags: Flags, exact: Exact, args: Sequence[Array]) -> None:
+    columns = values if isinstance(values, tuple) else (values,)
+    flags = np.broadcast_to(flags, columns[0].shape)
+    for i in np.flatnonzero(flags):
+        answer = exact(*[Fraction(float(arg[i if arg.size > 1 else 0])) for arg in args])
+        for column, value in zip(
+            columns, answer if isinstance(values, tuple) else (answer,), strict=True
+        ):
+            column[i] = nearest(value)
+
+
+def _flat(array: Array, shape: tuple[int, ...]) -> Array:
+    if array.size == 1:
+        return array.reshape(1)
+    return np.ascontiguousarray(np.broadcast_to(array, shape)).reshape(-1)
+
+
+def _blocks(args: list[Array], size: int) -> Iterator[list[Array]]:
+    for start in range(0, size, BLOCK):
+        yield [arg if arg.size == 1 else arg[start : start + BLOCK] for arg in args]
+
+
+def _scatter(values: Any, good: Flags) -> Any:
+    """Put the answers where they belong, masked elsewhere."""
+    data = np.full(good.shape, np.nan)
+    data[good] = values
+    return np.ma.MaskedArray(data, mask=~good)
+
+
+def _join(parts: list[Any], shape: tuple[int, ...]) -> Any:
+    if not any(isinstance(part, np.ma.MaskedArray) for part in parts):
+        return np.concatenate(parts).reshape(shape) if len(parts) > 1 else parts[0].reshape(shape)
+    data = np.concatenate([np.ma.getdata(part) for part in parts])
+    mask = np.concatenate([np.ma.getmaskarray(part) for part in parts])
+    return np.ma.MaskedArray(data, mask=mask).reshape(shape)

@@ -1,0 +1,146 @@
+"""Numbers of twice the working precision on arrays: an unevaluated sum of two doubles.
+
+Formulas written with ``+ - * /`` run unchanged on ``Pair`` arrays and on ``fractions.Fraction``:
+the first is fast and good to about 2**-100, the second is exact and decides the doubtful rest.
+
+Sources: Dekker, Numer. Math. 18 (1971) 224; Knuth, TAOCP 2, 4.2.2. NumPy has no fused
+multiply-add, so products are split. Operands must stay within 1e-140 .. 1e140 or be zero.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from .domain import Array
+
+SPLITTER = 134217729.0
+"""2**27 + 1 splits a double into two halves of 26 bits."""
+
+
+def two_sum(a: Any, b: Any) -> tuple[Any, Any]:
+    """Sum of two doubles and its rounding error, exactly."""
+    s = a + b
+    t = s - a
+    return s, (a - (s - t)) + (b - t)
+
+
+def split(a: Any) -> tuple[Any, Any]:
+    """Upper and lower half of a double, exactly."""
+    c = a * SPLITTER
+    high = c - (c - a)
+    return high, a - high
+
+
+def two_product(a: Any, b: Any) -> tuple[Any, Any]:
+    """Product of two doubles and its rounding error, exactly."""
+    return _product(a, split(a), b, split(b))
+
+
+def _product(a: Any, a_halves: Any, b: Any, b_halves: Any) -> tuple[Any, Any]:
+    p = a * b
+    a_high, a_low = a_halves
+    b_high, b_low = b_halves
+    e = a_high * b_high
+    e -= p
+    e += a_high * b_low
+    e += a_low * b_high
+    e += a_low * b_low
+    return p, e
+
+
+class Pair:
+    """The unevaluated sum ``high + low`` of two arrays; ``low`` is None when it is zero."""
+
+    __slots__ = ("_halves", "high", "low")
+
+    def __init__(self, high: Any, low: Any = None) -> None:
+        self.high = high
+        self.low = low
+        self._halves: Any = None
+
+    @property
+    def halves(self) -> Any:
+        """The split of ``high``, made once."""
+        if self._halves is None:
+            self._halves = split(self.high)
+        return self._halves
+
+    def rounded(self) -> Array:
+        """The nearest double (up to 2**-100)."""
+        result = self.high if self.low is None else self.high + self.low
+        return np.asarray(result, dtype=np.float64)
+
+    def __add__(self, other: Any) -> Pair:
+        """Sum; the error is small against the larger operand, not against a cancelled result."""
+        other = pair(other)
+        s, e = two_sum(self.high, other.high)
+        if self.low is None and other.low is None:
+            return Pair(s, e)
+        for low in (self.low, other.low):
+            if low is not None:
+                e = e + low
+        return _normal(s, e)
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Pair:
+        """Opposite number."""
+        return Pair(-self.high, None if self.low is None else -self.low)
+
+    def __sub__(self, other: Any) -> Pair:
+        """Difference, as the sum."""
+        return self + (-pair(other))
+
+    def __rsub__(self, other: Any) -> Pair:
+        """Difference, as the sum."""
+        return pair(other) + (-self)
+
+    def __mul__(self, other: Any) -> Pair:
+        """Product."""
+        other = pair(other)
+        p, e = _product(self.high, self.halves, other.high, other.halves)
+        if other.low is not None:
+            e = e + self.high * other.low
+        if self.low is not None:
+            e = e + self.low * other.high
+        return Pair(p, e)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Any) -> Pair:
+        """Quotient: one division and one correction from the exact remainder."""
+        other = pair(other)
+        q = self.high / other.high
+        p, e = _product(q, split(q), other.high, other.halves)
+        rest = (self.high - p) - e
+        if self.low is not None:
+            rest = rest + self.low
+        if other.low is not None:
+            rest = rest - q * other.low
+        return Pair(q, rest / other.high)
+
+    def __rtruediv__(self, other: Any) -> Pair:
+        """Quotient."""
+        return pair(other) / self
+
+    def __abs__(self) -> Pair:
+        """Absolute value."""
+        sign = np.where(self.high < 0, -1.0, 1.0)
+        return Pair(self.high * sign, None if self.low is None else self.low * sign)
+
+
+def _normal(s: Any, e: Any) -> Pair:
+    high = s + e
+    return Pair(high, e - (high - s))
+
+
+def pair(value: Any) -> Pair:
+    """Wrap a number or an array."""
+    return value if isinstance(value, Pair) else Pair(value)
+
+
+def pairs(*values: Any) -> tuple[Pair, ...]:
+    """Wrap several."""
+    return tuple(Pair(value) for value in values)

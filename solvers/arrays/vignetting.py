@@ -1,0 +1,75 @@
+"""Natural vignetting: illumination falls with the fourth power of the cosine.
+
+Source: cos**4(atan(r/f)) = (f**2/(f**2 + r**2))**2, rational in r and f.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from .domain import NONNEGATIVE, POSITIVE, Kernel, Numbers, Result
+from .double_double import pairs
+
+
+def _cos4(r: Any, f: Any) -> Any:
+    A = f * f
+    q = A / (r * r + A)
+    return q * q
+
+
+def _falloff(r: Any, f: Any) -> Any:
+    A, B = f * f, r * r
+    S = A + B
+    return B * (A + S) / (S * S)
+
+
+def _on_pairs(formula: Any) -> Any:
+    return lambda r, f: (formula(*pairs(r, f)).rounded(), None)
+
+
+_COS4 = Kernel(_on_pairs(_cos4), (NONNEGATIVE, POSITIVE), exact=_cos4)
+_FALLOFF = Kernel(_on_pairs(_falloff), (NONNEGATIVE, POSITIVE), exact=_falloff)
+
+
+def cos4(r: Numbers, f: Numbers) -> Result:
+    """Relative illumination cos**4 at distance r from the image centre.
+
+    Parameters
+    ----------
+    r : array_like
+        Distance from the principal point on the sensor, >= 0.
+    f : array_like
+        Focal length, > 0, same unit.
+
+    Returns
+    -------
+    float or array
+        Between 0 and 1; the angle is atan(r/f).
+
+    Raises
+    ------
+    DomainError
+        ``negative``, ``not-positive``, ``not-finite`` (arrays: masked).
+    """
+    return _COS4(r, f)
+
+
+def falloff(r: Numbers, f: Numbers) -> Result:
+    """Loss of illumination 1 - cos**4, accurate for small angles too.
+
+    Parameters
+    ----------
+    r, f : array_like
+        As for ``cos4``.
+
+    Returns
+    -------
+    float or array
+        Between 0 and 1.
+
+    Raises
+    ------
+    DomainError
+        ``negative``, ``not-positive``, ``not-finite`` (arrays: masked).
+    """
+    return _FALLOFF(r, f)
