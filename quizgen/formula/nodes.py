@@ -56,7 +56,7 @@ class Unit:
 
 @dataclass(frozen=True, slots=True)
 class Op:
-    """An operator, relation or separator by its character; ``neg`` is the sign, ``""`` times."""
+    """An operator, relation or separator by its character; ``neg`` is a sign, ``""`` times, ``" "`` a gap."""
 
     name: str
     level: ClassVar[int] = ATOM

@@ -21,6 +21,7 @@ _LETTERS = {char: "\\" + word for word, char in GREEK.items() if word != "lamda"
 _LETTERS |= {"ε": r"\varepsilon", "φ": r"\varphi", "ℓ": r"\ell"}
 _OPERATORS = {
     "": "",
+    " ": r"\,",
     "neg": "-",
     "·": r"\cdot",
     "×": r"\times",
@@ -109,7 +110,9 @@ def _number(node: n.Number, _lang: str) -> str:
 
 def _ident(node: n.Ident, _lang: str) -> str:
     letter = _LETTERS.get(node.text, node.text)
-    return rf"\boldsymbol{{{letter}}}" if node.bold else letter
+    if node.bold:
+        return rf"\mathbf{{{letter}}}" if letter.isalpha() else rf"\boldsymbol{{{letter}}}"
+    return letter
 
 
 def _word(node: n.Word, _lang: str) -> str:
@@ -169,12 +172,12 @@ def _root(node: n.Root, lang: str) -> str:
 
 
 def _scripts(node: n.Scripts, lang: str) -> str:
-    written = _emit(node.base, lang) + "'" * node.primes
-    if node.sup is not None:
-        written += f"^{{{_emit(node.sup, lang)}}}"
-    if node.sub is not None:
-        written += f"_{{{_emit(node.sub, lang)}}}"
-    return written
+    low = "" if node.sub is None else f"_{{{_emit(node.sub, lang)}}}"
+    high = "" if node.sup is None else f"^{{{_emit(node.sup, lang)}}}"
+    base = _emit(node.base, lang)
+    if node.primes:  # a prime is a superscript: the exponent must follow it at once
+        return base + "'" * node.primes + high + low
+    return base + low + high
 
 
 def _accent(node: n.Accent, lang: str) -> str:

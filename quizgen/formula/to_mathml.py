@@ -17,6 +17,7 @@ THIN = '<mspace width="0.17em"/>'
 _APPLY, _TIMES = "<mo>\u2061</mo>", "<mo>\u2062</mo>"
 _OPERATORS = {
     "": _TIMES,
+    " ": THIN,
     "neg": '<mo form="prefix">−</mo>',
     "-": "<mo>−</mo>",
     "·": "<mo>⋅</mo>",
@@ -34,6 +35,7 @@ _OPERATORS = {
     **{same: f"<mo>{same}</mo>" for same in "+=≠≤≥≈∝∈±≪≫×′…:"},
 }
 _ACCENTS = {"bar": "¯", "hat": "^", "tilde": "~"}
+_BOLD = (("A", 26, 0x1D400), ("a", 26, 0x1D41A), ("Α", 25, 0x1D6A8), ("α", 25, 0x1D6C2))
 _OPENING, _CLOSING = "([{|⌊⌈", ")]}|⌋⌉"
 
 
@@ -84,9 +86,23 @@ def _number(node: n.Number, _lang: str) -> str:
 
 def _ident(node: n.Ident, _lang: str) -> str:
     if node.bold:
-        return f'<mi mathvariant="normal" style="font-weight:bold">{node.text}</mi>'
+        return f"<mi>{bold(node.text)}</mi>"
     upright = node.text in GREEK_LETTERS and node.text.isupper()
     return f'<mi mathvariant="normal">{node.text}</mi>' if upright else f"<mi>{node.text}</mi>"
+
+
+def bold(letter: str) -> str:
+    """Find the mathematical bold form of a letter, which maths fonts have even when bold is not.
+
+    Examples
+    --------
+    >>> bold("p"), bold("μ")
+    ('𝐩', '𝛍')
+    """
+    for first, count, start in _BOLD:
+        if 0 <= ord(letter) - ord(first) < count:
+            return chr(start + ord(letter) - ord(first))
+    raise RenderError(f"no bold form of {letter!r}")
 
 
 def _word(node: n.Word, _lang: str) -> str:

@@ -20,6 +20,7 @@ from quizgen.formula.words import TEXTS, WORDS, Words
 _BINDING = tuple(map(n.Op, ("", "·", "×", "mod")))
 _BOUNDS = tuple(map(n.Op, "<≤"))
 _COMMAS = re.compile(r"[ ,]+([,;])")
+_SPACES = re.compile(r"  +")
 _GREEK_NAMES = {char: word for word, char in GREEK.items() if word != "lamda"}
 
 
@@ -44,7 +45,7 @@ def spoken(node: n.Node, lang: str = "en") -> str:
     >>> spoken(name("p'_x"))
     'p prime sub x'
     """
-    return _COMMAS.sub(r"\1", _say(node, lang)).rstrip(",")
+    return _SPACES.sub(" ", _COMMAS.sub(r"\1", _say(node, lang))).strip(" ,")
 
 
 def _say(node: n.Node, lang: str) -> str:
@@ -104,8 +105,11 @@ def _ident(node: n.Ident, lang: str) -> str:
     return WORDS[lang].short["bold"].format(said) if node.bold else said
 
 
-def _word(node: n.Word, _lang: str) -> str:
-    return node.text
+def _word(node: n.Word, lang: str) -> str:
+    words = WORDS[lang]
+    if node.text.isupper() and words.letters:
+        return "".join([words.letters.get(char.lower(), char) for char in node.text])
+    return words.names.get(node.text, node.text)
 
 
 def _text(node: n.Text, lang: str) -> str:
@@ -144,7 +148,7 @@ def _quantity(node: n.Quantity, lang: str) -> str:
 
 
 def _op(node: n.Op, lang: str) -> str:
-    return str(_known(WORDS[lang].operators, node.name, "operator"))
+    return "" if node.name == " " else str(_known(WORDS[lang].operators, node.name, "operator"))
 
 
 def _row(node: n.Row, lang: str) -> str:
@@ -222,10 +226,14 @@ def _accent(node: n.Accent, lang: str) -> str:
 
 
 def _fence(node: n.Fence, lang: str) -> str:
-    words = WORDS[lang].brackets
+    words = WORDS[lang]
+    if node.kind in words.intervals and isinstance(node.body, n.Row):
+        bounds = [_say(item, lang) for item in node.body.items if item != n.Op(",")]
+        if len(bounds) == 2 and len(node.body.items) == 3:
+            return words.intervals[node.kind].format(*bounds)
     long = node.kind + "…"
-    key = long if long in words and not simple(node.body) else node.kind
-    return str(_known(words, key, "brackets")).format(_say(node.body, lang))
+    key = long if long in words.brackets and not simple(node.body) else node.kind
+    return str(_known(words.brackets, key, "brackets")).format(_say(node.body, lang))
 
 
 def _func(node: n.Func, lang: str) -> str:
@@ -236,8 +244,12 @@ def _func(node: n.Func, lang: str) -> str:
     listed = ", ".join(said)
     if len(said) > 1:
         listed = words.short["last"].format(", ".join(said[:-1]), said[-1])
-    if isinstance(node.head, n.Scripts):
-        return words.short["base"].format(_say(node.head.sub or node.head, lang), listed)
+    if isinstance(node.head, n.Ident):
+        return words.short["of"].format(_say(node.head, lang), listed)
+    if isinstance(node.head, n.Scripts) and node.head.sup is not None:
+        return words.short["apply"].format(_head(node.head, lang), listed)
+    if isinstance(node.head, n.Scripts) and node.head.sub is not None:
+        return words.short["base"].format(_say(node.head.sub, lang), listed)
     name = node.head.text if isinstance(node.head, n.Word) else ""
     return str(_known(words.functions, name, "function")[0]).format(listed)
 
@@ -245,8 +257,8 @@ def _func(node: n.Func, lang: str) -> str:
 def _plain(head: n.Node) -> bool:
     """Whether a head is a bare function name, or a logarithm with its base."""
     if isinstance(head, n.Scripts):
-        return head.base == n.Word("log") and head.sub is not None and head.sup is None
-    return isinstance(head, n.Word)
+        return (head.base == n.Word("log")) is (head.sub is not None)
+    return isinstance(head, n.Word | n.Ident)
 
 
 def _head(node: n.Node, lang: str) -> str:
@@ -264,11 +276,11 @@ def _head(node: n.Node, lang: str) -> str:
 
 
 def _big(node: n.Big, lang: str) -> str:
-    what, low, high = _known(WORDS[lang].signs, node.sign, "sign")
+    what, low, high, closing = _known(WORDS[lang].signs, node.sign, "sign")
     said = [what]
     said += [low.format(_say(node.lower, lang))] if node.lower else []
     said += [high.format(_say(node.upper, lang))] if node.upper else []
-    return " ".join(said)
+    return " ".join([*said, closing])
 
 
 def _under(node: n.Under, lang: str) -> str:

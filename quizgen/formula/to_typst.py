@@ -18,6 +18,7 @@ from quizgen.formula.words import TEXTS
 
 _OPERATORS = {
     "": "",
+    " ": "thin",
     "neg": "-",
     "·": "dot.op",
     "/": "slash",

@@ -60,7 +60,8 @@ FUNCTIONS: dict[str, Node] = {
     "min": Word("min"),
     "max": Word("max"),
 }
-_POWER_ON_NAME = frozenset({"sin", "cos", "tan", "ln", "log2", "log10"})
+_POWER_ON_NAME = frozenset({"sin", "cos", "tan"})
+_OPPOSITES = {"eq": "ne", "ne": "eq", "lt": "ge", "ge": "lt", "gt": "le", "le": "gt"}
 _READ_AS_FUNCTION = frozenset("fghPVEFGNLφψ")
 """Letters before a bracket that readers take for a function: they get a dot."""
 
@@ -324,7 +325,7 @@ def power(base: Node, exponent: Node, *, on_name: bool = False) -> Node:
     """Raise a node, merging with its subscript; ``on_name`` writes sin²(x)."""
     if on_name and isinstance(base, Func):
         return Func(power(base.head, exponent), base.args)
-    base = bracketed(base, ATOM)
+    base = Fence("()", base) if isinstance(base, Func) else bracketed(base, ATOM)
     if isinstance(base, Scripts):
         return replace(base, sup=exponent)
     return Scripts(base, None, exponent)
@@ -406,7 +407,9 @@ def _ascending(expr: Expr) -> tuple[str, Expr, Expr] | None:
 
 def _not(run: _Layout, args: tuple[Expr, ...]) -> Node:
     (arg,) = args
-    return Row((Text("not"), Fence("()", run.lay(arg))), WORDS)
+    if isinstance(arg, Call) and arg.op in _OPPOSITES:
+        return run.lay(Call(_OPPOSITES[arg.op], arg.args))
+    return Row((Text("not"), Fence("()", run.lay(arg))), RELATION)
 
 
 def _piecewise(run: _Layout, args: tuple[Expr, ...]) -> Node:

@@ -33,11 +33,13 @@ class Words:
     letters: dict[str, str]
     capital: str
     greek: dict[str, str]
+    names: dict[str, str]
     operators: dict[str, str]
     brackets: dict[str, str]
+    intervals: dict[str, str]
     functions: dict[str, tuple[str, str]]
     accents: dict[str, str]
-    signs: dict[str, tuple[str, str, str]]
+    signs: dict[str, tuple[str, str, str, str]]
     powers: dict[str, str]
     short: dict[str, str]
     long: dict[str, str]
@@ -79,6 +81,7 @@ _EN = Words(
     letters={},
     capital="capital {}",
     greek={"ℓ": "ell"},
+    names={},
     operators={
         "": "times",
         "·": "times",
@@ -115,14 +118,17 @@ _EN = Words(
         "()": "open bracket {} close bracket",
         "[]": "open square bracket {} close square bracket",
         "{}": "the set of {}, end of set,",
-        "[)": "from {} with the upper bound excluded",
-        "(]": "from {} with the lower bound excluded",
         "||": "the absolute value of {}",
         "⌊⌋": "the floor of {}",
         "⌈⌉": "the ceiling of {}",
         "||…": "the absolute value of {}, end of absolute value,",
         "⌊⌋…": "the floor of {}, end of floor,",
         "⌈⌉…": "the ceiling of {}, end of ceiling,",
+    },
+    intervals={
+        "[]": "the interval from {} to {}",
+        "[)": "the interval from {} to {} with the upper end left out",
+        "(]": "the interval from {} to {} with the lower end left out",
     },
     functions={
         # name: (of simple arguments, the name alone)
@@ -147,9 +153,9 @@ _EN = Words(
     },
     accents={"bar": "{} bar", "hat": "{} hat", "tilde": "{} tilde"},
     signs={
-        "∑": ("the sum", "over {}", "up to {}"),
-        "∏": ("the product", "over {}", "up to {}"),
-        "∫": ("the integral", "from {}", "to {}"),
+        "∑": ("the sum", "over {}", "up to {}", "of"),
+        "∏": ("the product", "over {}", "up to {}", "of"),
+        "∫": ("the integral", "from {}", "to {}", "of"),
     },
     powers={"2": "{} squared", "3": "{} cubed", "2…": "{} all squared", "3…": "{} all cubed"},
     short={
@@ -162,7 +168,9 @@ _EN = Words(
         "bold": "vector {}",
         "base": "log base {} of {}",
         "base alone": "log base {}",
-        "below": "{} as {}",
+        "of": "{} of {}",
+        "apply": "{} of {}",
+        "below": "the {} as {}, of",
         "last": "{} and {}",
         "case": "{}, if {}",
         "otherwise": "{}, otherwise",
@@ -248,6 +256,22 @@ _BN = Words(
         "ω": "ওমেগা",
         "ℓ": "এল",
     },
+    names={
+        "max": "ম্যাক্স",
+        "min": "মিন",
+        "avg": "অ্যাভারেজ",
+        "in": "ইন",
+        "out": "আউট",
+        "lin": "লিন",
+        "enc": "এনকোডেড",
+        "noisy": "নয়েজি",
+        "new": "নিউ",
+        "old": "ওল্ড",
+        "left": "লেফট",
+        "right": "রাইট",
+        "near": "নিয়ার",
+        "far": "ফার",
+    },
     operators={
         "": "গুণ",
         "·": "গুণ",
@@ -284,14 +308,17 @@ _BN = Words(
         "()": "ব্র্যাকেট শুরু {} ব্র্যাকেট শেষ",
         "[]": "তৃতীয় ব্র্যাকেট শুরু {} তৃতীয় ব্র্যাকেট শেষ",
         "{}": "সেট শুরু {} সেট শেষ",
-        "[)": "{} পর্যন্ত, শেষ মান বাদে",
-        "(]": "{} পর্যন্ত, প্রথম মান বাদে",
         "||": "{}-এর পরম মান",
         "⌊⌋": "{}-এর ফ্লোর",
         "⌈⌉": "{}-এর সিলিং",
         "||…": "পরম মান শুরু {} পরম মান শেষ",
         "⌊⌋…": "ফ্লোর শুরু {} ফ্লোর শেষ",
         "⌈⌉…": "সিলিং শুরু {} সিলিং শেষ",
+    },
+    intervals={
+        "[]": "{} থেকে {} পর্যন্ত ইন্টারভ্যাল",
+        "[)": "{} থেকে {} পর্যন্ত ইন্টারভ্যাল, শেষ মান বাদে",
+        "(]": "{} থেকে {} পর্যন্ত ইন্টারভ্যাল, প্রথম মান বাদে",
     },
     functions={
         "sin": ("সাইন {}", "সাইন"),
@@ -315,9 +342,9 @@ _BN = Words(
     },
     accents={"bar": "{} বার", "hat": "{} হ্যাট", "tilde": "{} টিল্ডা"},
     signs={
-        "∑": ("যোগফল", "{} থেকে", "{} পর্যন্ত"),
-        "∏": ("গুণফল", "{} থেকে", "{} পর্যন্ত"),
-        "∫": ("ইন্টিগ্রাল", "{} থেকে", "{} পর্যন্ত"),
+        "∑": ("যোগফল", "{} থেকে", "{} পর্যন্ত", ","),
+        "∏": ("গুণফল", "{} থেকে", "{} পর্যন্ত", ","),
+        "∫": ("ইন্টিগ্রাল", "{} থেকে", "{} পর্যন্ত", ","),
     },
     powers={
         "2": "{} স্কয়ার",
@@ -328,14 +355,16 @@ _BN = Words(
     short={
         "frac": "{} ভাগ {}",
         "sqrt": "রুট ওভার {}",
-        "root": "{}-তম মূল {}",
+        "root": "{1}-এর {0}-তম মূল",
         "power": "{} টু দি পাওয়ার {}",
         "sub": "{} সাব {}",
         "prime": "{} প্রাইম",
         "bold": "ভেক্টর {}",
         "base": "{} ভিত্তিক লগ {}",
         "base alone": "{} ভিত্তিক লগ",
-        "below": "{}, যখন {}",
+        "of": "{} অফ {}",
+        "apply": "{} {}",
+        "below": "{}, যখন {},",
         "last": "{} ও {}",
         "case": "{}, যদি {} হয়",
         "otherwise": "অন্যথায় {}",
@@ -346,7 +375,7 @@ _BN = Words(
         "frac": "ভগ্নাংশ শুরু, উপরে {}, নিচে {}, ভগ্নাংশ শেষ,",
         "deep": "ভগ্নাংশ শুরু, উপরে {}, নিচে {}, ভগ্নাংশ শেষ,",
         "sqrt": "রুট ওভার {}, রুট শেষ,",
-        "root": "{}-তম মূল {}, মূল শেষ,",
+        "root": "{}-তম মূল শুরু {}, মূল শেষ,",
         "power": "{} টু দি পাওয়ার {}, পাওয়ার শেষ,",
         "func": "{} ব্র্যাকেট শুরু {} ব্র্যাকেট শেষ",
         "matrix": "ম্যাট্রিক্স শুরু {}, ম্যাট্রিক্স শেষ,",
