@@ -1,0 +1,63 @@
+"""What a learner is told about how to type an answer, derived from how it is marked."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+from typing import Any
+
+from quizgen.locale import word
+from quizgen.units import shown
+
+
+def hints(answer: Mapping[str, Any], spec: Mapping[str, Any], lang: str) -> tuple[str, ...]:
+    """Sentences about form, unit and rounding of one answer field.
+
+    Parameters
+    ----------
+    answer : mapping
+        The part's ``answer`` table as authored.
+    spec : mapping
+        The specification built for this draw.
+    lang : str
+    """
+    kind = str(spec["kind"])
+    found = [_shape(kind, spec, lang), _unit(kind, answer, lang), _rounding(spec, lang)]
+    return tuple(text for text in found if text)
+
+
+def _shape(kind: str, spec: Mapping[str, Any], lang: str) -> str:
+    if kind in {"number", "quantity", "angle"}:
+        return word(lang, "ask.percent") if spec.get("percent") else ""
+    if kind == "point":
+        three = len(spec["values"]) > len("ab")
+        return word(lang, "ask.point3" if three else "ask.point")
+    if kind == "table":
+        return word(lang, "ask.table", names=", ".join(spec["values"]))
+    if kind == "witness":
+        return word(lang, "ask.witness", names="; ".join(f"{n} = ..." for n in spec["symbols"]))
+    return word(lang, f"ask.{kind}")
+
+
+def _unit(kind: str, answer: Mapping[str, Any], lang: str) -> str:
+    text = str(answer.get("unit", ""))
+    if kind == "angle":
+        return word(lang, "ask.degrees")
+    if kind == "quantity":
+        return word(lang, "ask.quantity", unit=shown(text))
+    return word(lang, "ask.unit", unit=shown(text)) if text and kind in {"number", "point"} else ""
+
+
+def _rounding(spec: Mapping[str, Any], lang: str) -> str:
+    if "decimals" in spec:
+        count = int(spec["decimals"])
+        name = f"ask.decimals_{count}" if count in (0, 1) else "ask.decimals"
+        return word(lang, name, n=count)
+    if "sigfigs" in spec:
+        return word(lang, "ask.sigfigs", n=spec["sigfigs"])
+    if spec.get("exact"):
+        return word(lang, "ask.exact")
+    if "rel" in spec:
+        percent = Fraction(str(spec["rel"])) * 100
+        return word(lang, "ask.rel", percent=f"{float(percent):g}")
+    return ""

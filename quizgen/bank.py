@@ -1,0 +1,181 @@
+"""A bank: a folder with ``templates/`` and ``solvers/``, read on demand.
+
+The built-in bank is the first one; a third party's bank is a folder of the same shape. Text is always
+safe to read. Solvers are Python, so a foreign bank runs its own only when it is trusted by name.
+"""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import sys
+from collections.abc import Iterator
+from functools import cache, cached_property
+from pathlib import Path
+from types import ModuleType
+
+from quizgen.chain import Chain
+from quizgen.errors import BankError, QuizgenError
+from quizgen.template import Rules, Template, check_against_chain, digest_of, read_rules
+from quizgen.text import Text, read_text
+
+LANGUAGES = ("en", "bn")
+"""Languages every built-in template is written in."""
+
+
+def builtin_root() -> Path:
+    """Folder of the built-in bank: inside the installed package, else the checkout."""
+    installed = Path(__file__).parent / "builtin"
+    return installed if installed.is_dir() else Path(__file__).parent.parent
+
+
+def mount(folder: Path, name: str) -> ModuleType:
+    """Make a folder of solvers importable as a package under a private name."""
+    if name in sys.modules:
+        return sys.modules[name]
+    spec = importlib.util.spec_from_file_location(
+        name, folder / "__init__.py", submodule_search_locations=[str(folder)]
+    )
+    if spec is None or spec.loader is None:
+        raise BankError(f"{folder}: not a folder of solvers")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+def solver_module(name: str) -> ModuleType:
+    """A module of the built-in solvers, for example ``arrays.hsv``."""
+    return builtin().solver(name)
+
+
+class Bank:
+    """Templates and solvers of one folder.
+
+    Parameters
+    ----------
+    root : pathlib.Path
+        Folder that holds ``templates/`` and, optionally, ``solvers/``.
+    trusted : bool
+        Whether its own solvers may run; otherwise only built-in ones are used.
+    """
+
+    def __init__(self, root: Path, *, trusted: bool = False) -> None:
+        self.root = root
+        self.trusted = trusted
+        self._templates: dict[str, Template] = {}
+        self._rules: dict[str, Rules] = {}
+        if not (root / "templates").is_dir():
+            raise BankError(f"{root}: no folder 'templates' here")
+
+    @cached_property
+    def paths(self) -> dict[str, Path]:
+        """Template name to its folder, in alphabetical order."""
+        found = sorted((self.root / "templates").glob("**/template.toml"))
+        names = [path.parent.name for path in found]
+        twins = {name for name in names if names.count(name) > 1}
+        if twins:
+            raise BankError(f"{self.root}: two templates share the name {sorted(twins)[0]!r}")
+        return {path.parent.name: path.parent for path in found}
+
+    @cached_property
+    def _package(self) -> str:
+        suffix = digest_of(str(self.root.resolve()).encode())[:8]
+        name = f"_quizgen_solvers_{suffix}"
+        mount(self.root / "solvers", name)
+        return name
+
+    def solver(self, name: str) -> ModuleType:
+        """Import a solver module of this bank.
+
+        Raises
+        ------
+        BankError
+            If it does not exist, or the bank has solvers of its own and is not trusted.
+        """
+        file = self.root / "solvers" / f"{name.replace('.', '/')}.py"
+        if not file.exists():
+            if self.root != builtin_root():
+                return builtin().solver(name)
+            raise BankError(f"{file}: no such solver")
+        if not self.trusted:
+            raise BankError(f"{file}: this bank brings its own Python; allow it with --trust")
+        return importlib.import_module(f"{self._package}.{name}")
+
+    def rules(self, name: str) -> Rules:
+        """Checked ``template.toml`` of a template, without loading solver or prose."""
+        if name not in self._rules:
+            self._rules[name] = read_rules(self._folder(name) / "template.toml")
+        return self._rules[name]
+
+    def template(self, name: str) -> Template:
+        """Load a template, once.
+
+        Raises
+        ------
+        BankError
+            If it is unknown or wrong; names the file and the place.
+        """
+        if name not in self._templates:
+            self._templates[name] = self._load(name)
+        return self._templates[name]
+
+    def _folder(self, name: str) -> Path:
+        if name not in self.paths:
+            raise BankError(f"unknown template {name!r}{_nearest(name, self.paths)}")
+        return self.paths[name]
+
+    def _load(self, name: str) -> Template:
+        folder = self._folder(name)
+        rules = self.rules(name)
+        files = [folder / "template.toml", *sorted(folder.glob("??.md"))]
+        chain, source = self._chain(rules)
+        texts = {path.stem: read_text(path) for path in files[1:]}
+        order = [lang for lang in LANGUAGES if lang in texts] + sorted(set(texts) - set(LANGUAGES))
+        digest = digest_of(*(path.read_bytes() for path in files), source)
+        ordered: dict[str, Text] = {lang: texts[lang] for lang in order}
+        template = Template(name, rules, chain, ordered, digest, folder)
+        try:
+            check_against_chain(template)
+        except QuizgenError as error:
+            raise BankError(str(error)) from error
+        return template
+
+    def _chain(self, rules: Rules) -> tuple[Chain, bytes]:
+        if not rules.solver:
+            return Chain({}, ()), b""
+        module = self.solver(rules.solver)
+        source = Path(str(module.__file__)).read_bytes()
+        return _chain_of(module), source
+
+    def __iter__(self) -> Iterator[Template]:
+        """All templates in alphabetical order."""
+        return (self.template(name) for name in self.paths)
+
+    def __len__(self) -> int:
+        """How many templates there are."""
+        return len(self.paths)
+
+
+@cache
+def _chain_of(module: ModuleType) -> Chain:
+    try:
+        chain: Chain = module.MODEL.chain()
+    except AttributeError as error:
+        raise BankError(f"{module.__file__}: no MODEL in this solver") from error
+    except BankError as error:
+        raise BankError(f"{module.__file__}: {error}") from error
+    return chain
+
+
+def _nearest(name: str, known: dict[str, Path]) -> str:
+    import difflib
+
+    close = difflib.get_close_matches(name, known, 3)
+    return f"; did you mean {', '.join(close)}?" if close else f" (there are {len(known)})"
+
+
+@cache
+def builtin() -> Bank:
+    """The built-in bank."""
+    return Bank(builtin_root(), trusted=True)

@@ -1,0 +1,105 @@
+"""Blueprints: small TOML files that say which questions a paper holds.
+
+::
+
+    [title]
+    en = "Mock exam"
+    bn = "..."
+    [[slot]]
+    tier = "A"            # and/or: topic = "optics", templates = ["D17a"]
+    count = 5
+"""
+
+from __future__ import annotations
+
+import tomllib
+from importlib.resources import files
+from pathlib import Path
+
+import msgspec
+
+from quizgen.errors import BlueprintError
+
+MOST_QUESTIONS = 200
+
+
+class SlotRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """A group of questions: how many, and which templates may fill them."""
+
+    count: int = 1
+    tier: str | None = None
+    topic: str | None = None
+    templates: tuple[str, ...] = ()
+
+
+class Blueprint(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """What a paper consists of."""
+
+    title: dict[str, str]
+    slot: tuple[SlotRule, ...]
+    minutes: int | None = None
+    name: str = ""
+    source: str = ""
+
+
+def shipped() -> list[str]:
+    """Names of the blueprints that come with the package."""
+    folder = files("quizgen") / "blueprints"
+    return sorted(entry.name.removesuffix(".toml") for entry in folder.iterdir()
+                  if entry.name.endswith(".toml"))  # fmt: skip
+
+
+def load(name_or_file: str) -> Blueprint:
+    """Load a shipped blueprint by name, or a file.
+
+    Raises
+    ------
+    BlueprintError
+        Naming file, key and what is allowed.
+    """
+    path = Path(name_or_file)
+    if name_or_file in shipped():
+        source = (files("quizgen") / "blueprints" / f"{name_or_file}.toml").read_text("utf-8")
+        return _convert(source, name_or_file, f"blueprint {name_or_file}")
+    try:
+        source = path.read_text(encoding="utf-8")
+    except OSError as error:
+        known = ", ".join(shipped())
+        raise BlueprintError(
+            f"no blueprint {name_or_file!r} (shipped: {known}; or the path of a TOML file)"
+        ) from error
+    except UnicodeDecodeError as error:
+        raise BlueprintError(f"{path}: {error}") from error
+    return _convert(source, path.stem, str(path))
+
+
+def _convert(source: str, name: str, where: str) -> Blueprint:
+    try:
+        blueprint = msgspec.convert(tomllib.loads(source), Blueprint)
+    except tomllib.TOMLDecodeError as error:
+        raise BlueprintError(f"{where}: not valid TOML: {error}") from error
+    except msgspec.ValidationError as error:
+        raise BlueprintError(f"{where}: {error}{_allowed(str(error))}") from error
+    _check(blueprint, where)
+    return msgspec.structs.replace(blueprint, name=name, source=source)
+
+
+def _allowed(message: str) -> str:
+    if "unknown field" not in message:
+        return ""
+    kind = SlotRule if "$.slot" in message else Blueprint
+    internal = {"name", "source"}
+    names = sorted({f.encode_name for f in msgspec.structs.fields(kind)} - internal)
+    return f" (allowed: {', '.join(names)})"
+
+
+def _check(blueprint: Blueprint, where: str) -> None:
+    if not blueprint.slot:
+        raise BlueprintError(f"{where}: at least one [[slot]] is needed")
+    for index, slot in enumerate(blueprint.slot, 1):
+        if slot.tier is not None and slot.tier not in tuple("ABCD"):
+            raise BlueprintError(f"{where}: slot {index}: tier {slot.tier!r} (allowed: A, B, C, D)")
+        if not 1 <= slot.count <= MOST_QUESTIONS:
+            raise BlueprintError(f"{where}: slot {index}: count must be 1 to {MOST_QUESTIONS}")
+    if "en" not in blueprint.title:
+        raise BlueprintError(f"{where}: title.en is missing")

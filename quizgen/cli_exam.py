@@ -1,0 +1,115 @@
+"""``quizgen exam``."""
+
+from __future__ import annotations
+
+import secrets
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from quizgen.errors import CodeError
+from quizgen.options import bank_options, open_bank
+
+if TYPE_CHECKING:
+    from quizgen.exam import Paper
+
+KEY, FORM = "key.json", "answers.toml"
+
+
+@click.command()
+@click.option("--seed", type=click.IntRange(0, 10**9), help="Number that fixes every draw.")
+@click.option("--code", help="Code of a paper: builds exactly that paper again.")
+@click.option("--blueprint", default="mock", show_default=True, help="mock, trial or a TOML file.")
+@click.option("--lang", type=click.Choice(["en", "bn", "both"]), help="Language. [default: en]")
+@click.option("--format", "formats", default="html,pdf", show_default=True, help="Outputs, by comma.")
+@click.option("--out", type=click.Path(path_type=Path), default=Path("exam"), show_default=True,
+              help="Folder to write to.")  # fmt: skip
+@click.option("--reference", is_flag=True, help="The questions with the numbers of the notes.")
+@bank_options
+def exam(**options: Any) -> None:
+    """Make a mock exam with worked solutions, answer key and a blank answer form."""
+    from quizgen.exam import form_bytes, key_bytes
+    from quizgen.files import write_all
+
+    formats = _formats(options["formats"])
+    paper = _paper(options)
+    contents = dict(_rendered(paper, formats))
+    contents[KEY] = key_bytes(paper)
+    folder: Path = options["out"]
+    kept = _filled_in(folder / FORM)
+    if not kept:
+        contents[FORM] = form_bytes(paper)
+    write_all(folder, contents)
+    _report(folder, paper, contents, kept=kept)
+
+
+def _formats(text: str) -> list[str]:
+    from quizgen.render import RENDERERS
+
+    names = [name.strip() for name in text.split(",") if name.strip()]
+    for name in names:
+        if name not in RENDERERS:
+            raise click.BadParameter(f"{name!r} (allowed: {', '.join(RENDERERS)})",
+                                     param_hint="--format")  # fmt: skip
+    return names
+
+
+def _paper(options: dict[str, Any]) -> Paper:
+    from quizgen.blueprint import load
+    from quizgen.exam import build, rebuild, reference_paper
+
+    bank = open_bank(options)
+    blueprint = load(options["blueprint"])
+    if options["code"]:
+        if options["seed"] is not None or options["lang"]:
+            raise CodeError("--code already fixes seed and language; leave --seed and --lang out")
+        named = blueprint if Path(options["blueprint"]).suffix else None
+        return rebuild(bank, options["code"], named, progress=_tell)
+    lang = options["lang"] or "en"
+    if options["reference"]:
+        return reference_paper(bank, blueprint, lang)
+    seed = secrets.randbelow(10**6) if options["seed"] is None else options["seed"]
+    return build(bank, blueprint, seed, lang, progress=_tell)
+
+
+def _tell(name: str) -> None:
+    """Progress: one mark per question, on the error stream so that output stays clean."""
+    click.echo(f" {name}", nl=False, err=True)
+
+
+def _rendered(paper: Paper, formats: list[str]) -> Iterator[tuple[str, bytes]]:
+    from quizgen.render import KINDS, render
+
+    click.echo("", err=True)
+    for output in formats:
+        for kind in KINDS:
+            name = f"{kind}.{output}"
+            click.echo(f" {name}", nl=False, err=True)
+            yield name, render(paper, kind, output)
+    click.echo("", err=True)
+
+
+def _filled_in(form: Path) -> bool:
+    """Whether a form holds anything a student typed (or cannot be read, so might)."""
+    if not form.exists():
+        return False
+    import tomllib
+
+    try:
+        table = tomllib.loads(form.read_text(encoding="utf-8"))
+        answers = table.get("answers", {}).values()
+        return any(str(value).strip() for value in answers) or bool(table["student"]["name"])
+    except (OSError, ValueError, KeyError, AttributeError):
+        return True
+
+
+def _report(folder: Path, paper: Paper, contents: dict[str, bytes], *, kept: bool) -> None:
+    for name in sorted(contents):
+        click.echo(f"  {folder / name}")
+    if kept:
+        click.echo(f"  {folder / FORM} holds answers and was left as it is")
+    click.echo(f"{len(paper.items)} questions, {float(paper.points):g} points, {paper.minutes} min")
+    click.echo(f"Code: {paper.code}   (quizgen exam --code {paper.code} makes this paper again)")
+    click.echo(f"Next: fill in {folder / FORM}, then: quizgen check {folder / KEY} {folder / FORM}")

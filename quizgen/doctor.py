@@ -1,0 +1,64 @@
+"""What must be there for papers to look right: packages, fonts, glyphs, a cache folder."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from importlib.metadata import PackageNotFoundError, version
+from importlib.resources import files
+
+from quizgen.bank import builtin
+from quizgen.errors import QuizgenError
+from quizgen.render import fonts
+
+PACKAGES = ("numpy", "sympy", "jinja2", "matplotlib", "python-flint", "mpmath", "click", "rich",
+            "msgspec", "markdown-it-py", "lark", "typst", "fonttools")  # fmt: skip
+
+Outcome = tuple[str, str, bool]
+
+
+def checks() -> Iterator[Outcome]:
+    """Yield name, outcome and whether it is fine, check by check."""
+    yield "python", sys.version.split()[0], sys.version_info >= (3, 11)
+    for package in PACKAGES:
+        try:
+            yield package, version(package), True
+        except PackageNotFoundError:
+            yield package, "not installed", False
+    yield from _fonts()
+    yield _bank()
+
+
+def _fonts() -> Iterator[Outcome]:
+    try:
+        yield "Bangla font", fonts.bangla_file().name, True
+        yield "maths font", fonts.maths_file().name, True
+        missing = fonts.missing_characters(bangla_text())
+        shown = " ".join(f"U+{ord(c):04X}" for c in sorted(missing))
+        yield "Bangla glyphs", shown or "every character has one", not missing
+        yield "font cache", str(fonts.cache_folder()), True
+    except (QuizgenError, StopIteration) as error:
+        yield "fonts", str(error), False
+
+
+def _bank() -> Outcome:
+    try:
+        count = sum(1 for _ in builtin())
+    except QuizgenError as error:
+        return "templates", str(error), False
+    return "templates", f"{count} load", count > 0
+
+
+def bangla_text() -> str:
+    """Every Bangla sentence of interface and templates."""
+    interface = [
+        entry.read_text(encoding="utf-8")
+        for entry in (files("quizgen") / "locale").iterdir()
+        if entry.name.endswith("bn.toml")
+    ]
+    prose = [
+        path.read_text(encoding="utf-8")
+        for folder in builtin().paths.values()
+        for path in folder.glob("bn.md")
+    ]
+    return "".join(interface + prose)

@@ -1,0 +1,418 @@
+"""From a template and a seed to admissible numbers.
+
+Every value is a function of (template id, version, paper seed, slot, variable, try) through
+SHA-256, so adding a template, a variable, a language or a format changes no other value. A draw is
+kept only if it meets every condition of the template *and* no known mistake would be accepted or
+could be taken for another one.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property, lru_cache
+from typing import Any
+
+import flint
+from flint import fmpq
+
+from quizgen.chain import ChainStep
+from quizgen.errors import BankError, DrawError, MathError
+from quizgen.expr import PRECISION, Compiled, compile_expr, exact, floats, names
+from quizgen.numbers import places, rational, to_float
+from quizgen.template import KeepRule, Template
+from quizgen.units import unit
+
+MAX_TRIES = 5000
+"""Tries before a template is called impossible."""
+TIE_MARGIN = 0.02
+"""A value closer than this (in units of the asked decimal) to a rounding tie is redrawn."""
+APART = 2.0
+"""Two values count as different when more than this many tolerances lie between them."""
+
+
+@dataclass(frozen=True)
+class Draw:
+    """One admissible instance of a template.
+
+    Parameters
+    ----------
+    template : Template
+    seed, slot : str
+        What it was drawn for.
+    tries : int
+        Candidates looked at, the kept one included.
+    shown : mapping of str to flint.fmpq
+        Drawn quantities in the units they are shown in.
+    words : mapping of str to str
+        Drawn phrases, by their name in the language files.
+    values : mapping of str to flint.fmpq or flint.arb
+        Every quantity of the chain in base units.
+    traps : tuple of tuple of str
+        Per part, the mistakes that give a wrong and recognisable answer here.
+    """
+
+    template: Template
+    seed: str
+    slot: str
+    tries: int
+    shown: Mapping[str, fmpq]
+    words: Mapping[str, str]
+    values: Mapping[str, Any]
+    traps: tuple[tuple[str, ...], ...] = field(default=())
+
+    def in_unit(self, name: str) -> Any:
+        """A quantity in the unit it is shown in."""
+        if name in self.shown:
+            return self.shown[name]
+        return self.values[name] / factor(self.template.units.get(name, ""))
+
+
+@lru_cache(maxsize=None)
+def factor(text: str) -> fmpq:
+    """Exact factor from a unit to base units."""
+    return rational(unit(text).factor)
+
+
+def pick(key: str, count: int) -> int:
+    """Index below ``count`` that belongs to a key, the same on every machine."""
+    return int.from_bytes(hashlib.sha256(key.encode()).digest()[:8], "big") % count
+
+
+def shuffled(key: str, items: Sequence[Any]) -> list[Any]:
+    """Deterministic permutation that belongs to a key."""
+    ranked = sorted(range(len(items)), key=lambda i: hashlib.sha256(f"{key}/{i}".encode()).digest())
+    return [items[i] for i in ranked]
+
+
+@dataclass(frozen=True)
+class _Variable:
+    """One drawn quantity: its candidates, or the formula that derives it."""
+
+    name: str
+    choices: tuple[fmpq, ...]
+    words: tuple[str, ...]
+    formula: Compiled | None
+
+
+@dataclass(frozen=True)
+class _Condition:
+    """A condition over shown values, and the quantities it needs."""
+
+    text: str
+    test: Callable[[Mapping[str, Any]], bool]
+    needs: frozenset[str]
+
+
+class Plan:
+    """Everything about drawing a template that does not depend on the seed."""
+
+    def __init__(self, template: Template) -> None:
+        self.template = template
+        self.variables = [self._variable(name) for name in template.rules.draw]
+        conditions = list(self._conditions())
+        drawn = {v.name for v in self.variables}
+        self.early = [c for c in conditions if c.needs <= drawn]
+        self.late = [c for c in conditions if not c.needs <= drawn]
+        self.parts = [PartPlan(template, index) for index in range(len(template.rules.part))]
+
+    def _variable(self, name: str) -> _Variable:
+        rule = self.template.rules.draw[name]
+        if rule.formula:
+            formula = compile_expr(self.template.formula(rule.formula), exact())
+            return _Variable(name, (), (), formula)
+        return _Variable(name, candidates(rule.pick, rule.range, rule.skip), rule.words, None)
+
+    def _conditions(self) -> Iterator[_Condition]:
+        for text in self.template.rules.where:
+            expr = self.template.formula(text)
+            yield _Condition(text, compile_expr(expr, exact()), names(expr))
+        for name, rule in self.template.rules.keep.items():
+            test = keep_test(rule)
+            yield _Condition(
+                f"keep.{name}", lambda env, n=name, t=test: t(env[n]), frozenset({name})
+            )
+
+    def candidate(self, stem: str, attempt: int) -> tuple[dict[str, fmpq], dict[str, str]]:
+        """Values of one try, before any condition."""
+        shown: dict[str, fmpq] = {}
+        words: dict[str, str] = {}
+        for variable in self.variables:
+            if variable.formula is not None:
+                shown[variable.name] = variable.formula(shown)
+            elif variable.words:
+                index = pick(f"{stem}/{variable.name}/{attempt}", len(variable.words))
+                words[variable.name] = variable.words[index]
+            else:
+                index = pick(f"{stem}/{variable.name}/{attempt}", len(variable.choices))
+                shown[variable.name] = variable.choices[index]
+        return shown, words
+
+    @cached_property
+    def base_factors(self) -> dict[str, fmpq]:
+        """Given quantity to the factor from its shown unit to base units."""
+        return {n: factor(self.template.units.get(n, "")) for n in self.template.chain.given}
+
+    def solve(self, shown: Mapping[str, fmpq]) -> dict[str, Any]:
+        """Run the chain on shown values."""
+        return self.template.chain.solve({n: shown[n] * f for n, f in self.base_factors.items()})
+
+    def shown_env(self, shown: Mapping[str, fmpq], values: Mapping[str, Any]) -> dict[str, Any]:
+        """Drawn and solved quantities in shown units."""
+        solved = {
+            step.name: values[step.name] / factor(step.unit) if step.unit else values[step.name]
+            for step in self.template.chain.steps
+        }
+        return {**solved, **shown}
+
+
+@lru_cache(maxsize=None)
+def candidates(
+    listed: tuple[Any, ...], span: tuple[Any, ...], skip: tuple[Any, ...]
+) -> tuple[fmpq, ...]:
+    """The values a rule allows, in order."""
+    if listed:
+        return tuple(rational(str(v)) for v in listed)
+    if not span:
+        return ()
+    first, last, step = (Fraction(str(v)) for v in span)
+    left_out = {Fraction(str(v)) for v in skip}
+    count = int((last - first) / step) + 1
+    return tuple(rational(first + i * step) for i in range(count) if first + i * step not in left_out)
+
+
+def keep_test(rule: KeepRule) -> Callable[[Any], bool]:
+    """Compile a keep rule into a test of one value."""
+    tests: list[Callable[[Any], bool]] = []
+    if rule.min is not None:
+        tests.append(lambda v, least=rational(str(rule.min)): bool(v >= least))
+    if rule.max is not None:
+        tests.append(lambda v, most=rational(str(rule.max)): bool(v <= most))
+    if rule.multiple is not None:
+        tests.append(lambda v, m=rational(str(rule.multiple)): isinstance(v, fmpq) and (v / m).q == 1)
+    if rule.decimals is not None:
+        tests.append(lambda v, d=rule.decimals: _terminates(v, d))
+    if rule.denominator is not None:
+        tests.append(lambda v, d=rule.denominator: isinstance(v, fmpq) and v.q <= d)
+    if rule.skip:
+        left_out = {rational(str(v)) for v in rule.skip}
+        tests.append(lambda v: not (isinstance(v, fmpq) and v in left_out))
+    return lambda value: all(test(value) for test in tests)
+
+
+def _terminates(value: Any, decimals: int) -> bool:
+    count = places(value) if isinstance(value, fmpq) else None
+    return count is not None and count <= decimals
+
+
+def answer_names(answer: Mapping[str, Any]) -> tuple[str, ...]:
+    """Chain quantities that an answer consists of."""
+    of = answer.get("of", ())
+    if isinstance(of, str):
+        return (of,)
+    return tuple(of.values()) if isinstance(of, Mapping) else tuple(of)
+
+
+class PartPlan:
+    """What must hold for one part so that no wrong method scores."""
+
+    def __init__(self, template: Template, index: int) -> None:
+        rules = template.rules
+        self.answer = rules.part[index].answer
+        self.of = answer_names(self.answer)
+        unknown = set(self.of) - set(template.units)
+        if unknown:
+            raise BankError(
+                f"{template.path / 'template.toml'}: part {index + 1}: unknown {sorted(unknown)}"
+            )
+        self.known = {n for part in rules.part[:index] for n in answer_names(part.answer)}
+        needed = frozenset().union(
+            *(template.chain.needs(n, self.known - {n}) for n in self.of), frozenset()
+        )
+        self.steps = tuple(step for step in template.chain.steps if step.name in needed)
+        self.factors = tuple(to_float(factor(self.unit_of(template, n))) for n in self.of)
+        self.traps = {
+            trap: _float_plan(template, wrong)
+            for trap, wrong in template.chain.traps.items()
+            if trap not in rules.drop
+            and self._concerns(template, wrong, needed)
+        }
+        self.may_vanish = frozenset(rules.may_vanish)
+
+    def _concerns(
+        self, template: Template, wrong: tuple[ChainStep, ...], needed: frozenset[str]
+    ) -> bool:
+        changed = {name for name, _ in template.chain._plan(wrong)}  # noqa: SLF001 - same package
+        return bool({s.name for s in wrong} & needed) and bool(changed & set(self.of))
+
+    def unit_of(self, template: Template, name: str) -> str:
+        """Unit an answer is given in."""
+        asked = self.answer.get("unit")
+        return str(asked) if asked is not None else template.units.get(name, "")
+
+    def tolerance(self, key: float) -> float:
+        """Half-width of the accepted interval, seen from outside (never too small)."""
+        answer = self.answer
+        if "abs" in answer:
+            return float(Fraction(str(answer["abs"])))
+        if "rel" in answer:
+            return float(Fraction(str(answer["rel"]))) * abs(key)
+        if "decimals" in answer:
+            return 10.0 ** -int(answer["decimals"])
+        if "sigfigs" in answer:
+            return abs(key) * 10.0 ** (1 - int(answer["sigfigs"]))
+        return min(0.005, 0.01 * abs(key))
+
+    def check(self, env: Mapping[str, float], *, lenient: bool) -> tuple[str, ...] | str:
+        """Names of the usable traps, or the reason to redraw."""
+        if not self.of:
+            return ()
+        key = tuple(env[n] / f for n, f in zip(self.of, self.factors, strict=True))
+        widths = tuple(APART * self.tolerance(k) for k in key)
+        if not lenient and self._near_tie(key):
+            return "rounding tie"
+        seen: dict[str, tuple[float, ...]] = {"the key": key}
+        for trap, plan in self.traps.items():
+            value = self._trapped(plan, env)
+            if value is None:
+                continue
+            twin = next((n for n, v in seen.items() if _close(value, v, widths)), None)
+            if twin is None:
+                seen[trap] = value
+            elif not (lenient or (trap in self.may_vanish and _same(value, seen[twin]))):
+                return f"trap {trap!r} cannot be told from {twin!r}"
+        return tuple(name for name in seen if name != "the key")
+
+    def _near_tie(self, key: tuple[float, ...]) -> bool:
+        if "decimals" not in self.answer:
+            return False
+        scale = 10.0 ** int(self.answer["decimals"])
+        return any(abs((abs(k) * scale) % 1.0 - 0.5) < TIE_MARGIN for k in key)
+
+    def _trapped(
+        self, plan: list[tuple[str, Compiled]], env: Mapping[str, float]
+    ) -> tuple[float, ...] | None:
+        changed = dict(env)
+        try:
+            for name, compiled in plan:
+                changed[name] = compiled(changed)
+        except (ZeroDivisionError, ValueError, OverflowError):
+            return None
+        return tuple(changed[n] / f for n, f in zip(self.of, self.factors, strict=True))
+
+
+def _float_plan(template: Template, wrong: tuple[ChainStep, ...]) -> list[tuple[str, Compiled]]:
+    swapped = {step.name: step.expr for step in wrong}
+    chain = template.chain
+    order = [name for name, _ in chain._plan(wrong)]  # noqa: SLF001 - same package
+    return [
+        (name, compile_expr(swapped.get(name, chain.by_name[name].expr), floats()))
+        for name in order
+    ]
+
+
+def _close(a: tuple[float, ...], b: tuple[float, ...], widths: tuple[float, ...]) -> bool:
+    return all(abs(x - y) <= w for x, y, w in zip(a, b, widths, strict=True))
+
+
+def _same(a: tuple[float, ...], b: tuple[float, ...]) -> bool:
+    return all(abs(x - y) <= 1e-9 * max(abs(x), abs(y), 1e-300) for x, y in zip(a, b, strict=True))
+
+
+_PLANS: dict[str, Plan] = {}
+
+
+def plan_of(template: Template) -> Plan:
+    """The drawing plan of a template, built once per content."""
+    key = f"{template.id}/{template.digest}"
+    if key not in _PLANS:
+        _PLANS[key] = Plan(template)
+    return _PLANS[key]
+
+
+def admissible(
+    plan: Plan, shown: Mapping[str, fmpq], *, lenient: bool = False
+) -> tuple[dict[str, Any], tuple[tuple[str, ...], ...]] | str:
+    """Solve a candidate; its values and traps per part, or the reason to reject it."""
+    try:
+        for condition in () if lenient else plan.early:
+            if not condition.test(shown):
+                return condition.text
+        values = plan.solve(shown)
+        if plan.late and not lenient:
+            with flint.ctx.workprec(PRECISION):
+                env = plan.shown_env(shown, values)
+                for condition in plan.late:
+                    if not condition.test(env):
+                        return condition.text
+    except (MathError, ZeroDivisionError) as error:
+        return f"no value: {error}"
+    approximate = {name: to_float(value) for name, value in values.items()}
+    traps = []
+    for part in plan.parts:
+        usable = part.check(approximate, lenient=lenient)
+        if isinstance(usable, str):
+            return usable
+        traps.append(usable)
+    return values, tuple(traps)
+
+
+def draw(template: Template, seed: str | int, slot: str | int = "0") -> Draw:
+    """Draw an admissible instance.
+
+    Parameters
+    ----------
+    template : Template
+    seed, slot : str or int
+        The paper's seed and the question's place in it.
+
+    Raises
+    ------
+    DrawError
+        If no try within ``MAX_TRIES`` is admissible; names the condition met most often.
+    """
+    plan = plan_of(template)
+    stem = f"{template.id}/{template.rules.version}/{seed}/{slot}"
+    reasons: Counter[str] = Counter()
+    for attempt in range(MAX_TRIES):
+        shown, words = plan.candidate(stem, attempt)
+        result = admissible(plan, shown)
+        if not isinstance(result, str):
+            values, traps = result
+            return Draw(template, str(seed), str(slot), attempt + 1, shown, words, values, traps)
+        reasons[result] += 1
+    worst, count = reasons.most_common(1)[0]
+    raise DrawError(
+        f"template {template.id!r}: no admissible draw in {MAX_TRIES} tries; "
+        f"{worst!r} rejected {count} of them"
+    )
+
+
+def reference(template: Template) -> Draw:
+    """Instance with the numbers printed in the notes; mistakes that coincide there are left out.
+
+    Raises
+    ------
+    DrawError
+        If the template names no reference, or it has no solution.
+    """
+    given = template.rules.reference
+    if given is None:
+        raise DrawError(f"template {template.id!r} has no reference instance")
+    plan = plan_of(template)
+    shown, words = plan.candidate(f"{template.id}/reference", 0)
+    for variable in plan.variables:
+        if variable.name in given and variable.words:
+            words[variable.name] = str(given[variable.name])
+        elif variable.name in given:
+            shown[variable.name] = rational(str(given[variable.name]))
+        elif variable.formula is not None:
+            shown[variable.name] = variable.formula(shown)
+    result = admissible(plan, shown, lenient=True)
+    if isinstance(result, str):
+        raise DrawError(f"template {template.id!r}: reference instance: {result}")
+    values, traps = result
+    return Draw(template, "reference", "0", 1, shown, words, values, traps)

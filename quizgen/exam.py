@@ -1,0 +1,271 @@
+"""From a blueprint and a seed to a paper, and from a paper's code back to the same paper."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from quizgen.bank import LANGUAGES, Bank
+from quizgen.blueprint import Blueprint, SlotRule, load
+from quizgen.draw import Draw, draw
+from quizgen.errors import BlueprintError, CodeError, DrawError
+from quizgen.question import Key, Question, identity, instance, put_into_words
+from quizgen.template import Template
+
+FORMAT = "quizgen-key/1"
+ENGINE = "1"
+"""Rises when the same code would give another paper; part of every code."""
+LARGEST_SEED = 10**9
+REDRAWS = 50
+"""Tries to avoid the same numbers twice in one paper."""
+
+
+@dataclass(frozen=True)
+class Item:
+    """One question of a paper in every language of the paper."""
+
+    number: str
+    questions: tuple[Question, ...]
+    keys: tuple[Key, ...]
+
+    @property
+    def points(self) -> Fraction:
+        """Marks of the question."""
+        return self.questions[0].points
+
+
+@dataclass(frozen=True)
+class Paper:
+    """A paper: its questions, and the code that rebuilds it."""
+
+    code: str
+    blueprint: Blueprint
+    langs: tuple[str, ...]
+    items: tuple[Item, ...]
+
+    @property
+    def points(self) -> Fraction:
+        """Marks of all questions."""
+        return sum((item.points for item in self.items), Fraction(0))
+
+    @property
+    def minutes(self) -> int:
+        """Working time."""
+        return self.blueprint.minutes or sum(item.questions[0].minutes for item in self.items)
+
+    def title(self, lang: str) -> str:
+        """Title in a language, English where the blueprint has no other."""
+        return self.blueprint.title.get(lang) or self.blueprint.title["en"]
+
+
+def languages(choice: str) -> tuple[str, ...]:
+    """Languages of ``en``, ``bn`` or ``both``."""
+    return LANGUAGES if choice == "both" else (choice,)
+
+
+def parse_code(code: str) -> tuple[str, int, str, str]:
+    """Take a paper's code apart: blueprint, seed, languages, digest.
+
+    Raises
+    ------
+    CodeError
+        If it is not a code.
+    """
+    match = re.fullmatch(r"(.+)-(\d{1,10})-(en|bn|both)-([0-9a-f]{6})", code.strip())
+    if match is None:
+        raise CodeError(f"{code!r} is not a paper's code (like mock-1234-en-0a1b2c)")
+    return match[1], int(match[2]), match[3], match[4]
+
+
+def build(
+    bank: Bank,
+    blueprint: Blueprint,
+    seed: int,
+    choice: str = "en",
+    *,
+    figures: bool = True,
+    progress: Callable[[str], None] = lambda _name: None,
+) -> Paper:
+    """Build a paper.
+
+    Parameters
+    ----------
+    bank : Bank
+    blueprint : Blueprint
+    seed : int
+    choice : str
+        ``en``, ``bn`` or ``both``.
+    figures : bool
+        Whether to draw the figures.
+    progress : callable
+        Told each question's template as it is done.
+
+    Raises
+    ------
+    BlueprintError
+        If no template fits a slot.
+    """
+    langs = languages(choice)
+    drawn = list(_draws(bank, blueprint, seed))
+    items = []
+    for number, one in enumerate(drawn, 1):
+        pairs = [put_into_words(one, lang, number=str(number), figures=figures) for lang in langs]
+        items.append(Item(str(number), tuple(q for q, _ in pairs), tuple(k for _, k in pairs)))
+        progress(one.template.id)
+    code = f"{blueprint.name}-{seed}-{choice}-{_digest(blueprint, drawn)}"
+    return Paper(code, blueprint, langs, tuple(items))
+
+
+def rebuild(bank: Bank, code: str, blueprint: Blueprint | None = None, **options: Any) -> Paper:
+    """Build the paper of a code again.
+
+    Raises
+    ------
+    CodeError
+        If the templates behind it have changed since.
+    """
+    name, seed, choice, _ = parse_code(code)
+    paper = build(bank, blueprint or load(name), seed, choice, **options)
+    if paper.code != code.strip():
+        raise CodeError(
+            f"{code} was made with other templates or another version: "
+            f"this installation would make {paper.code}"
+        )
+    return paper
+
+
+def single(template: Template, seed: str | int, lang: str, *, figures: bool = True) -> Paper:
+    """A paper of one question, for looking at a template."""
+    pair = put_into_words(instance(template, seed), lang, figures=figures)
+    title = {"en": template.id}
+    blueprint = Blueprint(title, (SlotRule(templates=(template.id,)),), name=template.id)
+    return Paper(f"{template.id}-{seed}", blueprint, (lang,), (Item("1", (pair[0],), (pair[1],)),))
+
+
+def reference_paper(bank: Bank, blueprint: Blueprint, choice: str) -> Paper:
+    """The paper with the numbers printed in the notes."""
+    drawn = [instance(t, "reference") for t in _chosen(bank, blueprint, 0)
+             if t.rules.reference is not None]  # fmt: skip
+    langs = languages(choice)
+    items = []
+    for number, one in enumerate(drawn, 1):
+        pairs = [put_into_words(one, lang, number=str(number)) for lang in langs]
+        items.append(Item(str(number), tuple(q for q, _ in pairs), tuple(k for _, k in pairs)))
+    code = f"{blueprint.name}-0-{choice}-{_digest(blueprint, drawn)}"
+    return Paper(code, blueprint, langs, tuple(items))
+
+
+def _digest(blueprint: Blueprint, drawn: list[Draw]) -> str:
+    total = hashlib.sha256(f"{ENGINE}\n{blueprint.source}".encode())
+    for one in drawn:
+        total.update(f"{one.template.id}:{one.template.digest}\n".encode())
+    return total.hexdigest()[:6]
+
+
+def _draws(bank: Bank, blueprint: Blueprint, seed: int) -> Iterator[Draw]:
+    seen: set[str] = set()
+    for place, template in enumerate(_chosen(bank, blueprint, seed), 1):
+        for again in range(REDRAWS):
+            one = draw(template, seed, f"{place}.{again}" if again else place)
+            if identity(one) not in seen:
+                break
+        else:
+            raise DrawError(f"template {template.id!r}: no further distinct instance")
+        seen.add(identity(one))
+        yield one
+
+
+def _chosen(bank: Bank, blueprint: Blueprint, seed: int) -> Iterator[Any]:
+    """Templates in order: each used once before any is used again."""
+    uses: dict[str, int] = {}
+    for index, slot in enumerate(blueprint.slot, 1):
+        fitting = _fitting(bank, slot, index)
+        for place in range(slot.count):
+            ranked = sorted(
+                fitting, key=lambda name: (uses.get(name, 0), _rank(seed, index, place, name))
+            )
+            uses[ranked[0]] = uses.get(ranked[0], 0) + 1
+            yield bank.template(ranked[0])
+
+
+def _rank(seed: int, index: int, place: int, name: str) -> bytes:
+    return hashlib.sha256(f"choose/{seed}/{index}/{place}/{name}".encode()).digest()
+
+
+def _fitting(bank: Bank, slot: SlotRule, index: int) -> list[str]:
+    names = list(slot.templates) or list(bank.paths)
+    for name in slot.templates:
+        bank.rules(name)
+    fitting = [
+        name for name in names
+        if (slot.tier is None or bank.rules(name).tier == slot.tier)
+        and (slot.topic is None or bank.rules(name).topic == slot.topic)
+    ]  # fmt: skip
+    if not fitting:
+        raise BlueprintError(
+            f"slot {index}: no template has tier {slot.tier or 'any'} and topic "
+            f"{slot.topic or 'any'}"
+        )
+    return fitting
+
+
+def key_table(paper: Paper) -> dict[str, Any]:
+    """The answer key as plain JSON: everything that marking needs."""
+    return {
+        "format": FORMAT,
+        "code": paper.code,
+        "title": {lang: paper.title(lang) for lang in paper.langs},
+        "langs": list(paper.langs),
+        "questions": [_key_entry(item) for item in paper.items],
+    }
+
+
+def _key_entry(item: Item) -> dict[str, Any]:
+    question, key = item.questions[0], item.keys[0]
+    return {
+        "number": item.number,
+        "template": key.template,
+        "identity": key.identity,
+        "topic": question.topic,
+        "tier": question.tier,
+        "title": {q.lang: q.title for q in item.questions},
+        "points": str(question.points),
+        "chain": key.chain,
+        "parts": [
+            {"id": part.field.id, "points": str(part.points), "spec": spec}
+            for part, spec in zip(question.parts, key.specs, strict=True)
+        ],
+    }
+
+
+def key_bytes(paper: Paper) -> bytes:
+    """``key.json``."""
+    text = json.dumps(key_table(paper), ensure_ascii=False, indent=1, sort_keys=True)
+    return (text + "\n").encode()
+
+
+def form_bytes(paper: Paper) -> bytes:
+    """``answers.toml``: a blank form."""
+    lines = [
+        f"# {paper.title(paper.langs[0])} - {paper.code}",
+        f"code = {json.dumps(paper.code)}",
+        "",
+        "[student]",
+        'name = ""',
+        f'lang = "{paper.langs[0]}"',
+        'decimal = "auto"   # auto, point or comma',
+        "",
+        "[answers]",
+    ]
+    for item in paper.items:
+        question = item.questions[0]
+        lines.append(f"# {item.number}. {question.title}")
+        for part in question.parts:
+            hint = " ".join(part.field.hints)
+            lines.append(f'"{part.field.id}" = ""' + (f"   # {hint}" if hint else ""))
+    return ("\n".join(lines) + "\n").encode()

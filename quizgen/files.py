@@ -1,0 +1,55 @@
+"""Writing files whole or not at all."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import secrets
+from collections.abc import Mapping
+from pathlib import Path
+
+from quizgen.errors import RenderError
+
+
+def write_all(folder: Path, contents: Mapping[str, bytes]) -> list[Path]:
+    """Write several files so that either all of them appear or none changes.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        Made if it does not exist.
+    contents : mapping of str to bytes
+        File name to content.
+
+    Raises
+    ------
+    RenderError
+        If the folder cannot be written (read-only, full); nothing is left behind.
+    """
+    mark = f".{os.getpid()}-{secrets.token_hex(4)}.part"
+    staged: dict[Path, Path] = {}
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, data in contents.items():
+            target = folder / name
+            if target.is_dir():
+                raise RenderError(f"{target}: is a folder")
+            temporary = folder / f"{name}{mark}"
+            staged[target] = temporary
+            _write_synced(temporary, data)
+        for target, temporary in staged.items():
+            temporary.replace(target)
+    except OSError as error:
+        raise RenderError(f"{error.filename or folder}: {error.strerror or error}") from error
+    finally:
+        for temporary in staged.values():
+            with contextlib.suppress(OSError):
+                temporary.unlink(missing_ok=True)
+    return list(staged)
+
+
+def _write_synced(path: Path, data: bytes) -> None:
+    with path.open("wb") as stream:
+        stream.write(data)
+        stream.flush()
+        os.fsync(stream.fileno())

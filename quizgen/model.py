@@ -1,0 +1,107 @@
+"""What a solver file provides: quantities, steps and traps, written once in SymPy.
+
+A solver speaks mathematics only. ``Model.chain()`` turns it into the SymPy-free ``Chain`` that
+everything downstream runs.
+
+Examples
+--------
+>>> from sympy import evaluate, symbols
+>>> f, X, Z, x = symbols("f X Z x")
+>>> with evaluate(False):
+...     MODEL = Model(given={f: "mm", X: "m", Z: "m"}, steps=(Step(x, f * X / Z, "mm"),))
+>>> MODEL.chain().steps[0].name
+'x'
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from quizgen.chain import Chain, ChainStep
+from quizgen.errors import BankError
+from quizgen.expr import names
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One step of a derivation.
+
+    Parameters
+    ----------
+    symbol : sympy.Symbol
+        The quantity that the step defines.
+    expr : sympy.Expr
+        Its formula, built under ``evaluate(False)`` so that terms print in the order written.
+    unit : str
+        The unit in which the quantity is shown; empty for pure numbers.
+    """
+
+    symbol: Any
+    expr: Any
+    unit: str = ""
+
+
+@dataclass(frozen=True)
+class Model:
+    """A chain of steps with the mistakes that are known to happen in it.
+
+    Parameters
+    ----------
+    given : mapping of sympy.Symbol to str
+        Given quantities and the unit each is usually shown in.
+    steps : tuple of Step
+        In order of solution.
+    traps : mapping of str to Step or tuple of Step
+        Mistake name to the wrong step (or steps) put in place of the right one.
+    """
+
+    given: Mapping[Any, str]
+    steps: tuple[Step, ...]
+    traps: Mapping[str, Step | tuple[Step, ...]] = field(default_factory=dict)
+
+    def chain(self) -> Chain:
+        """Convert to formula trees.
+
+        Raises
+        ------
+        BankError
+            If a step uses a quantity that is neither given nor defined before it.
+        """
+        given = {symbol.name: unit for symbol, unit in self.given.items()}
+        steps = tuple(_convert(step) for step in self.steps)
+        traps = {
+            name: tuple(_convert(s) for s in (wrong if isinstance(wrong, tuple) else (wrong,)))
+            for name, wrong in self.traps.items()
+        }
+        _check_order(given, steps, traps)
+        return Chain(given, steps, traps)
+
+
+def _convert(step: Step) -> ChainStep:
+    from quizgen.formula.from_sympy import convert
+
+    return ChainStep(step.symbol.name, convert(step.expr), step.unit)
+
+
+def _check_order(
+    given: Mapping[str, str],
+    steps: tuple[ChainStep, ...],
+    traps: Mapping[str, tuple[ChainStep, ...]],
+) -> None:
+    known = set(given)
+    before: dict[str, set[str]] = {}
+    for step in steps:
+        missing = names(step.expr) - known
+        if missing:
+            raise BankError(f"step {step.name!r} uses {sorted(missing)}, not defined before it")
+        before[step.name] = set(known)
+        known.add(step.name)
+    for trap, wrong in traps.items():
+        for step in wrong:
+            if step.name not in before:
+                raise BankError(f"trap {trap!r} replaces {step.name!r}, which is not a step")
+            missing = names(step.expr) - before[step.name]
+            if missing:
+                raise BankError(f"trap {trap!r} uses {sorted(missing)}, not defined before it")

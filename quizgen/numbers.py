@@ -1,0 +1,134 @@
+"""Numbers as they are shown: exact where possible, certified where rounded.
+
+Rounding is half away from zero, as every stem promises, and is decided on exact rationals or on
+balls that exclude a tie; binary floating point never decides a digit.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+import flint
+from flint import arb, fmpq, fmpz
+
+from quizgen.errors import Undecided
+
+MINUS = "\u2212"
+LONGEST_DECIMAL = 6
+"""A terminating decimal with more places than this is shown as a fraction or rounded."""
+LARGEST_DENOMINATOR = 9999
+
+
+def rational(value: int | str | Fraction) -> fmpq:
+    """Make an exact rational from an integer, ``"1/500"`` or a decimal text."""
+    fraction = Fraction(value)
+    return fmpq(fraction.numerator, fraction.denominator)
+
+
+def is_exact(value: Any) -> bool:
+    """Whether a value of the exact field is a rational."""
+    return isinstance(value, fmpq)
+
+
+def to_float(value: Any) -> float:
+    """Nearest float of a rational or of a ball's midpoint."""
+    return int(value.p) / int(value.q) if isinstance(value, fmpq) else float(value)
+
+
+def round_to(value: Any, decimals: int) -> fmpq:
+    """Round to ``decimals`` places, half away from zero, certified.
+
+    Raises
+    ------
+    Undecided
+        If a ball is too wide to tell the last digit.
+    """
+    scale = fmpq(10) ** decimals
+    half = fmpq(1, 2)
+    with flint.ctx.workprec(400):
+        scaled = abs(value) * scale + half
+        whole = fmpz(scaled.floor()) if is_exact(value) else scaled.floor().unique_fmpz()
+    if whole is None:
+        raise Undecided("the last digit cannot be certified")
+    result = fmpq(whole) / scale
+    return -result if value < 0 else result
+
+
+def magnitude(value: Any) -> int:
+    """Power of ten of the leading digit: 0 for 6.7, -4 for 0.00050505."""
+    number = abs(to_float(value))
+    if number == 0:
+        return 0
+    guess = int(f"{number:e}".split("e")[1])
+    exact = rational(Fraction(10) ** guess)
+    if abs(value) < exact:
+        return guess - 1
+    return guess + 1 if abs(value) >= exact * 10 else guess
+
+
+def decimals_for(value: Any, figures: int) -> int:
+    """How many decimal places show ``figures`` significant figures of a value."""
+    return max(figures - 1 - magnitude(value), 0)
+
+
+def places(value: fmpq) -> int | None:
+    """Decimal places of a terminating decimal, or None if it does not terminate."""
+    q, twos, fives = int(value.q), 0, 0
+    while q % 2 == 0:
+        q, twos = q // 2, twos + 1
+    while q % 5 == 0:
+        q, fives = q // 5, fives + 1
+    return max(twos, fives) if q == 1 else None
+
+
+def decimal_text(value: fmpq, decimals: int | None = None, *, minus: str = MINUS) -> str:
+    """Write a terminating decimal, with exactly ``decimals`` places if given."""
+    count = places(value) if decimals is None else decimals
+    if count is None:
+        raise ValueError("this rational has no finite decimal form")
+    scaled = abs(value) * fmpq(10) ** count
+    digits = str(int(scaled.p)).rjust(count + 1, "0")
+    whole, part = (digits[:-count], digits[-count:]) if count else (digits, "")
+    sign = minus if value < 0 else ""
+    return f"{sign}{whole}.{part}" if part else f"{sign}{whole}"
+
+
+def fraction_text(value: fmpq, *, minus: str = MINUS) -> str:
+    """Write a rational as ``p/q``."""
+    sign = minus if value < 0 else ""
+    return f"{sign}{abs(int(value.p))}/{int(value.q)}"
+
+
+def short_decimal(value: Any) -> bool:
+    """Whether a value is a rational with a short terminating decimal."""
+    if not is_exact(value):
+        return False
+    count = places(value)
+    return count is not None and count <= LONGEST_DECIMAL
+
+
+def exact_text(value: Any, *, minus: str = MINUS) -> str | None:
+    """The exact value as text: a short decimal, else a readable fraction, else None."""
+    if short_decimal(value):
+        return decimal_text(value, minus=minus)
+    if is_exact(value) and int(value.q) <= LARGEST_DENOMINATOR:
+        return fraction_text(value, minus=minus)
+    return None
+
+
+def rounded_text(
+    value: Any, *, decimals: int | None = None, figures: int = 4, minus: str = MINUS
+) -> str:
+    """Round for showing: to ``decimals`` places, or to ``figures`` significant figures."""
+    count = decimals_for(value, figures) if decimals is None else decimals
+    return decimal_text(round_to(value, count), count, minus=minus)
+
+
+def key_text(value: Any) -> str:
+    """The value as stored in a key: an exact rational, or 40 certified digits."""
+    if is_exact(value):
+        whole = int(value.q) == 1
+        return str(int(value.p)) if whole else fraction_text(value, minus="-")
+    with flint.ctx.workprec(400):
+        return arb(value).str(40, radius=False, condense=0)

@@ -1,0 +1,117 @@
+"""A paper as one self-contained HTML page: MathML, embedded fonts, no network."""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+import jinja2
+from markupsafe import Markup, escape
+
+from quizgen import formula
+from quizgen.exam import Paper
+from quizgen.locale import word
+from quizgen.render import fonts
+from quizgen.solution import Maths
+from quizgen.text import Code, CodeBlock, Items, Paragraph, Styled, Table, Words
+
+
+def inline(parts: Any, lang: str) -> Markup:
+    """Inlines as HTML."""
+    if isinstance(parts, tuple):
+        return Markup("").join(inline(part, lang) for part in parts)
+    if isinstance(parts, Words):
+        return escape(parts.text)
+    if isinstance(parts, Maths):
+        return Markup(formula.mathml(parts.node, lang))
+    if isinstance(parts, Code):
+        return Markup("<code>{}</code>").format(parts.text)
+    if isinstance(parts, Styled):
+        return Markup("<{0}>{1}</{0}>").format(Markup(parts.style), inline(parts.children, lang))
+    raise TypeError(type(parts).__name__)
+
+
+def block(part: Any, lang: str) -> Markup:
+    """A block as HTML."""
+    if isinstance(part, Paragraph):
+        return Markup("<p>{}</p>").format(inline(part.children, lang))
+    if isinstance(part, CodeBlock):
+        return Markup('<pre tabindex="0"><code>{}</code></pre>').format(part.text)
+    if isinstance(part, Items):
+        tag = Markup("ol" if part.ordered else "ul")
+        items = Markup("").join(
+            Markup("<li>{}</li>").format(blocks(item, lang, tight=True)) for item in part.items
+        )
+        return Markup("<{0}>{1}</{0}>").format(tag, items)
+    if isinstance(part, Table):
+        return _table(part, lang)
+    raise TypeError(type(part).__name__)
+
+
+def _table(part: Table, lang: str) -> Markup:
+    def row(cells: Any, tag: str) -> Markup:
+        return Markup("<tr>{}</tr>").format(
+            Markup("").join(
+                Markup("<{0}>{1}</{0}>").format(Markup(tag), inline(c, lang)) for c in cells
+            )
+        )
+
+    body = Markup("").join(row(cells, "td") for cells in part.rows)
+    return Markup("<table><thead>{}</thead><tbody>{}</tbody></table>").format(
+        row(part.head, "th"), body
+    )
+
+
+def blocks(parts: Any, lang: str, *, tight: bool = False) -> Markup:
+    """Blocks as HTML; ``tight`` drops the paragraph around a single sentence."""
+    if tight and len(parts) == 1 and isinstance(parts[0], Paragraph):
+        return inline(parts[0].children, lang)
+    return Markup("").join(block(part, lang) for part in parts)
+
+
+def display(maths: Maths, lang: str) -> Markup:
+    """A worked line on its own."""
+    return Markup(formula.mathml(maths.node, lang, display=True))
+
+
+@cache
+def _environment() -> jinja2.Environment:
+    environment = jinja2.Environment(
+        loader=jinja2.PackageLoader("quizgen", "pages"),
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        undefined=jinja2.StrictUndefined,
+    )
+    environment.globals.update(
+        inline=inline, blocks=blocks, display=display, word=word, svg=lambda figure: Markup(figure.svg.decode())
+    )
+    return environment
+
+
+@cache
+def _style() -> str:
+    return (files("quizgen") / "pages" / "paper.css").read_text(encoding="utf-8")
+
+
+def render(paper: Paper, kind: str) -> bytes:
+    """Render a paper as an HTML page.
+
+    Parameters
+    ----------
+    paper : Paper
+    kind : str
+        ``exam`` or ``solutions``.
+    """
+    page = _environment().get_template("paper.html.j2").render(
+        paper=paper,
+        kind=kind,
+        main=paper.langs[0],
+        style=Markup(_style()),
+        maths_font=fonts.maths_uri(),
+        bangla_fonts={400: fonts.bangla_uri(), 700: fonts.bangla_uri("Bold")}
+        if "bn" in paper.langs
+        else {},
+    )
+    return page.encode()

@@ -1,0 +1,331 @@
+"""A paper as a tagged PDF (PDF/UA-1), typeset by Typst in this process."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from datetime import UTC, datetime
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+from quizgen import formula
+from quizgen.errors import RenderError
+from quizgen.exam import Item, Paper
+from quizgen.locale import word
+from quizgen.question import Field, Part, Question
+from quizgen.render import fonts
+from quizgen.solution import Line, Maths, PartSolution
+from quizgen.text import Code, CodeBlock, Items, Paragraph, Styled, Table, Words
+
+STANDARD = "ua-1"
+MOMENT = datetime(2000, 1, 1, tzinfo=UTC)
+"""The date written into every file: the same paper is the same bytes on any day."""
+ANSWER_LINES = {"number": 1, "angle": 1, "quantity": 1, "point": 1, "choice": 0, "multi": 0, "tf": 1,
+                "text": 4, "order": 1, "match": 1, "table": 1, "witness": 2, "gap": 1,
+                "expression": 1, "code": 3, "interval": 1, "set": 1}  # fmt: skip
+
+
+def string(text: str) -> str:
+    """A Typst string literal: nothing in it is ever read as markup."""
+    return json.dumps(text, ensure_ascii=False).replace("\\/", "/")
+
+
+def inline(parts: Any, lang: str) -> str:
+    """Inlines as Typst markup."""
+    if isinstance(parts, tuple):
+        return "".join(inline(part, lang) for part in parts)
+    if isinstance(parts, Words):
+        return f"#{string(parts.text)};"
+    if isinstance(parts, Maths):
+        return equation(parts, lang, block=False)
+    if isinstance(parts, Code):
+        return f"#raw({string(parts.text)});"
+    if isinstance(parts, Styled):
+        name = "emph" if parts.style == "em" else "strong"
+        return f"#{name}[{inline(parts.children, lang)}];"
+    raise TypeError(type(parts).__name__)
+
+
+def equation(maths: Maths, lang: str, *, block: bool) -> str:
+    """A formula with its spoken alternative."""
+    spoken = string(formula.spoken(maths.node, lang))
+    space = " " if block else ""
+    body = f"${space}{formula.typst(maths.node)}{space}$"
+    return f"#math.equation(alt: {spoken}, block: {str(block).lower()}, {body});"
+
+
+def blocks(parts: Iterable[Any], lang: str) -> str:
+    """Blocks as Typst markup."""
+    return "\n\n".join(_block(part, lang) for part in parts)
+
+
+def _block(part: Any, lang: str) -> str:
+    if isinstance(part, Paragraph):
+        return inline(part.children, lang)
+    if isinstance(part, CodeBlock):
+        return f"#raw({string(part.text)}, block: true);"
+    if isinstance(part, Items):
+        name = "enum" if part.ordered else "list"
+        return f"#{name}({', '.join(f'[{blocks(item, lang)}]' for item in part.items)});"
+    if isinstance(part, Table):
+        cells = [cell for row in (part.head, *part.rows) for cell in row]
+        head = ", ".join(f"[{inline(cell, lang)}]" for cell in part.head)
+        rest = ", ".join(f"[{inline(cell, lang)}]" for cell in cells[len(part.head) :])
+        return f"#table(columns: {len(part.head)}, table.header({head}), {rest});"
+    raise TypeError(type(part).__name__)
+
+
+def _in(lang: str, body: str) -> str:
+    return f"#spoken({string(lang)})[{body}];"
+
+
+def _each(langs: Iterable[str], bodies: Iterable[str]) -> str:
+    """The same thing in each language: the second one set off by a rule."""
+    spoken = [_in(lang, body) for lang, body in zip(langs, bodies, strict=True) if body]
+    return "\n".join([*spoken[:1], *(f"#bilingual[{body}];" for body in spoken[1:])])
+
+
+def _joined(langs: tuple[str, ...], texts: Iterable[str]) -> str:
+    return '#" / ";'.join(_in(lang, text) for lang, text in zip(langs, texts, strict=True))
+
+
+def _words(langs: tuple[str, ...], key: str, **values: object) -> str:
+    return _joined(langs, [f"#{string(word(lang, key, **values))};" for lang in langs])
+
+
+class _Sheet:
+    """Typst source of one sheet, and the pictures it refers to."""
+
+    def __init__(self, paper: Paper, kind: str) -> None:
+        self.paper, self.kind, self.langs = paper, kind, paper.langs
+        self.main = paper.langs[0]
+        self.pictures: dict[str, bytes] = {}
+
+    def source(self) -> str:
+        """The whole document."""
+        cover = self._cover()
+        body = "\n\n".join(self._item(item) for item in self.paper.items)
+        ending = "" if self.kind == "solutions" else ""
+        return f"{self._opening()}\n{cover}\n{body}\n{ending}"
+
+    def _opening(self) -> str:
+        page = word(self.main, "paper.page", page="\u0001", pages="\u0002")
+        for mark, name in (("\u0001", "page"), ("\u0002", "pages")):
+            page = page.replace(mark, f'" + {name} + "')
+        title = self._title(self.main)
+        return (
+            f"#show: paper.with(title: {string(title)}, code: {string(self.paper.code)}, "
+            f'lang: {string(self.main)}, of: (page, pages) => "{page}")'
+        )
+
+    def _title(self, lang: str) -> str:
+        title = self.paper.title(lang)
+        if self.kind == "solutions":
+            return f"{title} - {word(lang, 'paper.solutions')}"
+        return title
+
+    def _cover(self) -> str:
+        paper, main = self.paper, self.main
+        head = f"#heading(level: 1)[{_in(main, f'#{string(self._title(main))};')}]"
+        others = [
+            _in(lang, f"#text(14pt, {string(self._title(lang))});") for lang in self.langs[1:]
+        ]
+        total = (
+            f"{_points(paper.points, main)}, {paper.minutes} {word(main, 'paper.minutes')}, "
+            f"{len(paper.items)} {word(main, 'paper.contents')}"
+        )
+        facts = (
+            f"#facts(([{_words(self.langs, 'paper.code')}], raw({string(paper.code)})), "
+            f"([{_words(self.langs, 'paper.total')}], {string(total)}))"
+        )
+        if self.kind == "solutions":
+            return "\n".join([head, *others, "#v(0.6em)", facts, "#v(0.6em)"])
+        lines = [
+            f"#write-line([{_words(self.langs, f'paper.{name}')}])"
+            for name in ("name", "matriculation")
+        ]
+        rules = _each(
+            self.langs, [f"#{string(word(lang, 'paper.rules'))};" for lang in self.langs]
+        )
+        gap = "#v(1.1em)"
+        return "\n".join(
+            [head, *others, gap, facts, gap, *(f"{line}\n#v(0.5em)" for line in lines), gap,
+             f"#notice[{rules}]", "#v(0.8em)", self._overview(), "#pagebreak(weak: true)"]
+        )  # fmt: skip
+
+    def _overview(self) -> str:
+        """Table of questions and marks, with room for the marks given."""
+        rows = [
+            f"[{item.number}], [{_joined(self.langs, [f'#{string(q.title)};' for q in item.questions])}],"
+            f" [{_plain(item.points)}], []"
+            for item in self.paper.items
+        ]
+        head = (
+            f"table.header([], [{_words(self.langs, 'paper.question')}], "
+            f"[{_words(self.langs[:1], 'paper.points')}], [])"
+        )
+        return (
+            "#{set text(9pt); table(columns: (auto, 1fr, auto, 4em), inset: 3.5pt, "
+            f"stroke: 0.4pt + rgb(\"#b5bac2\"), {head}, {', '.join(rows)})}}"
+        )
+
+    def _item(self, item: Item) -> str:
+        titles = _joined(self.langs, [f"#{string(q.title)};" for q in item.questions])
+        stem = _each(self.langs, [blocks(q.stem, q.lang) for q in item.questions])
+        if self.kind == "exam":
+            picture = self._picture(item, [q.figure for q in item.questions])
+        else:
+            picture = self._picture(item, [k.figure for k in item.keys])
+        single = len(item.questions[0].parts) == 1
+        parts = [self._part(item, index) for index in range(len(item.questions[0].parts))]
+        body = f"#whole[{stem}\n{picture}]\n" + "\n".join(parts)
+        if self.kind == "exam" and single:
+            body = f"#part[{stem}\n{picture}\n{parts[0]}]"
+        if self.kind == "solutions":
+            body += self._remarks(item)
+        worth = _points(item.points, self.main)
+        return f"#question({string(item.number)}, [{titles}], {string(worth)})[{body}]"
+
+    def _picture(self, item: Item, figures: list[Any]) -> str:
+        if figures[0] is None:
+            return ""
+        name = f"figure-{item.number}.svg"
+        self.pictures[name] = figures[0].svg
+        alt = string(" / ".join(figure.alt for figure in figures))
+        width = f"{figures[0].width_pt:.2f}pt"
+        return f"#v(0.4em)\n#image({string(name)}, width: {width}, alt: {alt})\n"
+
+    def _part(self, item: Item, index: int) -> str:
+        questions = item.questions
+        first = questions[0].parts[index]
+        label = f"({first.label}) " if first.label else ""
+        worth = f"#worth({string(label + _points(first.points, self.main))})" if label else ""
+        texts = [blocks(q.parts[index].body, q.lang) for q in questions]
+        body = f"{worth}\n{_each(self.langs, texts)}"
+        if self.kind == "exam":
+            return f"#part[{body}\n{self._field(questions, index)}]"
+        options = self._options(questions, index)
+        return f"{body}\n{options}\n{self._solution(item, index)}"
+
+    def _field(self, questions: tuple[Question, ...], index: int) -> str:
+        fields = [q.parts[index].field for q in questions]
+        hints = [f"#{string(' '.join(f.hints))};" if f.hints else "" for f in fields]
+        shown = f"#hint[{_each(self.langs, hints)}]" if any(hints) else ""
+        lines = ANSWER_LINES[fields[0].kind]
+        return f"{self._options(questions, index)}\n{shown}\n#space({lines})"
+
+    def _options(self, questions: tuple[Question, ...], index: int) -> str:
+        fields = [q.parts[index].field for q in questions]
+        return "\n".join(
+            [*self._rows(fields, "options"), *self._rows(fields, "targets")]
+        )
+
+    def _rows(self, fields: list[Field], side: str) -> list[str]:
+        rows = []
+        for place, (mark, _) in enumerate(getattr(fields[0], side)):
+            texts = [
+                inline(getattr(f, side)[place][1], lang)
+                for f, lang in zip(fields, self.langs, strict=True)
+            ]
+            rows.append(f"#option({string(mark)}, [{_joined(self.langs, texts)}])")
+        return rows
+
+    def _solution(self, item: Item, index: int) -> str:
+        parts = [key.solution.parts[index] for key in item.keys]
+        steps = [self._step([p.lines[i] for p in parts]) for i in range(len(parts[0].lines))]
+        answer = _joined(self.langs, [self._answer(p, lang) for p, lang in self._with_lang(parts)])
+        mistakes = [self._mistakes(p, lang) for p, lang in self._with_lang(parts)]
+        return "\n".join([*steps, f"#result[{answer}]", *mistakes])
+
+    def _with_lang(self, parts: list[PartSolution]) -> list[tuple[PartSolution, str]]:
+        return list(zip(parts, self.langs, strict=True))
+
+    def _step(self, lines: list[Line]) -> str:
+        why = _each(
+            self.langs,
+            [inline(line.why, lang) for line, lang in zip(lines, self.langs, strict=True)],
+        )
+        return f"#step([{equation(lines[0].maths, self.main, block=True)}], [{why}])"
+
+    def _answer(self, part: PartSolution, lang: str) -> str:
+        name = word(lang, "solution.answer")
+        options = "".join(f'#" - ";{inline(option, lang)}' for option in part.options)
+        return f"#strong({string(name + ':')}); #{string(part.answer)};{options}"
+
+    def _mistakes(self, part: PartSolution, lang: str) -> str:
+        if not part.mistakes:
+            return ""
+        title = f"#heading(level: 3)[#{string(word(lang, 'solution.mistakes'))};]"
+        rows = [
+            f"#mistake({string(m.value)}, [{inline(m.sentence, lang)}])" for m in part.mistakes
+        ]
+        return _in(lang, "\n".join([title, *rows]))
+
+    def _remarks(self, item: Item) -> str:
+        texts = []
+        for section in ("check", "note"):
+            for key in item.keys:
+                body, lang = getattr(key.solution, section), key.solution.lang
+                if body:
+                    title = f"#heading(level: 3)[#{string(word(lang, f'solution.{section}'))};]"
+                    texts.append(_in(lang, f"{title}\n{blocks(body, lang)}"))
+        return "\n" + "\n".join(texts)
+
+
+def _plain(points: Any) -> str:
+    return str(points) if points.denominator == 1 else f"{float(points):g}"
+
+
+def _points(points: Any, lang: str) -> str:
+    return f"{_plain(points)} {word(lang, 'paper.point' if points == 1 else 'paper.points')}"
+
+
+@cache
+def _fonts() -> Any:
+    """One font collection per process: only pinned fonts, never the machine's own."""
+    import typst
+
+    return typst.Fonts(
+        include_system_fonts=False,
+        include_embedded_fonts=True,
+        font_paths=[str(fonts.bangla_folder())],
+    )
+
+
+@cache
+def _layout() -> str:
+    return (files("quizgen") / "pages" / "paper.typ").read_text(encoding="utf-8")
+
+
+def source(paper: Paper, kind: str) -> tuple[str, dict[str, bytes]]:
+    """Typst source and pictures of a sheet."""
+    sheet = _Sheet(paper, kind)
+    text = sheet.source()
+    return f"{_layout()}\n{text}", sheet.pictures
+
+
+def render(paper: Paper, kind: str) -> bytes:
+    """Render a paper as a PDF file.
+
+    Raises
+    ------
+    RenderError
+        If Typst refuses the document or a font is missing.
+    """
+    import typst
+
+    text, pictures = source(paper, kind)
+    world = {"main.typ": text.encode(), **pictures}
+    try:
+        data, warnings = typst.compile_with_warnings(
+            world, format="pdf", pdf_standards=STANDARD, font_paths=_fonts(), timestamp=MOMENT
+        )
+    except typst.TypstError as error:
+        raise RenderError(f"PDF: {error}") from error
+    if warnings:
+        raise RenderError(f"PDF: {warnings[0]}")
+    return bytes(data)
+
+
+__all__ = ["ANSWER_LINES", "Part", "render", "source"]

@@ -1,0 +1,267 @@
+"""Worked solutions: every step as *formula = numbers in place = exact value ~ rounded value*.
+
+All of it comes from the one chain of the solver: the formula is printed, the same formula is printed
+with the drawn numbers in place, and its exact value follows. The language files add one sentence of
+why per step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from flint import fmpq
+
+from quizgen import formula as printing
+from quizgen.chain import ChainStep
+from quizgen.draw import Draw, factor, plan_of
+from quizgen.errors import BankError
+from quizgen.expr import PRECISION, Call, Expr, Num, Sym, exact, names, taken_branch
+from quizgen.numbers import exact_text, rounded_text, short_decimal
+from quizgen.reader import to_text
+from quizgen.text import Block, Formula, Inline, Slot, Words, fill
+from quizgen.units import shown as unit_shown
+
+NBSP = "\u00a0"
+STEP_FIGURES = 6
+"""Significant figures of an intermediate value that has no short exact form."""
+
+
+@dataclass(frozen=True, slots=True)
+class Maths:
+    """A formula ready for printing: its layout, and how it would be typed."""
+
+    node: Any
+    typed: str
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """One step: the worked formula and why it is taken."""
+
+    maths: Maths
+    why: tuple[Inline, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Mistake:
+    """A known mistake: its name, what went wrong, and the answer it would give."""
+
+    name: str
+    sentence: tuple[Inline, ...]
+    value: str
+
+
+@dataclass(frozen=True, slots=True)
+class PartSolution:
+    """The worked solution of one part."""
+
+    label: str
+    lines: tuple[Line, ...]
+    answer: str
+    mistakes: tuple[Mistake, ...]
+    options: tuple[tuple[Inline, ...], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Solution:
+    """The worked solution of a question in one language."""
+
+    lang: str
+    title: str
+    parts: tuple[PartSolution, ...]
+    check: tuple[Block, ...]
+    note: tuple[Block, ...]
+
+
+def filled(parts: Any, drawn: Draw, lang: str, *, hidden: bool = False) -> Any:
+    """Fill the slots of blocks or inlines.
+
+    Parameters
+    ----------
+    parts : blocks or inlines
+    drawn : Draw
+    lang : str
+    hidden : bool
+        Refuse quantities that are solved for, so that a stem cannot give an answer away.
+
+    Raises
+    ------
+    BankError
+        If a slot names nothing that may stand there.
+    """
+
+    def value(part: Inline) -> Inline:
+        if isinstance(part, Slot):
+            return _slot(part.name, drawn, lang, hidden=hidden)
+        return Maths(printing.layout(part.expr, inline=True), to_text(part.expr))
+
+    return fill(parts, value)
+
+
+def _slot(name: str, drawn: Draw, lang: str, *, hidden: bool) -> Inline:
+    if name in drawn.words:
+        found = drawn.template.texts[lang].sentence("words", drawn.words[name])
+        if found is None:
+            raise BankError(_complaint(drawn, lang, f"no words for {drawn.words[name]!r}"))
+        return found if len(found) != 1 else found[0]
+    if name in drawn.shown:
+        return Words(quantity_text(drawn.shown[name], drawn.template.units.get(name, "")))
+    if hidden or name not in drawn.values:
+        raise BankError(_complaint(drawn, lang, f"{{{{ {name} }}}} is not a drawn quantity"))
+    return Words(quantity_text(drawn.in_unit(name), drawn.template.units[name]))
+
+
+def _complaint(drawn: Draw, lang: str, what: str) -> str:
+    return f"{drawn.template.path / f'{lang}.md'}: {what}"
+
+
+def quantity_text(value: Any, unit: str) -> str:
+    """A value with its unit as text, exact if that is short."""
+    text = exact_text(value) or rounded_text(value, figures=STEP_FIGURES)
+    return f"{text}{NBSP}{unit_shown(unit)}" if unit and unit != "1" else text
+
+
+def sentence(
+    drawn: Draw, lang: str, section: str, name: str, *, hidden: bool = False
+) -> tuple[Inline, ...]:
+    """A named sentence with its slots filled.
+
+    Raises
+    ------
+    BankError
+        If the language file does not have it.
+    """
+    found = drawn.template.texts[lang].sentence(section, name)
+    if found is None:
+        raise BankError(_complaint(drawn, lang, f"section {section!r} lacks {name!r}"))
+    result: tuple[Inline, ...] = filled(found, drawn, lang, hidden=hidden)
+    return result
+
+
+def solve(drawn: Draw, lang: str, built: tuple[Mapping[str, Any], ...]) -> Solution:
+    """Work an instance out in one language.
+
+    Parameters
+    ----------
+    drawn : Draw
+    lang : str
+    built : tuple of mapping
+        The specifications of the parts.
+    """
+    text = drawn.template.texts[lang]
+    return Solution(
+        lang=lang,
+        title=text.title,
+        parts=tuple(_part(drawn, lang, i, spec) for i, spec in enumerate(built)),
+        check=filled(text.sections.get("check", ()), drawn, lang),
+        note=filled(text.sections.get("note", ()), drawn, lang),
+    )
+
+
+def _part(drawn: Draw, lang: str, index: int, spec: Mapping[str, Any]) -> PartSolution:
+    from quizgen.specs import display, trap_values
+
+    plan = plan_of(drawn.template).parts[index]
+    shown_names = drawn.template.rules.part[index].show
+    steps = [s for s in plan.steps if shown_names is None or s.name in shown_names]
+    lines = tuple(Line(worked(drawn, s), _why(drawn, lang, s.name)) for s in steps)
+    mistakes = tuple(
+        Mistake(trap, sentence(drawn, lang, "traps", trap), _wrong_text(spec, values))
+        for trap, values in trap_values(drawn, index).items()
+    )
+    options, _ = display(drawn, index)
+    right = [options[i - 1][1] for i in spec.get("correct", ())] if options else []
+    chosen = tuple(sentence(drawn, lang, "options", name) for name in right)
+    label = drawn.template.labels[index]
+    return PartSolution(label, lines, answer_text(spec, lang), mistakes, chosen)
+
+
+def _why(drawn: Draw, lang: str, name: str) -> tuple[Inline, ...]:
+    return sentence(drawn, lang, "steps", name)
+
+
+def answer_text(spec: Mapping[str, Any], lang: str) -> str:
+    """The key as it is printed; typed back, it is correct."""
+    from quizgen.check import show
+
+    return show(spec, lang)
+
+
+def _wrong_text(spec: Mapping[str, Any], values: list[Any]) -> str:
+    unit = str(spec.get("unit", "")) if spec["kind"] == "quantity" else ""
+    percent = bool(spec.get("percent"))
+    decimals = int(spec["decimals"]) if "decimals" in spec else None
+    texts = [_component(v * 100 if percent else v, decimals) for v in values]
+    body = texts[0] if len(texts) == 1 else f"({'; '.join(texts)})"
+    ending = "%" if percent else unit_shown(unit)
+    return f"{body}{NBSP}{ending}" if ending else body
+
+
+def _component(value: Any, decimals: int | None) -> str:
+    if short_decimal(value):
+        return exact_text(value) or ""
+    return rounded_text(value, decimals=decimals)
+
+
+def worked(drawn: Draw, step: ChainStep) -> Maths:
+    """One step, printed from formula to rounded value."""
+    with _precision():
+        expr = taken_branch(step.expr, drawn.values, exact())
+    plain, numbers = printing.layout(expr), printing.layout(expr, leaves=_leaves(drawn, expr))
+    value = drawn.in_unit(step.name)
+    signs, nodes = ["="], [printing.name(step.name), plain]
+    if not isinstance(expr, Num) and names(expr):
+        signs.append(_sign(drawn, expr))
+        nodes.append(numbers)
+    for sign, node in _value_nodes(value, step.unit):
+        if not (isinstance(expr, Sym) and sign == "=" and len(nodes) > len(("name", "formula"))):
+            signs.append(sign)
+            nodes.append(node)
+    return Maths(printing.relation(signs, nodes), f"{step.name} = {to_text(expr)}")
+
+
+def _precision() -> Any:
+    import flint
+
+    return flint.ctx.workprec(PRECISION)
+
+
+def _sign(drawn: Draw, expr: Expr) -> str:
+    """Equal, unless a number put in place had to be rounded for showing."""
+    inexact = any(
+        exact_text(drawn.in_unit(n)) is None for n in names(expr) if n in drawn.template.units
+    )
+    return "≈" if inexact else "="
+
+
+def _leaves(drawn: Draw, expr: Expr) -> dict[str, Any]:
+    units = drawn.template.units
+    return {
+        name: _leaf(drawn.in_unit(name), units.get(name, "")) for name in sorted(names(expr))
+    }
+
+
+def _leaf(value: Any, unit: str) -> Any:
+    text = exact_text(value) or rounded_text(value, figures=STEP_FIGURES)
+    return printing.quantity(text, unit_shown(unit) if unit != "1" else "")
+
+
+def _value_nodes(value: Any, unit: str) -> list[tuple[str, Any]]:
+    shown_unit = unit_shown(unit) if unit != "1" else ""
+    text = exact_text(value)
+    if text is not None and short_decimal(value):
+        return [("=", printing.quantity(text, shown_unit))]
+    rounded = printing.quantity(rounded_text(value), shown_unit)
+    if text is None:
+        return [("≈", rounded)]
+    return [("=", printing.quantity(text, shown_unit)), ("≈", rounded)]
+
+
+def is_rational(value: Any) -> bool:
+    """Whether a value of the chain is exact."""
+    return isinstance(value, fmpq)
+
+
+__all__ = ["Call", "Line", "Maths", "Mistake", "PartSolution", "Solution", "factor", "solve"]

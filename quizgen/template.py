@@ -1,0 +1,243 @@
+"""A template as authored: ``template.toml`` checked against its solver.
+
+The file says what to draw, which draws to keep, what is asked and how it is marked. Formulas in it
+are written in the grammar that students type, over quantities in the units they are shown in.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Literal
+
+import msgspec
+
+from quizgen.chain import Chain
+from quizgen.errors import BankError, FormulaError
+from quizgen.expr import Expr, names
+from quizgen.reader import parse
+from quizgen.units import unit
+
+Scalar = int | float | str
+
+
+class DrawRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """How one quantity is drawn.
+
+    Exactly one of ``pick`` (a list), ``range`` (first, last, step), ``words`` (names of phrases
+    in the language files) and ``is`` (a formula over quantities drawn before) is given.
+    """
+
+    unit: str = ""
+    pick: tuple[Scalar, ...] = ()
+    range: tuple[Scalar, ...] = ()
+    skip: tuple[Scalar, ...] = ()
+    words: tuple[str, ...] = ()
+    formula: str = msgspec.field(name="is", default="")
+
+
+class KeepRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """Which values of a solved quantity are kept, in the unit it is shown in."""
+
+    min: Scalar | None = None
+    max: Scalar | None = None
+    multiple: Scalar | None = None
+    decimals: int | None = None
+    denominator: int | None = None
+    skip: tuple[Scalar, ...] = ()
+
+
+class FigureRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """The figure and the formulas of its parameters."""
+
+    name: str
+    values: dict[str, Scalar] = {}
+    quiz: bool = True
+
+
+class PartRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """One sub-question: its marks and its answer."""
+
+    answer: dict[str, Any]
+    points: Scalar = 1
+    show: tuple[str, ...] | None = None
+
+
+class Rules(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """The whole of ``template.toml``."""
+
+    topic: str
+    tier: Literal["A", "B", "C", "D"]
+    part: tuple[PartRule, ...]
+    version: int = 1
+    minutes: int | None = None
+    solver: str = ""
+    covers: tuple[str, ...] = ()
+    draw: dict[str, DrawRule] = {}
+    keep: dict[str, KeepRule] = {}
+    where: tuple[str, ...] = ()
+    may_vanish: tuple[str, ...] = ()
+    drop: tuple[str, ...] = ()
+    figure: FigureRule | None = None
+    reference: dict[str, Scalar] | None = None
+    pool: int | None = None
+
+
+PART_LABELS = "abcdefghij"
+TIER_MINUTES = {"A": 3, "B": 5, "C": 10, "D": 12}
+
+
+@dataclass(frozen=True)
+class Template:
+    """A template: its rules, its chain and the sentences of each language.
+
+    Parameters
+    ----------
+    id : str
+        Name of the folder.
+    rules : Rules
+        The checked content of ``template.toml``.
+    chain : Chain
+        Steps and traps of the solver; empty for questions without a computation.
+    texts : mapping of str to quizgen.text.Text
+        Language to its parsed prose.
+    digest : str
+        Changes whenever any file behind the template changes.
+    """
+
+    id: str
+    rules: Rules
+    chain: Chain
+    texts: Mapping[str, Any]
+    digest: str
+    path: Path = field(default=Path())
+
+    @property
+    def languages(self) -> tuple[str, ...]:
+        """Languages the template is written in."""
+        return tuple(self.texts)
+
+    @property
+    def minutes(self) -> int:
+        """Suggested working time."""
+        return self.rules.minutes or TIER_MINUTES[self.rules.tier]
+
+    @cached_property
+    def units(self) -> dict[str, str]:
+        """Quantity to the unit it is shown in: drawn ones first, then steps."""
+        drawn = {name: rule.unit for name, rule in self.rules.draw.items() if not rule.words}
+        given = dict(self.chain.given)
+        steps = {step.name: step.unit for step in self.chain.steps}
+        return {**given, **{k: v for k, v in drawn.items() if v or k not in given}, **steps}
+
+    @cached_property
+    def labels(self) -> tuple[str, ...]:
+        """Part labels: ``a``, ``b``, ...; a single part has none."""
+        count = len(self.rules.part)
+        return tuple(PART_LABELS[:count]) if count > 1 else ("",)
+
+    def formula(self, text: str) -> Expr:
+        """Read a formula of ``template.toml`` over the template's quantities.
+
+        Raises
+        ------
+        BankError
+            Naming file and column if it cannot be read.
+        """
+        try:
+            expr = parse(text, symbols=tuple(self.units))
+        except FormulaError as error:
+            raise BankError(f"{self.path / 'template.toml'}: formula {text!r}: {error}") from error
+        unknown = names(expr) - set(self.units)
+        if unknown:
+            raise BankError(
+                f"{self.path / 'template.toml'}: formula {text!r} uses unknown {sorted(unknown)}"
+            )
+        return expr
+
+
+def read_rules(path: Path) -> Rules:
+    """Read and check ``template.toml``.
+
+    Raises
+    ------
+    BankError
+        Naming the file, the key and what is allowed.
+    """
+    try:
+        table = tomllib.loads(path.read_text(encoding="utf-8"), parse_float=str)
+        rules = msgspec.convert(table, Rules, strict=True)
+    except (OSError, UnicodeDecodeError) as error:
+        raise BankError(f"{path}: {error}") from error
+    except tomllib.TOMLDecodeError as error:
+        raise BankError(f"{path}: not valid TOML: {error}") from error
+    except msgspec.ValidationError as error:
+        raise BankError(f"{path}: {error}{_allowed(str(error))}") from error
+    _check_draws(path, rules)
+    return rules
+
+
+def _allowed(message: str) -> str:
+    """Add the keys that would have been understood to msgspec's complaint."""
+    if "unknown field" not in message:
+        return ""
+    place = message.rsplit("`", 2)[-2] if "- at" in message else "$"
+    kind: type[msgspec.Struct] = Rules
+    for prefix, struct in (("$.draw", DrawRule), ("$.keep", KeepRule), ("$.figure", FigureRule),
+                           ("$.part", PartRule)):  # fmt: skip
+        if place.startswith(prefix):
+            kind = struct
+    fields = ", ".join(sorted(f.encode_name for f in msgspec.structs.fields(kind)))
+    return f" (allowed: {fields})"
+
+
+def _check_draws(path: Path, rules: Rules) -> None:
+    for name, rule in rules.draw.items():
+        ways = [w for w in ("pick", "range", "words", "formula") if getattr(rule, w)]
+        if len(ways) != 1:
+            raise BankError(f"{path}: draw.{name}: give exactly one of pick, range, words, is")
+        if rule.range and len(rule.range) != len(("first", "last", "step")):
+            raise BankError(f"{path}: draw.{name}: range is [first, last, step]")
+        try:
+            unit(rule.unit)
+        except FormulaError as error:
+            raise BankError(f"{path}: draw.{name}: {error}") from error
+    if not rules.part:
+        raise BankError(f"{path}: at least one [[part]] is needed")
+
+
+def check_against_chain(template: Template) -> None:
+    """Check that rules, chain and quantities fit together.
+
+    Raises
+    ------
+    BankError
+        If a drawn or kept quantity is unknown, or a given one is not drawn.
+    """
+    path, rules = template.path / "template.toml", template.rules
+    missing = set(template.chain.given) - set(rules.draw)
+    if missing:
+        raise BankError(f"{path}: draw lacks {sorted(missing)}, given in solver {rules.solver!r}")
+    unknown = set(rules.keep) - set(template.units)
+    if unknown:
+        raise BankError(f"{path}: keep names unknown {sorted(unknown)}")
+    for listed in (rules.may_vanish, rules.drop):
+        strangers = set(listed) - set(template.chain.traps)
+        if strangers:
+            raise BankError(f"{path}: {sorted(strangers)} is not a trap of {rules.solver!r}")
+    for name in rules.reference or {}:
+        if name not in rules.draw:
+            raise BankError(f"{path}: reference names {name!r}, which is not drawn")
+
+
+def digest_of(*parts: bytes) -> str:
+    """Hash of the files behind a template."""
+    total = hashlib.sha256()
+    for part in parts:
+        total.update(len(part).to_bytes(8, "big"))
+        total.update(part)
+    return total.hexdigest()

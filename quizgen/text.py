@@ -1,0 +1,332 @@
+"""The prose of a template: a small Markdown subset with slots and mathematics.
+
+A language file has a title, a stem, one section per part and lists of named sentences::
+
+    # Perspective projection
+    A pinhole camera has focal length {{ f }} ...
+    ## a
+    **Where does $p$ appear?**
+    ## steps          why each step is taken, by quantity
+    - x: Similar triangles ...
+    ## check          how to see that the result makes sense
+    ## traps          what went wrong, by mistake
+    ## options        wording of choices, pairs, ordered steps
+    ## words          wording of drawn phrases
+    ## note           a remark shown with the solution (where the notes differ, and why)
+
+``{{ name }}`` fills in a drawn value with its unit and nothing else; ``$...$`` is mathematics in the
+grammar that students type. Loops, calls, attributes and arithmetic do not exist here.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from quizgen.errors import BankError, FormulaError
+from quizgen.expr import Expr
+from quizgen.reader import parse
+
+NAMED_SECTIONS = frozenset({"steps", "traps", "options", "words", "gaps", "points"})
+PROSE_SECTIONS = frozenset({"check", "note"})
+
+
+@dataclass(frozen=True, slots=True)
+class Words:
+    """Plain text."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Slot:
+    """A place to be filled: a drawn value, or a drawn phrase."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Formula:
+    """Mathematics in a sentence, as a formula tree."""
+
+    expr: Expr
+
+
+@dataclass(frozen=True, slots=True)
+class Code:
+    """Program text in a sentence."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Styled:
+    """Emphasised (``em``) or strong (``strong``) text."""
+
+    style: str
+    children: tuple[Inline, ...]
+
+
+Inline = Any
+"""Words, Slot, Formula, Code, Styled, or a layout node once filled."""
+
+
+@dataclass(frozen=True, slots=True)
+class Paragraph:
+    """One paragraph."""
+
+    children: tuple[Inline, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Items:
+    """A list; ``ordered`` counts from 1."""
+
+    items: tuple[tuple[Block, ...], ...]
+    ordered: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class CodeBlock:
+    """Lines of program text."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """A table with a head row."""
+
+    head: tuple[tuple[Inline, ...], ...]
+    rows: tuple[tuple[tuple[Inline, ...], ...], ...]
+
+
+Block = Paragraph | Items | CodeBlock | Table
+
+
+@dataclass(frozen=True)
+class Text:
+    """The parsed prose of one language."""
+
+    title: str
+    stem: tuple[Block, ...]
+    sections: Mapping[str, tuple[Block, ...]] = field(default_factory=dict)
+    named: Mapping[str, Mapping[str, tuple[Inline, ...]]] = field(default_factory=dict)
+
+    def sentence(self, section: str, name: str) -> tuple[Inline, ...] | None:
+        """A named sentence, or None."""
+        return self.named.get(section, {}).get(name)
+
+
+_SLOT = re.compile(r"\{\{\s*([A-Za-z_][\w']*)\s*\}\}")
+_MATH = re.compile(r"\$([^$\n]+)\$")
+_BANNED = re.compile(r"\{\{|\}\}|\{%|%\}|\{#|#\}")
+
+
+@cache
+def _markdown() -> Any:
+    from markdown_it import MarkdownIt
+
+    parser = MarkdownIt("zero", {"html": False})
+    parser.enable(["emphasis", "backticks", "list", "table", "fence", "escape", "newline"])
+    parser.inline.ruler.before("escape", "slot", _rule(_SLOT, "slot"))
+    parser.inline.ruler.before("escape", "math", _rule(_MATH, "math"))
+    parser.inline.add_terminator_char("{")
+    parser.inline.add_terminator_char("$")
+    return parser
+
+
+def _rule(pattern: re.Pattern[str], kind: str) -> Callable[[Any, bool], bool]:
+    def match(state: Any, silent: bool) -> bool:
+        found = pattern.match(state.src, state.pos)
+        if found is None:
+            return False
+        if not silent:
+            state.push(kind, "", 0).content = found[1]
+        state.pos = found.end()
+        return True
+
+    return match
+
+
+def blocks(source: str) -> tuple[Block, ...]:
+    """Parse prose.
+
+    Raises
+    ------
+    BankError
+        If it holds anything but the subset.
+    """
+    tokens = _markdown().parse(source)
+    return tuple(_blocks(iter(tokens), None))
+
+
+def inlines(source: str) -> tuple[Inline, ...]:
+    """Parse one sentence."""
+    tokens = _markdown().parseInline(source)
+    return tuple(_inlines(iter(tokens[0].children or ()), None)) if tokens else ()
+
+
+def _blocks(tokens: Iterator[Any], until: str | None) -> Iterator[Block]:
+    for token in tokens:
+        if token.type == until:
+            return
+        if token.type == "paragraph_open":
+            inline = next(tokens)
+            next(tokens)
+            yield Paragraph(tuple(_inlines(iter(inline.children or ()), None)))
+        elif token.type in {"bullet_list_open", "ordered_list_open"}:
+            close = token.type.replace("open", "close")
+            yield Items(tuple(_items(tokens, close)), token.type.startswith("ordered"))
+        elif token.type == "fence":
+            yield CodeBlock(token.content.rstrip("\n"))
+        elif token.type == "table_open":
+            yield _table(tokens)
+        else:
+            raise BankError(f"Markdown {token.type!r} is not part of the subset")
+
+
+def _items(tokens: Iterator[Any], until: str) -> Iterator[tuple[Block, ...]]:
+    for token in tokens:
+        if token.type == until:
+            return
+        yield tuple(_blocks(tokens, "list_item_close"))
+
+
+def _table(tokens: Iterator[Any]) -> Table:
+    rows: list[tuple[tuple[Inline, ...], ...]] = []
+    row: list[tuple[Inline, ...]] = []
+    for token in tokens:
+        if token.type == "table_close":
+            break
+        if token.type == "tr_open":
+            row = []
+        elif token.type == "inline":
+            row.append(tuple(_inlines(iter(token.children or ()), None)))
+        elif token.type == "tr_close":
+            rows.append(tuple(row))
+    return Table(rows[0], tuple(rows[1:]))
+
+
+def _inlines(tokens: Iterator[Any], until: str | None) -> Iterator[Inline]:
+    for token in tokens:
+        if token.type == until:
+            return
+        if token.type == "text":
+            if token.content:
+                yield _plain(token.content)
+        elif token.type in {"softbreak", "hardbreak"}:
+            yield Words(" ")
+        elif token.type == "slot":
+            yield Slot(token.content)
+        elif token.type == "math":
+            yield _formula(token.content)
+        elif token.type == "code_inline":
+            yield Code(token.content)
+        elif token.type in {"em_open", "strong_open"}:
+            style = token.type.removesuffix("_open")
+            yield Styled(style, tuple(_inlines(tokens, f"{style}_close")))
+        else:
+            raise BankError(f"Markdown {token.type!r} is not part of the subset")
+
+
+def _plain(text: str) -> Words:
+    if _BANNED.search(text):
+        raise BankError(f"only {{{{ name }}}} may stand in double braces: {text.strip()!r}")
+    return Words(text)
+
+
+def _formula(text: str) -> Formula:
+    try:
+        return Formula(parse(text))
+    except FormulaError as error:
+        raise BankError(f"mathematics ${text}$: {error}") from error
+
+
+def read_text(path: Path) -> Text:
+    """Read a language file.
+
+    Raises
+    ------
+    BankError
+        Naming the file and what is wrong in it.
+    """
+    try:
+        return parse_text(path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError) as error:
+        raise BankError(f"{path}: {error}") from error
+    except BankError as error:
+        raise BankError(f"{path}: {error}") from error
+
+
+def parse_text(source: str) -> Text:
+    """Parse the content of a language file."""
+    title, body = _title(source)
+    pieces = re.split(r"^## +(\S.*)$", body, flags=re.MULTILINE)
+    sections: dict[str, tuple[Block, ...]] = {}
+    named: dict[str, dict[str, tuple[Inline, ...]]] = {}
+    for heading, content in zip(pieces[1::2], pieces[2::2], strict=True):
+        name = heading.strip()
+        if name in NAMED_SECTIONS:
+            named[name] = _named(name, content)
+        elif name in PROSE_SECTIONS or re.fullmatch(r"[a-j]", name):
+            sections[name] = blocks(content)
+        else:
+            allowed = sorted(NAMED_SECTIONS | PROSE_SECTIONS)
+            raise BankError(f"section {name!r} is unknown (allowed: a, b, ..., {allowed})")
+    return Text(title, blocks(pieces[0]), sections, named)
+
+
+def _title(source: str) -> tuple[str, str]:
+    head, _, body = source.lstrip("\ufeff\n").partition("\n")
+    if not head.startswith("# "):
+        raise BankError("the first line must be the title: '# ...'")
+    return head[2:].strip(), body
+
+
+def _named(section: str, content: str) -> dict[str, tuple[Inline, ...]]:
+    sentences: dict[str, tuple[Inline, ...]] = {}
+    for entry in re.split(r"^- ", content, flags=re.MULTILINE):
+        if not entry.strip():
+            continue
+        name, colon, sentence = entry.partition(":")
+        if not colon:
+            raise BankError(f"section {section!r}: {entry.strip()!r} lacks 'name: sentence'")
+        sentences[name.strip()] = inlines(" ".join(sentence.split()))
+    return sentences
+
+
+def slots(parts: Any) -> Iterator[str]:
+    """Names of all slots in blocks or inlines."""
+    if isinstance(parts, Slot):
+        yield parts.name
+    elif isinstance(parts, tuple):
+        for part in parts:
+            yield from slots(part)
+    elif isinstance(parts, Paragraph | Styled):
+        yield from slots(parts.children)
+    elif isinstance(parts, Items):
+        yield from slots(parts.items)
+    elif isinstance(parts, Table):
+        yield from slots((parts.head, parts.rows))
+
+
+def fill(parts: Any, value: Callable[[Inline], Inline]) -> Any:
+    """Replace slots and formulas in blocks or inlines by what ``value`` gives for them."""
+    if isinstance(parts, Slot | Formula):
+        return value(parts)
+    if isinstance(parts, tuple):
+        return tuple(fill(part, value) for part in parts)
+    if isinstance(parts, Paragraph):
+        return Paragraph(fill(parts.children, value))
+    if isinstance(parts, Styled):
+        return Styled(parts.style, fill(parts.children, value))
+    if isinstance(parts, Items):
+        return Items(fill(parts.items, value), parts.ordered)
+    if isinstance(parts, Table):
+        return Table(fill(parts.head, value), fill(parts.rows, value))
+    return parts
