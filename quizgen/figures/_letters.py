@@ -49,7 +49,7 @@ def _glyph(character: str, italic: bool) -> Outline:
         raise LookupError(f"no glyph for {character!r}")
     glyph = font.load_char(ord(character), flags=LoadFlags.NO_HINTING)
     points, codes = font.get_path()
-    return Outline(points / _EM, codes, glyph.linearHoriAdvance / 65536 / _EM)
+    return Outline(points / _EM, codes.astype(np.uint8), glyph.linearHoriAdvance / 65536 / _EM)
 
 
 @lru_cache(maxsize=4096)

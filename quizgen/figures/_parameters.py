@@ -25,6 +25,8 @@ class Parameter:
         Taken when the number is left out; None if it must be given.
     low, high : float
         Allowed range, both ends included.
+    whole : bool
+        Only whole numbers: a code or a count.
     """
 
     unit: str
@@ -32,6 +34,7 @@ class Parameter:
     default: float | None = None
     low: float = -math.inf
     high: float = math.inf
+    whole: bool = False
 
 
 def complete(figure: str, table: Mapping[str, Parameter], values: Values) -> dict[str, float]:
@@ -40,7 +43,7 @@ def complete(figure: str, table: Mapping[str, Parameter], values: Values) -> dic
     Raises
     ------
     BankError
-        If a name is unknown or missing, or a value is not finite or out of range.
+        If a name is unknown or missing, or a value is not finite, not whole or out of range.
     """
     unknown = sorted(set(values) - set(table))
     if unknown:
@@ -60,6 +63,7 @@ def _value(figure: str, name: str, rule: Parameter, values: Values) -> float | N
         math.isfinite(value) and rule.low <= value <= rule.high,
         f"{name} = {value:g} is not between {rule.low:g} and {rule.high:g}",
     )
+    require(figure, not rule.whole or value.is_integer(), f"{name} = {value:g} is not whole")
     return value
 
 

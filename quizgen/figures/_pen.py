@@ -14,7 +14,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
-from matplotlib.transforms import Affine2D
+from matplotlib.transforms import Affine2D, Transform
 
 from quizgen.figures._letters import outline
 
@@ -138,8 +138,11 @@ class Pen:
         self._add("labels", INK, shape.points * size + origin, shape.codes)
         self.labels.append(text)
 
-    def dimension(self, start: Point, end: Point, text: str) -> None:
-        """Draw a level double arrow with its label in a gap, or under it when it is short."""
+    def dimension(self, start: Point, end: Point, text: str, beside: str = "") -> None:
+        """Draw a level double arrow with its label in a gap.
+
+        A short one has its label below, or beside it (``"l"`` to the left, ``"r"`` to the right).
+        """
         (x1, y), (x2, _) = sorted([start, end])
         middle, half = (x1 + x2) / 2, text_width(text) / 2 + 3
         if x2 - x1 > 2 * half + 2 * _HEAD:
@@ -148,7 +151,8 @@ class Pen:
             self.label((middle, y), text)
         else:
             self._short(x1, x2, y)
-            self.label((middle, y - 9), text)
+            places = {"": (middle, y - 9.5), "l": (x1 - 4, y), "r": (x2 + 4, y)}
+            self.label(places[beside], text, {"": "c", "l": "r", "r": "l"}[beside])
 
     def _short(self, x1: float, x2: float, y: float) -> None:
         if x2 - x1 > 2 * _HEAD:
@@ -165,7 +169,7 @@ class Pen:
             self.line("break", [(x - 2.5, at[1] - 5), (x + 2.5, at[1] + 5)], LINE)
 
     def onto(self, figure: Figure, background: str | None = None) -> None:
-        """Size a figure and put everything on it, in the order of drawing.
+        """Size a figure and put everything on it, in the order of drawing, labels last.
 
         Parameters
         ----------
@@ -178,10 +182,14 @@ class Pen:
         figure.patch.set_visible(background is not None)
         figure.patch.set_facecolor(background or "none")
         points_to_display = Affine2D().scale(1 / 72) + figure.dpi_scale_trans
-        for (part, style), pieces in self.paths.items():
+        for (part, style), pieces in sorted(self.paths.items(), key=_is_label):
             figure.add_artist(_artist(part, style, _compound(pieces), points_to_display))
         if self.labels:
             figure.artists[-1].set_label("\n".join(self.labels))
+
+
+def _is_label(item: tuple[tuple[str, Style], object]) -> bool:
+    return item[0][0] == "labels"
 
 
 def _compound(pieces: Iterable[tuple[np.ndarray, np.ndarray]]) -> Path:
@@ -189,7 +197,7 @@ def _compound(pieces: Iterable[tuple[np.ndarray, np.ndarray]]) -> Path:
     return Path(np.round(np.concatenate(points), 2), np.concatenate(codes))
 
 
-def _artist(part: str, style: Style, path: Path, transform: Affine2D) -> PathPatch:
+def _artist(part: str, style: Style, path: Path, transform: Transform) -> PathPatch:
     filled = style.width == 0
     patch = PathPatch(
         path,

@@ -15,7 +15,6 @@ from threading import Lock
 from typing import Any
 
 import matplotlib as mpl
-from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
 _SETTINGS: dict[Any, Any] = {
@@ -57,7 +56,7 @@ def body(draw: Callable[[Figure], None]) -> tuple[str, float, float]:
     with _LOCK, mpl.rc_context(_SETTINGS):
         figure = Figure()
         draw(figure)
-        FigureCanvasSVG(figure).print_svg(out, metadata=_NO_METADATA)
+        figure.savefig(out, format="svg", metadata=_NO_METADATA)
     width, height = figure.get_size_inches() * 72
     return _inside(out.getvalue()), round(float(width), 2), round(float(height), 2)
 

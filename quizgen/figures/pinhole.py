@@ -25,10 +25,10 @@ PARAMETERS = {
     "p_z": Parameter("1 or m", "depth of the scene point", low=1e-6),
     "p_y": Parameter("1 or m", "height of the scene point, not 0"),
     "metric": Parameter(
-        "", "0: plain numbers; 1: f and p'_y in mm, p in m; 2: all in mm", 0.0, 0.0, 2.0
+        "", "0: plain numbers; 1: f and p'_y in mm, p in m; 2: all in mm", 0.0, 0.0, 2.0, whole=True
     ),
-    "physical": Parameter("", "1: also draw the physical plane at -f", 0.0, 0.0, 1.0),
-    "y_down": Parameter("", "1: the y axis points down", 0.0, 0.0, 1.0),
+    "physical": Parameter("", "1: also draw the physical plane at -f", 0.0, 0.0, 1.0, whole=True),
+    "y_down": Parameter("", "1: the y axis points down", 0.0, 0.0, 1.0, whole=True),
 }
 
 _UNITS = {0: ("", ""), 1: ("mm", "m"), 2: ("mm", "mm")}
@@ -52,7 +52,7 @@ class _Layout:
         return (self.o_x + depth * self.length, self.o_y + self.side * height * self.height)
 
     def beside(self, depth: float, offset: float) -> tuple[float, float]:
-        """A place a few points from the axis, counted away from it on the side of the point."""
+        """Find a place a few points from the axis, counted away from it on the side of the point."""
         return (self.o_x + depth * self.length, self.o_y + self.side * offset)
 
     @property
@@ -91,7 +91,7 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
     if values["physical"]:
         _physical(pen, place)
     _planes(pen, place)
-    _names(pen, place, words)
+    _names(pen, place, words, values)
     pen.onto(figure)
 
 
@@ -124,17 +124,25 @@ def _layout(values: Values, words: dict[str, str]) -> _Layout:
 
     f, p_z = values["f"] * _scale(values), values["p_z"]
     point_is_far, ratio = p_z > f, min(f, p_z) / max(f, p_z)
-    near = min(max(ratio, _LEAST), _MOST)
-    left = values["physical"] * (near if point_is_far else 1.0)
-    below = values["physical"] * (near if point_is_far else 1.0)
-    right = 12 + text_width(words["p_y" if point_is_far else "image"])
-    length = (WIDTH - 22 - right - (12 if left else 0)) / (1 + left)
+    far_leg, near_leg = ("p_y", "image") if point_is_far else ("image", "p_y")
+    room = WIDTH - 34 - text_width(words[far_leg]) - 12 * values["physical"]
+    gap = (text_width(words[near_leg]) + 9) / room
+    near = min(max(ratio, _LEAST), _most(gap, values["physical"], point_is_far))
+    left = below = values["physical"] * (near if point_is_far else 1.0)
+    length = room / (1 + left)
     height = min(HEIGHT - 74, (HEIGHT - 40) / (1 + below))
     side = 1 if (values["p_y"] > 0) != (values["y_down"] == 1) else -1
     depth_below = max(46.0 if values["p_y"] > 0 else 60.0, below * height + 20)
     o_y = depth_below if side > 0 else HEIGHT - depth_below
     o_x = 18 + left * length + (12 if left else 0)
     return _Layout(o_x, o_y, length, height, near, point_is_far, side, near == ratio)
+
+
+def _most(gap: float, physical: float, point_is_far: bool) -> float:
+    """Largest place of the near leg that leaves its label room before the far leg."""
+    if not physical:
+        return min(_MOST, 1 - gap)
+    return min(_MOST, (1 - gap) / (1 + gap) if point_is_far else 1 - 2 * gap)
 
 
 def _triangles(pen: Pen, place: _Layout) -> None:
@@ -196,7 +204,7 @@ def _physical(pen: Pen, place: _Layout) -> None:
     pen.label((x + 7, y - 3 * place.side), "−p'_y", "l")
 
 
-def _names(pen: Pen, place: _Layout, words: dict[str, str]) -> None:
+def _names(pen: Pen, place: _Layout, words: dict[str, str], values: Values) -> None:
     near, far = ("f", "p_z") if place.point_is_far else ("p_z", "f")
     pen.dimension(place.beside(0, -19), place.beside(place.near, -19), words[near])
     pen.dimension(place.beside(0, -37), place.beside(1, -37), words[far])
@@ -205,10 +213,10 @@ def _names(pen: Pen, place: _Layout, words: dict[str, str]) -> None:
     pen.label((x + 4, y), words[near_leg], "l")
     x, y = place.at(1, 0.5)
     pen.label((x + 5, y), words[far_leg], "l")
-    _points(pen, place)
+    _points(pen, place, physical=bool(values["physical"]))
 
 
-def _points(pen: Pen, place: _Layout) -> None:
+def _points(pen: Pen, place: _Layout, *, physical: bool) -> None:
     near_name, far_name = ("p'", "p") if place.point_is_far else ("p", "p'")
     for depth in (0.0, place.near, 1.0):
         pen.dot("points", place.at(depth, depth))
@@ -216,7 +224,8 @@ def _points(pen: Pen, place: _Layout) -> None:
     pen.label((x - 5, y + 8 * place.side), near_name, "r")
     x, y = place.at(1, 1)
     pen.label((x + 5, y), far_name, "l")
-    pen.label((place.o_x - 5, place.o_y - 9 * place.side), "{O}", "r")
+    side = place.side if physical else -place.side
+    pen.label((place.o_x - 5, place.o_y + 9 * side), "{O}", "r")
 
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:

@@ -22,14 +22,15 @@ DARK = "invert"
 
 PARAMETERS = {
     "f": Parameter("mm", "focal length", low=1e-6),
-    "z": Parameter("mm", "distance of the object from the lens; below f the image is virtual",
-                   low=1e-6),
+    "z": Parameter(
+        "mm", "distance of the object from the lens; below f the image is virtual", low=1e-6
+    ),
 }
 
 _REAL, _VIRTUAL = (1.25, 5.0), (0.4, 0.75)
-_AXIS = 96.0
-_TOP, _BOTTOM = 58.0, 46.0
-_ROW = (12.0, 29.0)
+_AXIS = 105.0
+_TOP, _BOTTOM = 55.0, 45.0
+_ROW = (22.0, 41.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,8 +102,7 @@ def _layout(values: Values) -> _Layout:
 def _lens(pen: Pen, place: _Layout) -> None:
     from quizgen.figures._pen import LINE, SHADE, WIDTH
 
-    half = max(place.height * max(1.0, abs(place.magnification)) + 8, 50.0)
-    half = min(half, _AXIS - 34, 70.0)
+    half = min(max(place.height * max(1.0, abs(place.magnification)) + 8, 50.0), 62.0)
     rim = [(6 * (1 - (i / 10) ** 2), half * i / 10) for i in range(-10, 11)]
     shape = [(place.lens_x + x, _AXIS + y) for x, y in rim]
     shape += [(place.lens_x - x, _AXIS - y) for x, y in rim]
@@ -110,7 +110,8 @@ def _lens(pen: Pen, place: _Layout) -> None:
     pen.area("lens-edge", shape, LINE)
     pen.line("axis", [(4, _AXIS), (WIDTH - 4, _AXIS)], LINE)
     if not place.to_scale:
-        pen.break_mark(place.at(-(place.object + min(1.0, place.object)) / 2 + 0.02, 0))
+        behind = 1.0 if place.object > 1 else 0.0
+        pen.break_mark(place.at(-(place.object + behind) / 2, 0))
 
 
 def _real_rays(pen: Pen, place: _Layout, image: float) -> None:
@@ -126,9 +127,12 @@ def _virtual_rays(pen: Pen, place: _Layout, image: float) -> None:
 
     tip, top = place.at(-place.object, 1), -place.magnification
     back = place.at(image, top)
-    for part, hit, slope in (("parallel", 1.0, -1.0), ("central", 0.0, -1.0 / place.object),
-                             ("focal", top, 0.0)):
-        through = (1.0 if part == "parallel" else 1 / abs(slope) if slope else 1.0)
+    for part, hit, slope in (
+        ("parallel", 1.0, -1.0),
+        ("central", 0.0, -1.0 / place.object),
+        ("focal", top, 0.0),
+    ):
+        through = 1.0 if part == "parallel" else 1 / abs(slope) if slope else 1.0
         reach = min(1.3, 1.3 * through if slope else 1.3)
         leaving = place.at(reach, hit + slope * reach)
         pen.ray(f"ray-{part}", [tip, place.at(0, hit), leaving])
@@ -160,14 +164,19 @@ def _arrows(pen: Pen, place: _Layout) -> None:
     for x, name in ((-1.0, "{F}"), (1.0, "{F}'")):
         pen.dot("foci", place.at(x, 0))
         at = place.at(x, 0)
-        pen.label((at[0], at[1] - 10 if x < 0 else at[1] + 10), name)
+        pen.label(
+            (at[0] - 4, at[1] - 10) if x < 0 else (at[0], at[1] + 11), name, "r" if x < 0 else "c"
+        )
 
 
 def _measures(pen: Pen, place: _Layout, values: Values, *, quiz: bool) -> None:
     words = _labels(values, quiz=quiz)
     virtual = place.image is not None and place.image < 0
-    _measure(pen, place, -place.object, _ROW[1] if virtual else _ROW[0], words["z"])
-    _measure(pen, place, 1.0, _ROW[0] if virtual or place.image is None else _ROW[1], words["f"])
+    _measure(pen, place, -place.object, _ROW[virtual], words["z"])
+    if place.image is None or virtual:
+        _measure(pen, place, 1.0, _ROW[0], words["f"])
+    else:
+        _measure(pen, place, 1.0 if place.image > place.object else -1.0, _ROW[1], words["f"])
     if place.image is not None:
         _measure(pen, place, place.image, _ROW[0], words["image"])
 
@@ -177,8 +186,9 @@ def _measure(pen: Pen, place: _Layout, x: float, row: float, text: str) -> None:
 
     for end in (0.0, x):
         at = place.at(end, 0)
-        pen.line("helpers", [(at[0], _AXIS - 4), (at[0], row - 4)], DOTTED)
-    pen.dimension((place.at(x, 0)[0], row), (place.lens_x, row), text)
+        pen.line("helpers", [(at[0], _AXIS - 4), (at[0], row - 3)], DOTTED)
+    beside = "" if row == _ROW[0] else "l" if x == -1 else "r"
+    pen.dimension((place.at(x, 0)[0], row), (place.lens_x, row), text, beside)
 
 
 def _labels(values: Values, *, quiz: bool) -> dict[str, str]:

@@ -1,0 +1,175 @@
+"""One scene four times: unchanged, value scaled, saturation scaled, hue turned."""
+
+from __future__ import annotations
+
+from functools import cache
+from itertools import permutations
+from typing import TYPE_CHECKING
+
+from quizgen.figures._numbers import given, spoken
+from quizgen.figures._parameters import Parameter, Values
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from quizgen.figures._scene import Colour, Hsv
+
+DARK = "keep"
+
+PARAMETERS = {
+    "a": Parameter("1", "factor on the value V", low=0.0, high=1.0),
+    "b": Parameter("1", "factor on the saturation S", low=0.0, high=1.0),
+    "delta": Parameter("deg", "turn of the hue H", low=-360.0, high=360.0),
+    "order": Parameter(
+        "",
+        "which permutation of (original, V, S, H) stands at A to D, as edit_order says",
+        0.0,
+        0.0,
+        23.0,
+        whole=True,
+    ),
+    "scene": Parameter("", "variant of the scene", 0.0, 0.0, 7.0, whole=True),
+}
+
+EDITS = ("original", "V", "S", "H")
+_LETTERS = "ABCD"
+_GAP, _CAPTION = 8.0, 15.0
+
+
+def edit_order(order: float) -> tuple[str, ...]:
+    """Which edit stands at A, B, C and D.
+
+    Parameters
+    ----------
+    order : float
+        A whole number from 0 to 23: index into the permutations of ``EDITS`` in lexicographic
+        order of positions; 0 leaves them as they are, 23 turns them round.
+
+    Returns
+    -------
+    tuple of str
+        Four names from ``EDITS``.
+    """
+    return list(permutations(EDITS))[int(order)]
+
+
+def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
+    """Draw the figure.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+        An empty figure.
+    values : mapping of str to float
+        As ``PARAMETERS`` says.
+    quiz : bool
+        Show letters without the edits.
+    """
+    from quizgen.figures import _scene
+    from quizgen.figures._pen import THIN, WIDTH, Pen
+    from quizgen.figures._picture import Picture
+
+    wide = (WIDTH - 3 * _GAP) / 2
+    high = wide * _scene.HEIGHT / _scene.WIDTH
+    pen = Pen(WIDTH, 2 * (high + _CAPTION) + _GAP)
+    for place, edit in enumerate(edit_order(values["order"])):
+        left = _GAP + (place % 2) * (wide + _GAP)
+        low = (1 - place // 2) * (high + _CAPTION) + _CAPTION
+        box = (left, low, wide, high)
+        figure.add_artist(Picture(_png(int(values["scene"]), _palette(values, edit)), box))
+        frame = [(left, low), (left + wide, low), (left + wide, low + high), (left, low + high)]
+        pen.area("frames", frame, THIN)
+        pen.label((left + wide / 2, low - 7.5), _caption(values, place, edit, quiz=quiz))
+    pen.onto(figure, background="#ffffff")
+
+
+def _caption(values: Values, place: int, edit: str, *, quiz: bool) -> str:
+    letter = f"{{{_LETTERS[place]}}}"
+    return letter if quiz else f"{letter}{{:}}  {_symbols(values, edit)}"
+
+
+def _symbols(values: Values, edit: str) -> str:
+    sign = "+" if values["delta"] >= 0 else "−"
+    return {
+        "original": "H, S, V",
+        "V": f"V × {given(values['a'])}",
+        "S": f"S × {given(values['b'])}",
+        "H": f"H {sign} {given(abs(values['delta']))}°",
+    }[edit]
+
+
+def _palette(values: Values, edit: str) -> tuple[Colour, ...]:
+    from quizgen.figures._scene import PALETTE, edited
+
+    if edit == "original":
+        return PALETTE
+    return tuple(edited(PALETTE, lambda *hsv: _edited(values, edit, hsv)))
+
+
+def _edited(values: Values, edit: str, hsv: Hsv) -> Hsv:
+    hue, saturation, value = hsv
+    if edit == "V":
+        return (hue, saturation, value * values["a"])
+    if edit == "S":
+        return (hue, saturation * values["b"], value)
+    return ((hue + values["delta"] / 360) % 1.0, saturation, value)
+
+
+@cache
+def _pixels(scene: int) -> bytes:
+    from quizgen.figures._png import pixels
+    from quizgen.figures._scene import indices
+
+    return pixels(indices(scene))
+
+
+def _png(scene: int, palette: tuple[Colour, ...]) -> bytes:
+    from quizgen.figures import _scene
+    from quizgen.figures._png import png
+
+    return png((_scene.HEIGHT, _scene.WIDTH), _pixels(scene), palette)
+
+
+def alt(values: Values, lang: str, *, quiz: bool) -> str:
+    """Describe the figure in words.
+
+    Parameters
+    ----------
+    values : mapping of str to float
+        As ``PARAMETERS`` says.
+    lang : {"en", "bn"}
+        Language.
+    quiz : bool
+        Leave out which edit made which picture.
+    """
+    words = _ALT[lang]
+    if quiz:
+        return words["figure"] + words["quiz"]
+    captions = []
+    for place, edit in enumerate(edit_order(values["order"])):
+        what = words["original"] if edit == "original" else spoken(_symbols(values, edit))
+        captions.append(f"{_LETTERS[place]}: {what}")
+    return words["figure"] + " " + "; ".join(captions) + words["stop"]
+
+
+_ALT = {
+    "en": {
+        "figure": (
+            "Four versions A, B, C and D of one picture: blue sky with a yellow sun, a white cloud "
+            "and a magenta and yellow balloon, green hills, a grey road, orange flowers, and a "
+            "house with a red roof and near-white walls."
+        ),
+        "quiz": " One is the original; in each of the others one of H, S and V was edited.",
+        "original": "original",
+        "stop": ".",
+    },
+    "bn": {
+        "figure": (
+            "একই ছবির চারটি রূপ A, B, C ও D: নীল আকাশে হলুদ সূর্য, সাদা মেঘ আর magenta-হলুদ "
+            "বেলুন, সবুজ পাহাড়, ধূসর রাস্তা, কমলা ফুল, আর লাল চাল ও প্রায়-সাদা দেয়ালের একটি বাড়ি।"
+        ),
+        "quiz": " একটি মূল ছবি; বাকি প্রতিটিতে H, S ও V-এর যেকোনো একটি বদলানো হয়েছে।",
+        "original": "মূল ছবি",
+        "stop": "।",
+    },
+}
