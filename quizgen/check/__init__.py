@@ -1,0 +1,117 @@
+"""Checking typed answers: ``mark`` for one answer, ``quizgen.check.paper`` for whole papers.
+
+A spec is a plain table with ``kind``; ``docs/answers.md`` documents every kind and field. What a
+student types never raises: it becomes a ``Verdict``. Neither SymPy nor NumPy is imported.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+from quizgen.check.kinds import KINDS, kind_module
+from quizgen.check.messages import say
+from quizgen.check.options import DECIMALS, Context, Options
+from quizgen.check.specs import Spec, decode
+from quizgen.check.verdict import Verdict, unreadable
+from quizgen.errors import KeyFileError
+from quizgen.reader import ReadError
+
+
+def load_spec(spec: Mapping[str, Any]) -> Spec:
+    """Read and validate a spec table.
+
+    Raises
+    ------
+    KeyFileError
+        Naming the field that is wrong.
+    """
+    name = spec.get("kind")
+    known = isinstance(name, str) and name in KINDS
+    return decode({str(name): kind_module(str(name)).Spec} if known else dict.fromkeys(KINDS, Spec), spec)
+
+
+def mark(
+    spec: Mapping[str, Any] | Spec,
+    typed: str,
+    *,
+    lang: str = "en",
+    decimal: str = "auto",
+    context: Context | None = None,
+) -> Verdict:
+    """Mark one typed answer.
+
+    Parameters
+    ----------
+    spec : mapping
+        The answer's spec: ``{"kind": "number", "value": "20/3", "decimals": 3}``.
+    typed : str
+        What the student typed.
+    lang : str
+        Language of the message: ``en`` or ``bn``.
+    decimal : str
+        The student's decimal sign: ``auto``, ``point`` or ``comma``.
+    context : Context, optional
+        The question around, for diagnosis and errors carried forward.
+
+    Returns
+    -------
+    Verdict
+        With the message in the student's language.
+
+    Raises
+    ------
+    KeyFileError
+        If the spec is wrong (never because of what was typed).
+    """
+    if decimal not in DECIMALS:
+        raise KeyFileError(f"decimal: {decimal!r} is not one of {', '.join(DECIMALS)}")
+    table = spec if isinstance(spec, Spec) else load_spec(spec)
+    return explained(table, judge(table, typed, Options(lang, decimal, context)), lang)
+
+
+def judge(spec: Spec, typed: str, options: Options) -> Verdict:
+    """Return the language-free verdict of one answer."""
+    try:
+        verdict: Verdict = kind_module(spec.kind).check(spec, typed, options)
+    except ReadError as error:
+        return _asked_back(error)
+    return verdict
+
+
+def _asked_back(error: ReadError) -> Verdict:
+    note = "unexpected-end" if error.code == "unfinished" else error.code
+    if error.code == "unknown-unit" and error.expected:
+        note = "unknown-unit-case"
+    fields = {"column": error.column or 1, "found": error.found, "expected": error.expected}
+    return unreadable(note, **fields)
+
+
+def explained(spec: Spec, verdict: Verdict, lang: str) -> Verdict:
+    """Put the verdict's note into words of a language."""
+    cells = tuple(explained(spec, cell, lang) for cell in verdict.cells)
+    return replace(verdict, message=_sentence(spec, verdict, lang), cells=cells)
+
+
+def _sentence(spec: Spec, verdict: Verdict, lang: str) -> str:
+    name = verdict.note.removeprefix("trap:")
+    if name == verdict.note:
+        return say(lang, verdict.note, verdict.fields) if name else ""
+    return spec.notes.get(lang, {}).get(name) or say(lang, "trap", verdict.fields)
+
+
+def show(spec: Mapping[str, Any] | Spec, lang: str = "en") -> str:
+    """Return the key of a spec as it is printed, and as it can be typed back.
+
+    Raises
+    ------
+    KeyFileError
+        If the spec is wrong.
+    """
+    table = spec if isinstance(spec, Spec) else load_spec(spec)
+    text: str = kind_module(table.kind).show(table, lang)
+    return text
+
+
+__all__ = ["Context", "Options", "Verdict", "explained", "judge", "load_spec", "mark", "show"]

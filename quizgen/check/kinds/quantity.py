@@ -1,0 +1,133 @@
+"""Kind ``quantity``: a number with a unit; compared in base units, judged in the key's unit."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from flint import fmpq
+
+from quizgen.check.diagnosis import hints_for
+from quizgen.check.judging import judge_value, resolve
+from quizgen.check.kinds.number import shown, trap_values, without_name
+from quizgen.check.options import Options
+from quizgen.check.quantities import TypedQuantity, split_quantity
+from quizgen.check.rewrites import normalise
+from quizgen.check.scalars import Number, exact_value, read_source
+from quizgen.check.slips import close, power_of_ten
+from quizgen.check.specs import Scalar, Tolerance
+from quizgen.check.unit_words import TypedUnit, plain_unit
+from quizgen.check.verdict import HALF, Verdict, partial, with_values, wrong
+from quizgen.errors import FormulaError
+from quizgen.units import shown as shown_unit
+
+
+class Spec(Tolerance, kw_only=True):
+    """Quantity: ``value`` in ``unit``; with ``bare`` the unit is printed beside the field."""
+
+    value: Scalar
+    unit: str
+    bare: bool = False
+
+    def validate(self) -> None:
+        """Check tolerance, value, unit and traps."""
+        super().validate()
+        exact_value(self.value)
+        plain_unit(self.unit)
+        trap_values(self)
+
+
+def check(spec: Spec, typed: str, options: Options) -> Verdict:
+    """Judge a typed quantity."""
+    source = without_name(normalise(typed))
+    quantity = split_quantity(source)
+    readings = read_source(quantity.number, options.decimal)
+    return resolve(readings, lambda n: _judge(spec, n, quantity, options), spec.decimals)
+
+
+def _judge(spec: Spec, number: Number, quantity: TypedQuantity, options: Options) -> Verdict:
+    wanted = plain_unit(spec.unit)
+    if quantity.unit is None:
+        return _without_unit(spec, number, wanted, options)
+    read_as = f"{number.read_as} {shown_unit(quantity.unit.text)}"
+    if quantity.unit.dimension != wanted.dimension:
+        return _clash(spec, number, quantity.unit, read_as)
+    value = number.value * quantity.unit.factor / wanted.factor
+    verdict = judge_unit(spec, number, value, wanted, options, read_as)
+    return _prefix(spec, number, value, quantity.unit, verdict)
+
+
+def judge_unit(
+    spec: Spec, number: Number, value: Any, wanted: TypedUnit, options: Options, read_as: str
+) -> Verdict:
+    """Judge a value that stands in the key's unit."""
+    verdict = judge_value(
+        spec,
+        number,
+        value,
+        exact_value(spec.value),
+        traps=trap_values(spec),
+        hints=hints_for(spec, number, fmpq(1), options),
+        read_as=read_as,
+    )
+    return with_values(verdict, value * wanted.factor)
+
+
+def _without_unit(spec: Spec, number: Number, wanted: TypedUnit, options: Options) -> Verdict:
+    verdict = judge_unit(spec, number, number.value, wanted, options, number.read_as)
+    if spec.bare or not wanted.dimension and wanted.factor == 1:
+        return verdict
+    if verdict.credit:
+        unit = shown_unit(spec.unit)
+        credit = min(HALF, verdict.credit)
+        missing = partial(credit, number.read_as, "unit-missing", unit=unit)
+        return with_values(missing, number.value * wanted.factor)
+    return _logarithm(spec, number.value, number.read_as) or verdict
+
+
+def _clash(spec: Spec, number: Number, typed: TypedUnit, read_as: str) -> Verdict:
+    note = "unit-clash"
+    if close(number.value, exact_value(spec.value)):
+        note = "unit-wrong"
+    asked = shown_unit(spec.unit)
+    return with_values(wrong(read_as, note, given=shown_unit(typed.text), asked=asked), None)
+
+
+def _prefix(spec: Spec, number: Number, value: Any, typed: TypedUnit, verdict: Verdict) -> Verdict:
+    """Name a wrong power of ten as a slip of the prefix."""
+    key = exact_value(spec.value)
+    if verdict.note == "factor" and spec.unit == "dB":
+        return _decibel(value, key, verdict)
+    if verdict.note != "power-of-ten" and verdict.note != "percent-slip":
+        return verdict
+    asked = shown_unit(spec.unit)
+    same = close(number.value, key) and typed.text != spec.unit
+    note = "unit-prefix" if same else "unit-prefix-power"
+    fields = {"asked": asked, "power": power_of_ten(value, key)}
+    return with_values(wrong(verdict.read_as, note, **fields), *verdict.values)
+
+
+def _decibel(value: Any, key: Any, verdict: Verdict) -> Verdict:
+    if close(value * 2, key):
+        return with_values(wrong(verdict.read_as, "decibel-ten"), *verdict.values)
+    if close(value, key * 2):
+        return with_values(wrong(verdict.read_as, "decibel-twenty"), *verdict.values)
+    return verdict
+
+
+def _logarithm(spec: Spec, value: Any, read_as: str) -> Verdict | None:
+    """Report a ratio given where decibels were asked."""
+    if spec.unit != "dB" or not value > 0:
+        return None
+    key = float(exact_value(spec.value))
+    for per_decade in (10, 20):
+        if abs(float(value) - 10 ** (key / per_decade)) <= 0.005 * float(value):
+            return wrong(read_as, "ratio-for-decibel")
+    return None
+
+
+def show(spec: Spec, lang: str) -> str:  # noqa: ARG001 - one notation in all languages
+    """Return the key as printed and as it can be typed back."""
+    return f"{shown(spec, exact_value(spec.value))} {shown_unit(spec.unit)}".strip()
+
+
+__all__ = ["FormulaError", "Spec", "check", "judge_unit", "show"]

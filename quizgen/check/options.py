@@ -1,0 +1,52 @@
+"""How to read an answer, and what is known around it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+from quizgen.chain import Chain
+from quizgen.errors import MathError
+
+DECIMALS = ("auto", "point", "comma")
+
+
+@dataclass(frozen=True)
+class Context:
+    """The question around a part: enables diagnosis by mutation and carrying errors forward.
+
+    Parameters
+    ----------
+    chain : Chain
+        The question's chain of steps.
+    given : mapping of str to flint.fmpq
+        The drawn numbers, in base units.
+    earlier : mapping of str to flint.fmpq
+        The student's own values of quantities asked in earlier parts, in base units.
+    """
+
+    chain: Chain
+    given: Mapping[str, Any]
+    earlier: Mapping[str, Any] = field(default_factory=dict)
+
+    @cached_property
+    def solved(self) -> dict[str, Any]:
+        """The right value of every quantity; empty if the chain has no value."""
+        try:
+            return self.chain.solve(self.given)
+        except MathError:
+            return {}
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """Reading options: language of the sentences, decimal sign, and the question around."""
+
+    lang: str = "en"
+    decimal: str = "auto"
+    context: Context | None = None
+
+
+PLAIN = Options()

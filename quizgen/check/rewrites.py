@@ -1,0 +1,172 @@
+"""Named rewrites from what people type or paste to the characters of the formula grammar.
+
+Each rewrite does one thing and can be tested alone (``rewrite(name, text)``). The text keeps, for
+every character, the column it came from, so that errors point into what was typed.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from quizgen.reader import ReadError
+
+LONGEST = 200
+"""Most characters in one typed formula, number or list."""
+
+LONGEST_PROSE = 4000
+"""Most characters in free text and program output."""
+
+_DIRECTION = "\u200e\u200f\u061c\u202a-\u202e\u2066-\u2069\ufeff"
+_BLANKS = "\t \u00a0\u2000-\u200a\u202f\u205f\u3000"
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """A text and the column (from 1) each of its characters came from."""
+
+    text: str
+    columns: tuple[int, ...]
+
+    @classmethod
+    def of(cls, text: str) -> Source:
+        """Wrap a typed text."""
+        return cls(text, tuple(range(1, len(text) + 1)))
+
+    def column(self, position: int) -> int:
+        """Column in the typed text of a position in the rewritten one."""
+        if position < len(self.columns):
+            return self.columns[position]
+        return self.columns[-1] + 1 if self.columns else 1
+
+    def cut(self, start: int, end: int | None = None) -> Source:
+        """Return a part, with its columns."""
+        return Source(self.text[start:end], self.columns[start:end])
+
+    def sub(self, pattern: re.Pattern[str], new: Callable[[re.Match[str]], str]) -> Source:
+        """Replace matches; a replacement takes the column of the match's start."""
+        text, columns, last = [], list[int](), 0
+        for match in pattern.finditer(self.text):
+            put = new(match)
+            text += [self.text[last : match.start()], put]
+            columns += self.columns[last : match.start()]
+            columns += [self.column(match.start())] * len(put)
+            last = match.end()
+        if not text:
+            return self
+        return Source("".join([*text, self.text[last:]]), (*columns, *self.columns[last:]))
+
+    def strip(self, characters: str = " ") -> Source:
+        """Remove characters at both ends."""
+        left = len(self.text) - len(self.text.lstrip(characters))
+        right = len(self.text.rstrip(characters))
+        return self.cut(left, max(left, right))
+
+
+Rewrite = tuple[re.Pattern[str], Callable[[re.Match[str]], str]]
+
+_SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻", "0123456789+-")
+_SUBSCRIPTS = str.maketrans("₀₁₂₃₄₅₆₇₈₉ₓᵢ", "0123456789xi")
+_APPROXIMATE = r"ca\.|approx(?:\.|imately)?|about|circa|etwa|ungefähr|rund|প্রায়|প্রায়"
+
+
+def _table(pairs: dict[str, str]) -> Callable[[re.Match[str]], str]:
+    return lambda match: pairs[match[0]]
+
+
+def _fraction(match: re.Match[str]) -> str:
+    digits = unicodedata.normalize("NFKC", match[2]).replace("⁄", "/")
+    return f"({match[1]}+{digits})" if match[1] else f"({digits})"
+
+
+REWRITES: dict[str, Rewrite] = {
+    "direction marks around": (re.compile(f"^[{_DIRECTION}]+|[{_DIRECTION}]+$"), lambda _m: ""),
+    "blanks": (re.compile(f"[{_BLANKS}]"), lambda _m: " "),
+    "digits": (
+        re.compile(r"[^\W0-9A-Za-z_²³¹]"),
+        lambda m: str(unicodedata.decimal(m[0], m[0])),
+    ),
+    "full-width forms": (re.compile(r"[！-～]"), lambda m: chr(ord(m[0]) - 0xFEE0)),
+    "minus and dashes": (re.compile(r"[−‐‑‒–—﹣⁻](?![⁰¹²³⁴⁵⁶⁷⁸⁹])"), lambda _m: "-"),
+    "times": (re.compile(r"[×·∙⋅∗✕✖•⨯]"), lambda _m: "*"),
+    "division": (re.compile(r"[÷∕∶⁄]"), lambda _m: "/"),
+    "decimal marks": (re.compile(r"[٫˙]"), lambda _m: "."),
+    "quotes and primes": (re.compile(r"[′’‘ʹ`´]"), lambda _m: "'"),
+    "double primes": (re.compile(r"[″]"), lambda _m: "''"),
+    "semicolons": (re.compile(r"[；؛]"), lambda _m: ";"),
+    "angle brackets": (re.compile(r"[⟨⟩〈〉]"), _table(dict(zip("⟨⟩〈〉", "()()", strict=True)))),
+    "superscripts": (
+        re.compile(r"[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+"),
+        lambda m: "^" + (f"({t})" if len(t := m[0].translate(_SUPERSCRIPTS)) > 1 else t),
+    ),
+    "subscripts": (re.compile(r"[₀-₉ₓᵢ]+"), lambda m: m[0].translate(_SUBSCRIPTS)),
+    "vulgar fractions": (re.compile(r"(\d*) ?([¼-¾⅐-⅞])"), _fraction),
+    "about": (re.compile(rf"^ *(?:≈|~|∼|=|(?:{_APPROXIMATE})(?![^\W\d_])) *", re.I), lambda _m: ""),
+    "x between numbers": (re.compile(r"(?<=[\d)]) *[xXхХ] *(?=10 ?\^|10\*\*|\d)"), lambda _m: "*"),
+}
+"""Name to pattern and replacement, in the order they are applied."""
+
+_ALWAYS = ("about", "x between numbers")
+_EXOTIC = re.compile(r"[^ -~]")
+_CONTROL = frozenset({"Cc", "Cf", "Co", "Cs", "Cn", "Zl", "Zp"})
+
+
+def rewrite(name: str, text: str) -> str:
+    """Apply one named rewrite."""
+    pattern, new = REWRITES[name]
+    return Source.of(text).sub(pattern, new).text
+
+
+def normalise(typed: str, *, keep_x: bool = False, longest: int = LONGEST) -> Source:
+    """Apply all rewrites to a typed text.
+
+    Parameters
+    ----------
+    typed : str
+        As the learner typed it.
+    keep_x : bool
+        Do not read ``3x10`` as a product (``x`` is a declared name).
+    longest : int
+        Cap on the length, applied before anything else looks at the text.
+
+    Raises
+    ------
+    ReadError
+        If the text is empty, too long, or has an invisible or control character inside.
+    """
+    if len(typed) > longest:
+        raise ReadError("too-long", longest + 1, str(longest))
+    source = Source.of(typed)
+    if _EXOTIC.search(typed):
+        source = _fold(source)
+    for name in _ALWAYS:
+        if not (keep_x and name == "x between numbers"):
+            source = source.sub(*REWRITES[name])
+    source = source.strip()
+    if not source.text:
+        raise ReadError("no-answer", 1)
+    return source
+
+
+def _fold(source: Source) -> Source:
+    source = source.strip(" \t\r\n\u00a0")
+    for name, (pattern, new) in REWRITES.items():
+        if name not in _ALWAYS:
+            source = source.sub(pattern, new)
+    refuse_invisible(source)
+    return source
+
+
+def refuse_invisible(source: Source, allowed: str = "") -> None:
+    """Name the first control or invisible character instead of dropping it.
+
+    Raises
+    ------
+    ReadError
+        With the character's name and column.
+    """
+    for position, character in enumerate(source.text):
+        if unicodedata.category(character) in _CONTROL and character not in allowed:
+            raise ReadError("bad-character", source.column(position), character)

@@ -1,0 +1,219 @@
+"""Reading typed units: spellings in English, German and Bangla, and compound units."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+from flint import arb, fmpq
+
+from quizgen.errors import FormulaError
+from quizgen.units import SIMPLE, Unit, unit
+
+WORDS = {
+    "pixel": "px",
+    "pixels": "px",
+    "pix": "px",
+    "পিক্সেল": "px",
+    "megapixel": "Mpx",
+    "megapixels": "Mpx",
+    "MP": "Mpx",
+    "metre": "m",
+    "metres": "m",
+    "meter": "m",
+    "meters": "m",
+    "মিটার": "m",
+    "মি": "m",
+    "millimetre": "mm",
+    "millimetres": "mm",
+    "millimeter": "mm",
+    "millimeters": "mm",
+    "মিলিমিটার": "mm",
+    "মিমি": "mm",
+    "centimetre": "cm",
+    "centimetres": "cm",
+    "centimeter": "cm",
+    "centimeters": "cm",
+    "সেন্টিমিটার": "cm",
+    "সেমি": "cm",
+    "kilometre": "km",
+    "kilometres": "km",
+    "kilometer": "km",
+    "kilometers": "km",
+    "কিলোমিটার": "km",
+    "কিমি": "km",
+    "micrometre": "um",
+    "micrometres": "um",
+    "micrometer": "um",
+    "micrometers": "um",
+    "micron": "um",
+    "microns": "um",
+    "mikrometer": "um",
+    "মাইক্রোমিটার": "um",
+    "মাইক্রন": "um",
+    "nanometre": "nm",
+    "nanometres": "nm",
+    "nanometer": "nm",
+    "nanometers": "nm",
+    "ন্যানোমিটার": "nm",
+    "second": "s",
+    "seconds": "s",
+    "sec": "s",
+    "secs": "s",
+    "sekunde": "s",
+    "sekunden": "s",
+    "সেকেন্ড": "s",
+    "millisecond": "ms",
+    "milliseconds": "ms",
+    "msec": "ms",
+    "millisekunden": "ms",
+    "মিলিসেকেন্ড": "ms",
+    "microsecond": "us",
+    "microseconds": "us",
+    "মাইক্রোসেকেন্ড": "us",
+    "degree": "deg",
+    "degrees": "deg",
+    "grad": "deg",
+    "ডিগ্রি": "deg",
+    "ডিগ্রী": "deg",
+    "radian": "rad",
+    "radians": "rad",
+    "রেডিয়ান": "rad",
+    "stops": "stop",
+    "blende": "stop",
+    "blenden": "stop",
+    "blendenstufe": "stop",
+    "blendenstufen": "stop",
+    "স্টপ": "stop",
+    "decibel": "dB",
+    "decibels": "dB",
+    "ডেসিবেল": "dB",
+    "lux": "lx",
+    "লাক্স": "lx",
+    "lumen": "lm",
+    "lumens": "lm",
+    "লুমেন": "lm",
+    "watt": "W",
+    "watts": "W",
+    "ওয়াট": "W",
+    "hertz": "Hz",
+    "হার্টজ": "Hz",
+    "electronvolt": "eV",
+    "electronvolts": "eV",
+    "bits": "bit",
+    "বিট": "bit",
+    "byte": "B",
+    "bytes": "B",
+    "বাইট": "B",
+    "percent": "%",
+    "per cent": "%",
+    "prozent": "%",
+    "শতাংশ": "%",
+    "electron": "e-",
+    "electrons": "e-",
+    "elektronen": "e-",
+    "ইলেকট্রন": "e-",
+    "photons": "photon",
+    "photonen": "photon",
+    "ফোটন": "photon",
+    "rows": "row",
+    "zeilen": "row",
+    "সারি": "row",
+    "frames": "frame",
+    "ফ্রেম": "frame",
+    "ADU": "DN",
+    "fps": "frame/s",
+    "line pairs": "lp",
+}
+"""Spelling (any case when it is longer than three letters) to a listed unit."""
+
+_LOWER = {word.lower(): name for word, name in WORDS.items() if len(word) > 3}
+_POWER_OF_UNIT = re.compile(r"(?<=[^\W\d_])\^?\(?(-?\d)\)?(?!\d)")
+_PART = re.compile(r"[*/·]|[^*/·]+")
+
+
+@dataclass(frozen=True, slots=True)
+class TypedUnit:
+    """A unit as typed: the listed spelling, its factor to base units and its dimension."""
+
+    text: str
+    factor: Any
+    dimension: tuple[tuple[str, int], ...]
+
+
+def plain_unit(listed: str) -> TypedUnit:
+    """Look up a listed unit; ``rad`` counts as 180/π degrees."""
+    if listed == "rad":
+        return TypedUnit("rad", 180 / arb.pi(), (("deg", 1),))
+    found: Unit = unit(listed)
+    return TypedUnit(listed, fmpq(found.factor.numerator, found.factor.denominator), found.dimension)
+
+
+def _word(word: str) -> str:
+    """Return the listed name of one unit word.
+
+    Raises
+    ------
+    FormulaError
+        If no unit is spelled like this.
+    """
+    word = word.strip().rstrip(".").strip()
+    if word in SIMPLE or word == "rad":
+        return word
+    listed = WORDS.get(word) or _LOWER.get(word.lower())
+    if listed is None and word.startswith(("µ", "μ")):
+        listed = "u" + word[1:] if "u" + word[1:] in SIMPLE else None
+    if listed is None:
+        raise FormulaError(f"unknown unit {word!r}")
+    return listed
+
+
+@lru_cache(maxsize=2048)
+def typed_unit(text: str) -> TypedUnit:
+    """Read a typed unit such as ``mm``, ``Pixel``, ``µm/px``, ``lx s``, ``mm²``, ``1/mm``.
+
+    Raises
+    ------
+    FormulaError
+        If a name in it is not listed.
+    """
+    text = text.strip()
+    try:
+        return plain_unit(_word(text))
+    except FormulaError:
+        compound = _compound(text)
+    return plain_unit(compound)
+
+
+def _compound(text: str) -> str:
+    text = re.sub(r"\s+per\s+|\s*প্রতি\s*", "/", text)
+    text = re.sub(r" *([*/·]) *", r"\1", text)
+    pieces = []
+    for piece in _PART.findall(text):
+        pieces.append(piece if piece in "*/·" else _product(piece))
+    return "".join(pieces)
+
+
+def _product(piece: str) -> str:
+    if piece == "1":
+        return "1"
+    try:
+        return _word(piece)
+    except FormulaError:
+        return "*".join(_powered(word) for word in piece.split())
+
+
+def _powered(word: str) -> str:
+    match = re.fullmatch(r"(.*?[^\d^(-])\^?\(?(-?[1-9])\)?", word)
+    if match is None:
+        return _word(word)
+    return f"{_word(match[1])}^{match[2]}"
+
+
+def suggestion(text: str) -> str:
+    """Return a listed unit that differs from an unknown word in case only, or an empty text."""
+    wanted = text.strip().lower()
+    found = [name for name in SIMPLE if name.lower() == wanted and name]
+    return min(found, key=lambda name: (name != wanted, name)) if found else ""

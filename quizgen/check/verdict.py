@@ -1,0 +1,106 @@
+"""What the checker says about one typed answer."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from typing import Any
+
+CORRECT = "correct"
+PARTIAL = "partial"
+WRONG = "wrong"
+UNREADABLE = "unreadable"
+AMBIGUOUS = "ambiguous"
+
+HALF = Fraction(1, 2)
+"""Credit for a right value in the wrong form, precision or without its unit."""
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """The judgement of one typed answer.
+
+    Parameters
+    ----------
+    verdict : str
+        ``correct``, ``partial``, ``wrong``, ``unreadable`` or ``ambiguous``; the last two cost
+        nothing and ask for another try.
+    credit : Fraction
+        Share of the marks, 0 to 1.
+    read_as : str
+        What was read, in the checker's own spelling.
+    note : str
+        Stable reason that names no language: ``unit-prefix``, ``trap:one-sided-tail``, ...
+    message : str
+        The same for the learner, in the learner's language.
+    fields : mapping
+        What the message fills in (language-free).
+    cells : tuple of Verdict
+        Verdicts of a table's cells, a point's coordinates, ... in order.
+    values : tuple
+        The numbers read, in the key's unit, for carrying errors forward.
+    """
+
+    verdict: str
+    credit: Fraction = Fraction(0)
+    read_as: str = ""
+    note: str = ""
+    message: str = ""
+    fields: Mapping[str, Any] = field(default_factory=dict)
+    cells: tuple[Verdict, ...] = ()
+    values: tuple[Any, ...] = ()
+
+    @property
+    def graded(self) -> bool:
+        """Whether the answer counts; what was not read as meant is asked back."""
+        return self.verdict not in {UNREADABLE, AMBIGUOUS}
+
+    def as_json(self) -> dict[str, Any]:
+        """Return the five public members, for JSON."""
+        return {
+            "verdict": self.verdict,
+            "credit": float(self.credit),
+            "read_as": self.read_as,
+            "note": self.note,
+            "message": self.message,
+        }
+
+
+def correct(read_as: str, note: str = "", **fields: Any) -> Verdict:
+    """Full credit."""
+    return Verdict(CORRECT, Fraction(1), read_as, note, fields=fields)
+
+
+def partial(credit: Fraction, read_as: str, note: str, **fields: Any) -> Verdict:
+    """Some credit, with the reason."""
+    return Verdict(PARTIAL, credit, read_as, note, fields=fields)
+
+
+def wrong(read_as: str, note: str = "", **fields: Any) -> Verdict:
+    """No credit."""
+    return Verdict(WRONG, Fraction(0), read_as, note, fields=fields)
+
+
+def unreadable(note: str, read_as: str = "", **fields: Any) -> Verdict:
+    """Asked back: it could not be read."""
+    return Verdict(UNREADABLE, Fraction(0), read_as, note, fields=fields)
+
+
+def ambiguous(note: str, read_as: str = "", **fields: Any) -> Verdict:
+    """Asked back: there are two readings, or a person has to decide."""
+    return Verdict(AMBIGUOUS, Fraction(0), read_as, note, fields=fields)
+
+
+def shared(credit: Fraction, read_as: str, note: str, **fields: Any) -> Verdict:
+    """Correct, partial or wrong by the share of right pieces."""
+    if credit >= 1:
+        return correct(read_as, **fields)
+    if credit <= 0:
+        return wrong(read_as, note, **fields)
+    return partial(credit, read_as, note, **fields)
+
+
+def with_values(verdict: Verdict, *values: Any) -> Verdict:
+    """Attach the numbers that were read."""
+    return replace(verdict, values=values)
