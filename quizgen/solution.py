@@ -20,7 +20,7 @@ from quizgen.errors import BankError
 from quizgen.expr import PRECISION, Call, Expr, Num, Sym, exact, names, taken_branch
 from quizgen.numbers import exact_text, rounded_text, short_decimal
 from quizgen.reader import to_text
-from quizgen.text import Block, Formula, Inline, Slot, Words, fill
+from quizgen.text import Block, Formula, Inline, Slot, Words, fill, fill_words
 from quizgen.units import shown as unit_shown
 
 NBSP = "\u00a0"
@@ -97,7 +97,12 @@ def filled(parts: Any, drawn: Draw, lang: str, *, hidden: bool = False) -> Any:
             return _slot(part.name, drawn, lang, hidden=hidden)
         return Maths(printing.layout(part.expr, inline=True), to_text(part.expr))
 
-    return fill(parts, value)
+    return _tied(fill(parts, value))
+
+
+def _tied(parts: Any) -> Any:
+    """Keep ``f = 50 mm`` on one line: the blanks around an equals sign do not break."""
+    return fill_words(parts, lambda text: text.replace(" = ", f"{NBSP}={NBSP}"))
 
 
 def _slot(name: str, drawn: Draw, lang: str, *, hidden: bool) -> Inline:

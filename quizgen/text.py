@@ -317,16 +317,26 @@ def slots(parts: Any) -> Iterator[str]:
 
 def fill(parts: Any, value: Callable[[Inline], Inline]) -> Any:
     """Replace slots and formulas in blocks or inlines by what ``value`` gives for them."""
-    if isinstance(parts, Slot | Formula):
-        return value(parts)
+    return _rebuilt(parts, lambda leaf: value(leaf) if isinstance(leaf, Slot | Formula) else leaf)
+
+
+def fill_words(parts: Any, change: Callable[[str], str]) -> Any:
+    """Change every piece of plain text in blocks or inlines."""
+    return _rebuilt(
+        parts, lambda leaf: Words(change(leaf.text)) if isinstance(leaf, Words) else leaf
+    )
+
+
+def _rebuilt(parts: Any, leaf: Callable[[Inline], Inline]) -> Any:
+    """Copy a tree of blocks and inlines with every leaf replaced."""
     if isinstance(parts, tuple):
-        return tuple(fill(part, value) for part in parts)
+        return tuple(_rebuilt(part, leaf) for part in parts)
     if isinstance(parts, Paragraph):
-        return Paragraph(fill(parts.children, value))
+        return Paragraph(_rebuilt(parts.children, leaf))
     if isinstance(parts, Styled):
-        return Styled(parts.style, fill(parts.children, value))
+        return Styled(parts.style, _rebuilt(parts.children, leaf))
     if isinstance(parts, Items):
-        return Items(fill(parts.items, value), parts.ordered)
+        return Items(_rebuilt(parts.items, leaf), parts.ordered)
     if isinstance(parts, Table):
-        return Table(fill(parts.head, value), fill(parts.rows, value))
-    return parts
+        return Table(_rebuilt(parts.head, leaf), _rebuilt(parts.rows, leaf))
+    return leaf(parts)

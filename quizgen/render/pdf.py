@@ -80,6 +80,10 @@ def _in(lang: str, body: str) -> str:
     return f"#spoken({string(lang)})[{body}];"
 
 
+def _say(lang: str, body: str) -> str:
+    return f"#say({string(lang)})[{body}];"
+
+
 def _each(langs: Iterable[str], bodies: Iterable[str]) -> str:
     """The same thing in each language: the second one set off by a rule."""
     spoken = [_in(lang, body) for lang, body in zip(langs, bodies, strict=True) if body]
@@ -87,7 +91,7 @@ def _each(langs: Iterable[str], bodies: Iterable[str]) -> str:
 
 
 def _joined(langs: tuple[str, ...], texts: Iterable[str]) -> str:
-    return '#" / ";'.join(_in(lang, text) for lang, text in zip(langs, texts, strict=True))
+    return '#" / ";'.join(_say(lang, text) for lang, text in zip(langs, texts, strict=True))
 
 
 def _words(langs: tuple[str, ...], key: str, **values: object) -> str:
@@ -106,8 +110,7 @@ class _Sheet:
         """The whole document."""
         cover = self._cover()
         body = "\n\n".join(self._item(item) for item in self.paper.items)
-        ending = "" if self.kind == "solutions" else ""
-        return f"{self._opening()}\n{cover}\n{body}\n{ending}"
+        return f"{self._opening()}\n{cover}\n{body}\n"
 
     def _opening(self) -> str:
         page = word(self.main, "paper.page", page="\u0001", pages="\u0002")
@@ -127,7 +130,7 @@ class _Sheet:
 
     def _cover(self) -> str:
         paper, main = self.paper, self.main
-        head = f"#heading(level: 1)[{_in(main, f'#{string(self._title(main))};')}]"
+        head = f"#heading(level: 1)[{_say(main, f'#{string(self._title(main))};')}]"
         others = [
             _in(lang, f"#text(14pt, {string(self._title(lang))});") for lang in self.langs[1:]
         ]
