@@ -1,0 +1,106 @@
+"""Linear change of the intensity range.
+
+Source: N = (newMax - newMin)/(max - min) (I - min) + newMin, clamped on both sides if asked.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from .domain import REAL, Array, Kernel, Numbers, Result, Rule, nearest
+from .double_double import Pair, pairs
+
+_CANCELLED = 2.0**-48
+
+
+def _exact(I: Any, low: Any, high: Any, new_low: Any, new_high: Any) -> Any:
+    return new_low + (I - low) * (new_high - new_low) / (high - low)
+
+
+def _compute(I: Array, low: Array, high: Array, new_low: Array, new_high: Array) -> Any:
+    if low.size == high.size == new_low.size == new_high.size == 1:
+        return _along_line(I, low.item(), high.item(), new_low.item(), new_high.item())
+    up = pairs(new_high)[0] * (pairs(I)[0] - low)
+    down = pairs(new_low)[0] * (pairs(high)[0] - I)
+    value = ((up + down) / (pairs(high)[0] - low)).rounded()
+    terms = (np.abs(up.high) + np.abs(down.high)) / np.abs(high - low)
+    return value, np.abs(value) < _CANCELLED * terms
+
+
+def _along_line(I: Array, *ends: float) -> Any:
+    slope, start = _line(*ends)
+    line = slope * I + start
+    value = line.rounded()
+    if slope.low == 0 and start.low == 0:
+        return value, None
+    return value, np.abs(value) < _CANCELLED * abs(start.high)
+
+
+@lru_cache(maxsize=64)
+def _line(low: float, high: float, new_low: float, new_high: float) -> tuple[Pair, Pair]:
+    a, b, c, d = (Fraction(end) for end in (low, high, new_low, new_high))
+    return _as_pair((d - c) / (b - a)), _as_pair((c * b - d * a) / (b - a))
+
+
+def _as_pair(value: Fraction) -> Pair:
+    high = nearest(value)
+    if abs(high) == float("inf"):
+        return Pair(high, 0.0)
+    return Pair(high, nearest(value - Fraction(high)))
+
+
+_NORMALISE = Kernel(
+    _compute,
+    (REAL,) * 5,
+    (Rule("empty-range", lambda _I, low, high, _c, _d: high <= low),),
+    exact=_exact,
+)
+
+
+def normalise(
+    I: Numbers,
+    low: Numbers,
+    high: Numbers,
+    new_low: Numbers = 0.0,
+    new_high: Numbers = 1.0,
+    *,
+    clamp: bool = False,
+) -> Result:
+    """Map intensities linearly so that low goes to new_low and high to new_high.
+
+    Parameters
+    ----------
+    I : array_like
+        Intensities.
+    low, high : array_like
+        The old range, low < high.
+    new_low, new_high : array_like
+        The new range; new_low > new_high turns the picture into its negative.
+    clamp : bool
+        Limit the result to the new range on both sides.
+
+    Returns
+    -------
+    float or array
+        Both ends are met exactly and nothing between them leaves the new range.
+
+    Raises
+    ------
+    DomainError
+        ``empty-range`` (high <= low), ``not-finite`` (arrays: masked).
+    """
+    value = _NORMALISE(I, low, high, new_low, new_high)
+    return _clamped(value, new_low, new_high) if clamp else value
+
+
+def _clamped(value: Result, new_low: Numbers, new_high: Numbers) -> Result:
+    bottom, top = np.minimum(new_low, new_high), np.maximum(new_low, new_high)
+    if isinstance(value, float):
+        return float(min(max(value, bottom), top))
+    np.maximum(np.ma.getdata(value), bottom, out=np.ma.getdata(value))
+    np.minimum(np.ma.getdata(value), top, out=np.ma.getdata(value))
+    return value
