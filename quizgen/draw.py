@@ -9,6 +9,7 @@ could be taken for another one.
 from __future__ import annotations
 
 import hashlib
+import math
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -90,12 +91,20 @@ def shuffled(key: str, items: Sequence[Any]) -> list[Any]:
 
 @dataclass(frozen=True)
 class _Variable:
-    """One drawn quantity: its candidates, or the formula that derives it."""
+    """One drawn quantity: its candidates, or the formula that derives it (or its phrase)."""
 
     name: str
     choices: tuple[fmpq, ...]
     words: tuple[str, ...]
     formula: Compiled | None
+
+    def derive(self, shown: dict[str, fmpq], words: dict[str, str]) -> None:
+        """Set the quantity, or the phrase at the place that the formula counts from 0."""
+        value = self.formula(shown) if self.formula else fmpq(0)
+        if self.words:
+            words[self.name] = self.words[int(value.floor()) % len(self.words)]
+        else:
+            shown[self.name] = value
 
 
 @dataclass(frozen=True)
@@ -121,10 +130,10 @@ class Plan:
 
     def _variable(self, name: str) -> _Variable:
         rule = self.template.rules.draw[name]
-        if rule.formula:
-            formula = compile_expr(self.template.formula(rule.formula), exact())
-            return _Variable(name, (), (), formula)
-        return _Variable(name, candidates(rule.pick, rule.range, rule.skip), rule.words, None)
+        source = rule.formula or rule.by
+        formula = compile_expr(self.template.formula(source), exact()) if source else None
+        listed = () if source else candidates(rule.pick, rule.range, rule.skip)
+        return _Variable(name, listed, rule.words, formula)
 
     def _conditions(self) -> Iterator[_Condition]:
         for text in self.template.rules.where:
@@ -142,7 +151,7 @@ class Plan:
         words: dict[str, str] = {}
         for variable in self.variables:
             if variable.formula is not None:
-                shown[variable.name] = variable.formula(shown)
+                variable.derive(shown, words)
             elif variable.words:
                 index = pick(f"{stem}/{variable.name}/{attempt}", len(variable.words))
                 words[variable.name] = variable.words[index]
@@ -233,7 +242,8 @@ class PartPlan:
             *(template.chain.needs(n, self.known - {n}) for n in self.of), frozenset()
         )
         self.steps = tuple(step for step in template.chain.steps if step.name in needed)
-        self.factors = tuple(to_float(factor(self.unit_of(template, n))) for n in self.of)
+        whole = 0.01 if self.answer.get("percent") else 1.0
+        self.factors = tuple(whole * to_float(factor(self.unit_of(template, n))) for n in self.of)
         self.traps = {
             trap: _float_plan(template, wrong)
             for trap, wrong in template.chain.traps.items()
@@ -241,6 +251,15 @@ class PartPlan:
             and self._concerns(template, wrong, needed)
         }
         self.may_vanish = frozenset(rules.may_vanish)
+        self.one_step = "decimals" in self.answer and "within" in self.answer
+        self.apart = 1.0 + 1e-9 if self.one_step else APART
+
+    def _reported(self, values: tuple[float, ...] | None) -> tuple[float, ...] | None:
+        """Round a wrong answer as it would be written down, if that is what is judged."""
+        if values is None or not self.one_step:
+            return values
+        scale = 10.0 ** int(self.answer["decimals"])
+        return tuple(math.copysign(math.floor(abs(v) * scale + 0.5) / scale, v) for v in values)
 
     def _concerns(
         self, template: Template, wrong: tuple[ChainStep, ...], needed: frozenset[str]
@@ -260,10 +279,11 @@ class PartPlan:
             return float(Fraction(str(answer["abs"])))
         if "rel" in answer:
             return float(Fraction(str(answer["rel"]))) * abs(key)
+        within = float(Fraction(str(answer.get("within", 1))))
         if "decimals" in answer:
-            return 10.0 ** -int(answer["decimals"])
+            return within * 10.0 ** -int(answer["decimals"])
         if "sigfigs" in answer:
-            return abs(key) * 10.0 ** (1 - int(answer["sigfigs"]))
+            return within * abs(key) * 10.0 ** (1 - int(answer["sigfigs"]))
         return min(0.005, 0.01 * abs(key))
 
     def check(self, env: Mapping[str, float], *, lenient: bool) -> tuple[str, ...] | str:
@@ -271,12 +291,12 @@ class PartPlan:
         if not self.of:
             return ()
         key = tuple(env[n] / f for n, f in zip(self.of, self.factors, strict=True))
-        widths = tuple(APART * self.tolerance(k) for k in key)
+        widths = tuple(self.apart * self.tolerance(k) for k in key)
         if not lenient and self._near_tie(key):
             return "rounding tie"
         seen: dict[str, tuple[float, ...]] = {"the key": key}
         for trap, plan in self.traps.items():
-            value = self._trapped(plan, env)
+            value = self._reported(self._trapped(plan, env))
             if value is None:
                 continue
             twin = next((n for n, v in seen.items() if _close(value, v, widths)), None)
@@ -410,7 +430,7 @@ def reference(template: Template) -> Draw:
         elif variable.name in given:
             shown[variable.name] = rational(str(given[variable.name]))
         elif variable.formula is not None:
-            shown[variable.name] = variable.formula(shown)
+            variable.derive(shown, words)
     result = admissible(plan, shown, lenient=True)
     if isinstance(result, str):
         raise DrawError(f"template {template.id!r}: reference instance: {result}")

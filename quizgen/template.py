@@ -29,7 +29,8 @@ class DrawRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     """How one quantity is drawn.
 
     Exactly one of ``pick`` (a list), ``range`` (first, last, step), ``words`` (names of phrases
-    in the language files) and ``is`` (a formula over quantities drawn before) is given.
+    in the language files) and ``is`` (a formula over quantities drawn before) is given. With
+    ``by`` (a formula counting from 0) a phrase is not drawn but follows from numbers.
     """
 
     unit: str = ""
@@ -37,6 +38,7 @@ class DrawRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     range: tuple[Scalar, ...] = ()
     skip: tuple[Scalar, ...] = ()
     words: tuple[str, ...] = ()
+    by: str = ""
     formula: str = msgspec.field(name="is", default="")
 
 
