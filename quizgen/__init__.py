@@ -1,0 +1,46 @@
+"""quizgen: mock exams from parametric templates, answers checked as people type them.
+
+The small Python interface; each name is loaded when it is first used.
+
+Examples
+--------
+>>> import quizgen
+>>> question, key = quizgen.compose(quizgen.builtin().template("A3"), seed="reference")
+>>> question.title
+'Perspective projection of a point'
+>>> key.solution.parts[0].answer
+'(4; 6)'
+>>> quizgen.mark(key.specs[0], "(4; 6)").verdict
+'correct'
+>>> quizgen.mark(key.specs[0], "(6; 4)").note
+'trap:swapped'
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+_HOMES = {
+    "Bank": "quizgen.bank",
+    "builtin": "quizgen.bank",
+    "Model": "quizgen.model",
+    "Step": "quizgen.model",
+    "compose": "quizgen.question",
+    "build": "quizgen.exam",
+    "rebuild": "quizgen.exam",
+    "load": "quizgen.blueprint",
+    "render": "quizgen.render",
+    "mark": "quizgen.check",
+    "show": "quizgen.check",
+    "lint": "quizgen.lint",
+    "QuizgenError": "quizgen.errors",
+}
+
+__all__ = sorted(_HOMES)
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module 'quizgen' has no attribute {name!r}")
+    return getattr(import_module(_HOMES[name]), name)

@@ -1,0 +1,172 @@
+"""The command as a user meets it: files, codes, and mistakes that cost one clear line."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+
+
+def run(*arguments: str, cwd: Path, **extra) -> subprocess.CompletedProcess:
+    return subprocess.run(
+        [sys.executable, "-m", "quizgen", *arguments], capture_output=True, text=True, cwd=cwd,
+        check=False, **extra,
+    )  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("paper")
+    result = run("exam", "--seed", "4", "--blueprint", "trial", "--lang", "both", cwd=folder)
+    assert result.returncode == 0, result.stderr
+    return folder, result
+
+
+FILES = {"exam.html", "exam.pdf", "solutions.html", "solutions.pdf", "key.json", "answers.toml"}
+
+
+def test_everything_is_written_and_the_next_step_told(made):
+    folder, result = made
+    assert {p.name for p in (folder / "exam").iterdir()} == FILES
+    assert "quizgen check" in result.stdout
+    assert re.search(r"Code: trial-4-both-[0-9a-f]{6}", result.stdout)
+
+
+def test_the_code_rebuilds_the_same_bytes(made):
+    folder, result = made
+    code = re.search(r"Code: (\S+)", result.stdout)[1]
+    again = run("exam", "--code", code, "--out", "again", cwd=folder)
+    assert again.returncode == 0, again.stderr
+    for name in FILES:
+        assert (folder / "again" / name).read_bytes() == (folder / "exam" / name).read_bytes()
+
+
+def test_a_filled_in_form_is_never_overwritten(made, tmp_path):
+    run("exam", "--seed", "4", "--blueprint", "trial", "--format", "html", cwd=tmp_path)
+    form = tmp_path / "exam" / "answers.toml"
+    form.write_text(form.read_text().replace('"1" = ""', '"1" = "6,67"', 1))
+    kept = form.read_bytes()
+    assert b"6,67" in kept
+    result = run("exam", "--seed", "5", "--blueprint", "trial", "--format", "html", cwd=tmp_path)
+    assert result.returncode == 0
+    assert form.read_bytes() == kept
+    assert "left as it is" in result.stdout
+    form.write_text("half [ broken")
+    run("exam", "--seed", "6", "--blueprint", "trial", "--format", "html", cwd=tmp_path)
+    assert form.read_text() == "half [ broken"
+
+
+def test_the_printed_answers_get_full_marks(made):
+    from quizgen.check import show
+
+    folder, _ = made
+    key = json.loads((folder / "exam" / "key.json").read_text())
+    answers = {
+        part["id"]: show(part["spec"], "en")
+        for question in key["questions"]
+        for part in question["parts"]
+    }
+    (folder / "typed.json").write_text(json.dumps({"answers": answers}))
+    result = run("check", "exam/key.json", "typed.json", "--json", cwd=folder)
+    assert result.returncode == 0, result.stderr
+
+
+MISTAKES = [
+    (["exam", "--blueprint", "nothing"], "no blueprint 'nothing'"),
+    (["exam", "--format", "docx"], "allowed: html, pdf"),
+    (["exam", "--code", "nonsense"], "not a paper's code"),
+    (["exam", "--lang", "fr"], "fr"),
+    (["exam", "--bank", "missing"], "no folder 'templates'"),
+    (["exam", "--code", "trial-4-en-000000"], "other templates"),
+    (["exam", "--code", "trial-4-en-000000", "--seed", "3"], "already fixes"),
+    (["preview", "Z99"], "unknown template"),
+    (["frobnicate"], "No such command"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "message"), MISTAKES, ids=lambda v: str(v)[:40])
+def test_mistakes_cost_one_line_and_exit_code_two(tmp_path, arguments, message):
+    result = run(*arguments, cwd=tmp_path)
+    assert result.returncode == 2
+    assert message in result.stderr
+    assert "Traceback" not in result.stderr
+    assert not list(tmp_path.iterdir())
+
+
+def test_malformed_templates_are_located(tmp_path):
+    folder = tmp_path / "bank" / "templates" / "x" / "bad"
+    folder.mkdir(parents=True)
+    (folder / "template.toml").write_text('topic = "x"\ntier = "A"\nparts = 3\n')
+    result = run("lint", "bank", cwd=tmp_path)
+    assert result.returncode == 1
+    assert "template.toml" in result.stderr
+    assert "allowed" in result.stderr
+
+
+def test_a_missing_translation_is_named(tmp_path):
+    folder = tmp_path / "bank" / "templates" / "x" / "half"
+    folder.mkdir(parents=True)
+    (folder / "template.toml").write_text(
+        'topic = "x"\ntier = "A"\n[[part]]\nanswer = { kind = "tf", true = true }\n'
+    )
+    (folder / "en.md").write_text("# T\nIs it so?\n")
+    result = run("lint", "bank", cwd=tmp_path)
+    assert result.returncode == 1
+    assert "no bn.md" in result.stderr
+    result = run("preview", "half", "--bank", "bank", "--lang", "bn", cwd=tmp_path)
+    assert result.returncode == 2
+    assert "not written in 'bn'" in result.stderr
+
+
+def test_a_folder_that_cannot_be_written_leaves_nothing(tmp_path):
+    (tmp_path / "taken").write_text("a file, not a folder")
+    result = run("exam", "--blueprint", "trial", "--format", "html", "--out", "taken/sub",
+                 cwd=tmp_path)  # fmt: skip
+    assert result.returncode == 2
+    assert "Traceback" not in result.stderr
+    assert [p.name for p in tmp_path.iterdir()] == ["taken"]
+
+
+def test_a_full_disk_leaves_nothing_half_written(tmp_path, monkeypatch):
+    from quizgen import files
+    from quizgen.errors import RenderError
+
+    (tmp_path / "a.txt").write_bytes(b"old")
+    written = []
+
+    def full(path, data):
+        if written:
+            raise OSError(28, "No space left on device", str(path))
+        written.append(path)
+        path.write_bytes(data)
+
+    monkeypatch.setattr(files, "_write_synced", full)
+    with pytest.raises(RenderError, match="No space left"):
+        files.write_all(tmp_path, {"a.txt": b"new", "b.txt": b"new"})
+    assert {p.name: p.read_bytes() for p in tmp_path.iterdir()} == {"a.txt": b"old"}
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals differ")
+def test_an_interrupted_run_leaves_nothing(tmp_path):
+    import signal
+    import time
+
+    process = subprocess.Popen(
+        [sys.executable, "-m", "quizgen", "exam", "--seed", "1", "--out", "o"], cwd=tmp_path,
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+    )  # fmt: skip
+    time.sleep(0.7)
+    process.send_signal(signal.SIGINT)
+    _, errors = process.communicate(timeout=60)
+    if process.returncode == 0:
+        pytest.fail("the run ended before it could be interrupted")
+    assert process.returncode == 2
+    assert "Traceback" not in errors
+    assert not (tmp_path / "o").exists()

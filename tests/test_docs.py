@@ -1,0 +1,76 @@
+"""The documents are true: examples run, commands and keys are documented."""
+
+from __future__ import annotations
+
+import doctest
+from pathlib import Path
+
+import msgspec
+import pytest
+
+import quizgen
+from quizgen import formula, model
+from quizgen.cli import COMMANDS, group
+from quizgen.locale import table
+from quizgen.template import Rules
+
+ROOT = Path(__file__).parent.parent
+
+
+def test_examples_of_the_readme_run():
+    result = doctest.testfile(str(ROOT / "README.md"), module_relative=False)
+    assert result.attempted >= 8
+    assert result.failed == 0
+
+
+@pytest.mark.parametrize("module", [quizgen, model, formula], ids=lambda m: m.__name__)
+def test_examples_in_docstrings_run(module):
+    result = doctest.testmod(module)
+    assert result.attempted
+    assert result.failed == 0
+
+
+@pytest.mark.parametrize("name", list(COMMANDS))
+def test_every_command_loads_and_is_in_the_readme(name):
+    command = group.get_command(None, name)
+    assert command is not None
+    assert command.help
+    assert f"quizgen {name}" in (ROOT / "README.md").read_text() or f"`{name}" in (
+        ROOT / "README.md"
+    ).read_text()
+
+
+def test_every_key_of_a_template_is_documented():
+    text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    for field in msgspec.structs.fields(Rules):
+        name = field.encode_name
+        assert f"`{name}`" in text or f"`[{name}]`" in text or f"`[[{name}]]`" in text, name
+
+
+def words(entry, path=""):
+    for key, value in entry.items():
+        if isinstance(value, dict):
+            yield from words(value, f"{path}{key}.")
+        else:
+            yield f"{path}{key}", value
+
+
+def test_every_interface_word_exists_in_both_languages():
+    english, bangla = dict(words(table("en"))), dict(words(table("bn")))
+    assert english.keys() == bangla.keys()
+    for name, text in english.items():
+        blanks = {part.split("}")[0] for part in text.split("{")[1:]}
+        assert blanks == {part.split("}")[0] for part in bangla[name].split("{")[1:]}, name
+        assert bangla[name].strip(), name
+
+
+def test_nothing_in_the_repository_names_a_machine():
+    import subprocess
+
+    files = subprocess.run(["git", "ls-files"], capture_output=True, text=True, check=True, cwd=ROOT)
+    marks = ["/" + a + b + "/" for a, b in (("ro", "ot"), ("ho", "me"), ("wo", "rk"))]
+    for name in files.stdout.split("\n"):
+        path = ROOT / name
+        if name and path.suffix in {".py", ".md", ".toml", ".j2", ".css", ".typ", ""} and path.is_file():
+            text = path.read_text(encoding="utf-8", errors="replace")
+            assert not [m for m in marks if m in text], name

@@ -1,0 +1,154 @@
+"""Papers: the same code gives the same bytes, and nothing of the answer leaks."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from quizgen.blueprint import Blueprint, SlotRule, load, shipped
+from quizgen.errors import BlueprintError, CodeError
+from quizgen.exam import build, form_bytes, key_bytes, parse_code, rebuild
+from quizgen.render import KINDS, RENDERERS, render
+
+ROOT = Path(__file__).parent.parent
+SMALL = """
+import hashlib
+from quizgen.bank import builtin
+from quizgen.blueprint import load
+from quizgen.exam import build, key_bytes
+from quizgen.render import render, KINDS, RENDERERS
+paper = build(builtin(), load("trial"), 5, "both")
+print(paper.code)
+print(hashlib.sha256(key_bytes(paper)).hexdigest())
+for output in RENDERERS:
+    for kind in KINDS:
+        print(output, kind, hashlib.sha256(render(paper, kind, output)).hexdigest())
+"""
+
+
+def fresh_process(seed: str) -> str:
+    return subprocess.run(
+        [sys.executable, "-c", SMALL], capture_output=True, text=True, check=True, cwd=ROOT,
+        env={**os.environ, "PYTHONHASHSEED": seed, "TZ": "Asia/Dhaka", "LC_ALL": "C"},
+    ).stdout  # fmt: skip
+
+
+def test_same_code_same_bytes_in_every_format_across_processes(bank):
+    paper = build(bank, load("trial"), 5, "both")
+    here = [paper.code, hashlib.sha256(key_bytes(paper)).hexdigest()]
+    here += [
+        f"{output} {kind} {hashlib.sha256(render(paper, kind, output)).hexdigest()}"
+        for output in RENDERERS
+        for kind in KINDS
+    ]
+    assert fresh_process("1").split("\n")[:-1] == here
+    assert fresh_process("77").split("\n")[:-1] == here
+
+
+def test_a_code_rebuilds_its_paper(bank):
+    paper = build(bank, load("mock"), 12, "bn", figures=False)
+    again = rebuild(bank, paper.code, figures=False)
+    assert key_bytes(again) == key_bytes(paper)
+    assert parse_code(paper.code)[:3] == ("mock", 12, "bn")
+
+
+def test_a_code_of_other_templates_is_refused(bank):
+    with pytest.raises(CodeError, match="other templates"):
+        rebuild(bank, "trial-5-en-000000", figures=False)
+    with pytest.raises(CodeError, match="not a paper's code"):
+        rebuild(bank, "hello")
+
+
+def test_languages_and_figures_change_no_number(bank):
+    papers = [build(bank, load("mock"), 3, lang, figures=False) for lang in ("en", "bn", "both")]
+    drawn = [[item.keys[0].draw.shown for item in paper.items] for paper in papers]
+    assert drawn[0] == drawn[1] == drawn[2]
+
+
+def test_mock_has_five_questions_per_tier_and_no_twins(bank):
+    for seed in range(5):
+        paper = build(bank, load("mock"), seed, figures=False)
+        tiers = [item.questions[0].tier for item in paper.items]
+        assert tiers == sorted(tiers)
+        assert all(tiers.count(tier) == 5 for tier in "ABCD")
+        names = [item.keys[0].identity for item in paper.items]
+        assert len(set(names)) == len(names)
+
+
+def test_questions_alone_do_not_hold_the_answer(bank):
+    """Every rendered value of a key's solution must come from the key, not from the question."""
+    paper = build(bank, load("mock"), 8, figures=False)
+    for item in paper.items:
+        question = item.questions[0]
+        assert "Solution" not in repr(question)
+        assert not hasattr(question, "draw")
+
+
+def test_the_key_is_plain_json_with_exact_values(bank):
+    table = json.loads(key_bytes(build(bank, load("trial"), 5, figures=False)))
+    assert table["format"] == "quizgen-key/1"
+    for question in table["questions"]:
+        for part in question["parts"]:
+            assert part["spec"]["kind"]
+            assert part["id"].startswith(question["number"])
+
+
+def test_the_blank_form_asks_every_part(bank):
+    paper = build(bank, load("mock"), 5, "both", figures=False)
+    form = tomllib.loads(form_bytes(paper).decode())
+    fields = [part.field.id for item in paper.items for part in item.questions[0].parts]
+    assert list(form["answers"]) == fields
+    assert set(form["answers"].values()) == {""}
+
+
+def test_adding_a_template_changes_no_number_of_another(bank, tmp_path):
+    import shutil
+
+    from quizgen.bank import Bank, builtin_root
+
+    shutil.copytree(builtin_root() / "templates", tmp_path / "templates")
+    source = bank.paths["A3"]
+    shutil.copytree(source, tmp_path / "templates" / "projection" / "A3copy")
+    larger = Bank(tmp_path)
+    blueprint = Blueprint({"en": "x"}, (SlotRule(templates=("Q4a",), count=4),), name="x")
+    small = build(bank, blueprint, 9, figures=False)
+    big = build(larger, blueprint, 9, figures=False)
+    assert [i.keys[0].draw.shown for i in small.items] == [i.keys[0].draw.shown for i in big.items]
+
+
+@pytest.mark.parametrize("name", shipped())
+def test_shipped_blueprints_load(name):
+    assert load(name).name == name
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("title = {en = 'x'}\n[[slots]]\ncount = 1", "allowed: minutes, slot, title"),
+        ("title = {en = 'x'}\n[[slot]]\nkount = 1", "allowed: count, templates, tier, topic"),
+        ("title = {en = 'x'}\n[[slot]]\ntier = 'E'", "allowed: A, B, C, D"),
+        ("title = {en = 'x'}\n[[slot]]\ncount = 0", "count must be"),
+        ("title = {bn = 'x'}\n[[slot]]\ncount = 1", "title.en"),
+        ("title = {en = 'x'\n", "not valid TOML"),
+        ("title = {en = 'x'}\nslot = []", "at least one"),
+    ],
+)
+def test_mistakes_in_a_blueprint_are_located(tmp_path, text, message):
+    file = tmp_path / "plan.toml"
+    file.write_text(text)
+    with pytest.raises(BlueprintError, match=message) as caught:
+        load(str(file))
+    assert "plan.toml" in str(caught.value)
+
+
+def test_a_slot_that_nothing_fits_is_named(bank):
+    blueprint = Blueprint({"en": "x"}, (SlotRule(topic="cooking"),), name="x")
+    with pytest.raises(BlueprintError, match="cooking"):
+        build(bank, blueprint, 0)
