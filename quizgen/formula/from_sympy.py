@@ -20,7 +20,7 @@ from quizgen.errors import BankError
 from quizgen.expr import Call, Expr, Num, Sym
 
 _DOUBLE = 53
-_ONE, _MINUS_ONE = Num(Fraction(1)), Num(Fraction(-1))
+_ONE = Num(Fraction(1))
 _NAMED: dict[type, str] = {
     sympy.exp: "exp",
     sympy.sin: "sin",
@@ -134,10 +134,11 @@ def _mul(expression: Any) -> Expr:
     minus = False
     for factor in expression.args:
         value, below = _factor(factor)
-        if result is None and not below and value == _MINUS_ONE:
-            minus = not minus
-        else:
-            result = _over(result or _ONE, value) if below else _times(result, value)
+        if result is None and not below and isinstance(value, Num) and value.value < 0:
+            minus, value = not minus, Num(-value.value, value.decimal)
+            if value == _ONE:
+                continue
+        result = _over(result or _ONE, value) if below else _times(result, value)
         if isinstance(result, Call) and result.op == "neg":
             minus, result = not minus, result.args[0]
     product = result if result is not None else _ONE

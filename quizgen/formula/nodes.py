@@ -56,7 +56,10 @@ class Unit:
 
 @dataclass(frozen=True, slots=True)
 class Op:
-    """An operator, relation or separator by its character; ``neg`` is a sign, ``""`` times, ``" "`` a gap."""
+    """An operator, relation or separator by its character.
+
+    ``neg`` is the sign, an empty name an unwritten product, a blank a small gap.
+    """
 
     name: str
     level: ClassVar[int] = ATOM

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from functools import lru_cache
 from html import escape
@@ -34,8 +35,11 @@ _OPERATORS = {
     "ᵀ": '<mi mathvariant="normal">T</mi>',
     **{same: f"<mo>{same}</mo>" for same in "+=≠≤≥≈∝∈±≪≫×′…:"},
 }
-_ACCENTS = {"bar": "¯", "hat": "^", "tilde": "~"}
+_ACCENTS = {"bar": "‾", "hat": "^", "tilde": "~"}
+_PRIME = '<mo style="font-size:110%">′</mo>'  # at script size a prime is a speck
+_TIMES_NAMED = '<mo lspace="0" rspace="0.17em">\u2062</mo>'
 _BOLD = (("A", 26, 0x1D400), ("a", 26, 0x1D41A), ("Α", 25, 0x1D6A8), ("α", 25, 0x1D6C2))
+_TALL = re.compile("<(?:mfrac|msqrt|mroot|mtable|munder|mo>[∑∏∫])")
 _OPENING, _CLOSING = "([{|⌊⌈", ")]}|⌋⌉"
 
 
@@ -77,7 +81,17 @@ def _known(table: dict[str, str], key: str, what: str) -> str:
 
 
 def _joined(items: tuple[n.Node, ...], lang: str) -> str:
-    return "".join([_emit(item, lang) for item in items])
+    written = [_emit(item, lang) for item in items]
+    for index, item in enumerate(items):
+        if isinstance(item, n.Func) and isinstance(item.head, n.Word | n.Scripts):
+            _widen(written, index)
+    return "".join(written)
+
+
+def _widen(written: list[str], index: int) -> None:
+    """Leave a thin space between a factor and a function's name."""
+    if index and written[index - 1] == _TIMES:
+        written[index - 1] = _TIMES_NAMED
 
 
 def _number(node: n.Number, _lang: str) -> str:
@@ -159,7 +173,7 @@ def _root(node: n.Root, lang: str) -> str:
 
 def _scripts(node: n.Scripts, lang: str) -> str:
     base = _emit(node.base, lang)
-    raised = "<mo>′</mo>" * node.primes
+    raised = _PRIME * node.primes
     if node.sup is not None:
         raised += _emit(node.sup, lang)
     if node.primes and (node.sup is not None or node.primes > 1):
@@ -174,8 +188,8 @@ def _scripts(node: n.Scripts, lang: str) -> str:
 
 def _accent(node: n.Accent, lang: str) -> str:
     mark = _known(_ACCENTS, node.kind, "accent")
-    over = f'<mo stretchy="false">{mark}</mo>'
-    return f'<mover accent="true">{_emit(node.base, lang)}{over}</mover>'
+    # Chromium lowers marks with accent="true" into the letter
+    return f'<mover>{_emit(node.base, lang)}<mo stretchy="false">{mark}</mo></mover>'
 
 
 def _fence(node: n.Fence, lang: str) -> str:
@@ -190,9 +204,11 @@ def _between(kind: str, body: str) -> str:
     left, right = kind[0], kind[-1]
     if left not in _OPENING or right not in _CLOSING:
         raise RenderError(f"no MathML for the brackets {kind!r}")
+    # stretched to the height of one letter, brackets get loose in Chromium
+    stretchy = "true" if _TALL.search(body) else "false"
     return (
-        f'<mo form="prefix" fence="true" stretchy="true">{left}</mo>{body}'
-        f'<mo form="postfix" fence="true" stretchy="true">{right}</mo>'
+        f'<mo form="prefix" stretchy="{stretchy}">{left}</mo>{body}'
+        f'<mo form="postfix" stretchy="{stretchy}">{right}</mo>'
     )
 
 
@@ -227,7 +243,7 @@ def _cases(node: n.Cases, lang: str) -> str:
         if condition is not None:
             when = _case(_inside(condition, lang), lang)
         rows.append(f"<mtr>{_cell(_emit(value, lang))}{_cell(when)}</mtr>")
-    brace = '<mo form="prefix" fence="true" stretchy="true">{</mo>'
+    brace = '<mo form="prefix" stretchy="true">{</mo>'
     return f"<mrow>{brace}<mtable>{''.join(rows)}</mtable></mrow>"
 
 

@@ -42,6 +42,7 @@ _BRACKETS = {
 }
 _CALLS = {"||": "abs", "⌊⌋": "floor", "⌈⌉": "ceil"}
 _ACCENTS = {"bar": "macron", "hat": "hat", "tilde": "tilde"}
+_UNITS = {"e⁻": '"e"^(-)'}
 _SIGNS = {"∑": "sum", "∏": "product", "∫": "integral"}
 
 
@@ -102,7 +103,7 @@ def _word(node: n.Word, _lang: str) -> str:
 
 
 def _text(node: n.Text, lang: str) -> str:
-    return f"space {quoted(_known(TEXTS[lang], node.key, 'word'))} space"
+    return quoted(f" {_known(TEXTS[lang], node.key, 'word')} ")
 
 
 @lru_cache(maxsize=512)
@@ -111,7 +112,7 @@ def _unit_text(text: str) -> str:
     for part in parts(text):
         sign = {"·": "dot.op", "/": "slash", "": ""}[part.sign]
         power = f"^({part.power})" if part.power else ""
-        written += f"{sign}{quoted(part.shown)}{power}"
+        written += f"{sign}{_UNITS.get(part.shown) or quoted(part.shown)}{power}"
     return written
 
 
@@ -214,8 +215,8 @@ def _cases(node: n.Cases, lang: str) -> str:
 
 def _case(condition: str, lang: str) -> str:
     before, after = (half.strip() for half in TEXTS[lang]["if"].split("{}"))
-    left = f"{quoted(before)} space " if before else ""
-    return left + condition + (f" space {quoted(after)}" if after else "")
+    left = quoted(f"{before} ") if before else ""
+    return left + condition + (quoted(f" {after}") if after else "")
 
 
 def _matrix(node: n.Matrix, lang: str) -> str:

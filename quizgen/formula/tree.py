@@ -67,6 +67,7 @@ _READ_AS_FUNCTION = frozenset("fghPVEFGNLφψ")
 
 _TIMES, _DOT, _NEG = Op(""), Op("·"), Op("neg")
 _ONE = Fraction(1)
+_MINUS_ONES = (Num(-_ONE), Call("neg", (Num(_ONE),)))
 
 
 def layout(expr: Expr, *, leaves: Mapping[str, Node] | None = None, inline: bool = False) -> Node:
@@ -220,7 +221,7 @@ def _flat(items: list[Node], level: int) -> tuple[Node, ...]:
 
 
 def _mul(run: _Layout, args: tuple[Expr, ...]) -> Node:
-    if args[0] == Num(-_ONE) and len(args) > 1:
+    if args[0] in _MINUS_ONES and len(args) > 1:
         return negative(run.held(_with_first(Call("mul", args), Num(_ONE)), PRODUCT))
     items = [run.held(args[0], NEGATIVE)]
     for arg in args[1:]:

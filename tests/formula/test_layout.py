@@ -1,0 +1,299 @@
+"""Brackets, dots and signs: what is printed means what the tree means."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+from flint import fmpq
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from quizgen.errors import MathError, RenderError
+from quizgen.expr import Call, Num, Sym, evaluate
+from quizgen.formula import (
+    decimal,
+    latex,
+    layout,
+    mathml,
+    name,
+    number,
+    quantity,
+    relation,
+    spoken,
+    typst,
+)
+from quizgen.formula import nodes as n
+from quizgen.formula.to_mathml import bold
+from quizgen.formula.to_spoken import unit_words
+from quizgen.reader import parse
+from quizgen.units import SIMPLE
+
+WRITERS = (latex, mathml, typst, spoken)
+
+
+# A reader of layouts, kept apart from the writers: it trusts the printed brackets alone.
+
+
+def _typed(node):  # noqa: PLR0911 - one line a node
+    match node:
+        case n.Number(text=text) | n.Ident(text=text):
+            return text
+        case n.Quantity(value=value):
+            return _typed(value)
+        case n.Row(items=items):
+            signs = {"": "*", "·": "*", "neg": "-", "+": "+", "-": "-"}
+            return "".join(
+                signs[item.name] if isinstance(item, n.Op) else _typed(item) for item in items
+            )
+        case n.Frac(top=top, bottom=bottom, inline=True):
+            return f"{_typed(top)}/{_typed(bottom)}"
+        case n.Frac(top=top, bottom=bottom):
+            return f"(({_typed(top)})/({_typed(bottom)}))"
+        case n.Fence(kind="()", body=body):
+            return f"({_typed(body)})"
+        case n.Fence(kind="||", body=body):
+            return f"abs({_typed(body)})"
+        case n.Root(body=body):
+            return f"sqrt({_typed(body)})"
+        case n.Scripts(base=base, sub=None, sup=sup, primes=0):
+            return f"{_typed(base)}^({_typed(sup)})"
+    raise AssertionError(node)
+
+
+def _trees():
+    numbers = st.builds(
+        Num, st.sampled_from([Fraction(n, d) for n in range(-3, 8) for d in (1, 3)])
+    )
+    decimals = st.builds(
+        Num, st.sampled_from([Fraction(-3, 2), Fraction(1, 4)]), st.just(value=True)
+    )
+    leaves = numbers | decimals | st.sampled_from([Sym("x"), Sym("f"), Sym("a")])
+
+    def grow(inner):
+        pairs = st.tuples(inner, inner)
+        power = st.tuples(inner, st.sampled_from([Num(Fraction(k)) for k in (-1, 2, 3)]))
+        return st.one_of(
+            st.builds(Call, st.sampled_from(["add", "sub", "mul", "div"]), pairs),
+            st.builds(Call, st.sampled_from(["add", "mul"]), st.tuples(inner, inner, inner)),
+            st.builds(Call, st.sampled_from(["neg", "abs"]), st.tuples(inner)),
+            st.builds(Call, st.just("pow"), power),
+        )
+
+    return st.recursive(leaves, grow, max_leaves=8)
+
+
+VALUES = {"x": Fraction(3, 7), "f": Fraction(-5), "a": Fraction(2)}
+FLINT = {key: fmpq(value.numerator, value.denominator) for key, value in VALUES.items()}
+SHOWN = {"x": number("3/7"), "f": quantity("-5", "mm"), "a": quantity("2", "m")}
+
+
+@settings(max_examples=400, deadline=None)
+@given(tree=_trees(), inline=st.booleans(), numbers=st.booleans())
+def test_printed_brackets_keep_the_value(tree, inline, numbers):
+    try:
+        expected = evaluate(tree, FLINT)
+    except MathError:
+        assume(False)
+    node = layout(tree, inline=inline, leaves=SHOWN if numbers else None)
+    typed = _typed(node)
+    assert evaluate(parse(typed), FLINT) == expected, typed
+    for write in WRITERS:
+        assert write(node)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        # two numbers, or a number after anything, need a dot; a letter after a number does not
+        ("3*4", r"3 \cdot 4"),
+        ("3*x", "3 x"),
+        ("x*3", r"x \cdot 3"),
+        ("f*(x + 1)", r"f \cdot (x + 1)"),
+        ("x*(1 + x)", "x (1 + x)"),
+        ("2*(1/3)", r"2 \cdot \frac{1}{3}"),
+        ("abs(x)*abs(y)", r"|x| \cdot |y|"),
+        ("SNR*x", r"\mathrm{SNR} \cdot x"),
+        ("x^2*y", "x^{2} y"),
+        # a later term takes its own sign
+        ("a + (-3)*b", "a - 3 b"),
+        ("a + (-1)*b", "a - b"),
+        ("a - (-b)", "a - (- b)"),
+        ("(-1)*b", "- b"),
+        ("a - (b - c)", "a - (b - c)"),
+        ("1.50*x", "1.5 x"),
+        ("0.00002*x", r"2 \cdot 10^{- 5} x"),
+        ("0 <= x and x < 1", r"0 \leq x < 1"),
+        ("x < 1 and x >= 0", r"0 \leq x < 1"),
+        ("x > 1 and y > 2", r"x > 1 \text{ and } y > 2"),
+        ("not (x > 1)", r"x \leq 1"),
+    ],
+)
+def test_layout_rules(text, expected):
+    assert latex(layout(parse(text))) == expected
+
+
+@pytest.mark.parametrize(
+    ("symbol", "expected"),
+    [
+        ("p_x", "p_{x}"),
+        ("p'_x", "p'_{x}"),
+        ("z'_s", "z'_{s}"),
+        ("k_1", "k_{1}"),
+        ("k1", "k_{1}"),
+        ("sigma", r"\sigma"),
+        ("Delta", r"\Delta"),
+        ("zbar", r"\bar{z}"),
+        ("z_bar", r"\bar{z}"),
+        ("Ghat", r"\hat{G}"),
+        ("N_1", "N_{1}"),
+        ("f_x", "f_{x}"),
+        ("lambda", r"\lambda"),
+        ("I_n", "I_{n}"),
+        ("SNR", r"\mathrm{SNR}"),
+        ("H_0", "H_{0}"),
+        ("p_x1", "p_{x 1}"),
+        ("I_max", r"I_{\mathrm{max} }"),
+        ("I_avg", r"I_{\mathrm{avg} }"),
+        ("σ", r"\sigma"),
+        ("µ", r"\mu"),
+        ("Delta_z", r"\Delta_{z}"),
+        ("Deltaz", r"\Delta z"),
+    ],
+)
+def test_names(symbol, expected):
+    assert latex(name(symbol)) == expected
+
+
+def test_subscript_words_are_upright_and_letters_are_not():
+    assert typst(name("I_max")) == 'I_("max")'
+    assert "<mi>max</mi>" in mathml(name("I_max"))
+    assert '<mi mathvariant="normal">Δ</mi>' in mathml(name("Delta"))
+
+
+@pytest.mark.parametrize("bad", ["", "_x", "x__y!", "1x", "p x", "a-b", "x_$"])
+def test_names_that_cannot_be_written(bad):
+    with pytest.raises(RenderError):
+        name(bad)
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (Fraction(5, 2), "2.5"),
+        (Fraction(-1, 8), "-0.125"),
+        (Fraction(1, 3), "1/3"),
+        (Fraction(200), "200"),
+        (Fraction(1, 2000), "0.0005"),
+        (Fraction(3, 200000), "1.5e-5"),
+        (Fraction(-1, 10**8), "-1e-8"),
+    ],
+)
+def test_decimals(value, text):
+    assert decimal(value) == text
+    assert Fraction(text) == value
+
+
+@pytest.mark.parametrize("bad", ["", "x", "1.2.3", "--2", "1/", "nan", "1e", "1;2"])
+def test_texts_that_are_not_numbers(bad):
+    with pytest.raises(RenderError):
+        number(bad)
+
+
+def test_numbers_keep_their_digits():
+    assert latex(number("2.50")) == "2.50"
+    assert latex(number("−3")) == "- 3"
+    assert latex(number(Fraction(-20, 3))) == r"- \frac{20}{3}"
+    assert latex(number("200 000")) == r"200\,000"
+    assert latex(quantity("6.667", "")) == "6.667"
+
+
+def test_relations_count_their_sides():
+    with pytest.raises(RenderError):
+        relation(["="], [name("x")])
+    with pytest.raises(RenderError):
+        relation(["=="], [name("x"), name("y")])
+
+
+@pytest.mark.parametrize("unit", sorted(set(SIMPLE) - {"", "1"}))
+def test_every_unit_is_printed_and_said(unit):
+    node = quantity("2", unit)
+    for write in WRITERS:
+        assert write(node)
+    assert unit_words(unit, "en").isascii()
+    assert not any(char.isascii() and char.isalpha() for char in unit_words(unit, "bn"))
+
+
+def test_units_as_said():
+    assert unit_words("um/px", "en") == "micrometres per pixel"
+    assert unit_words("um/px", "bn") == "মাইক্রোমিটার প্রতি পিক্সেল"
+    assert unit_words("mm^2", "en") == "square millimetres"
+    assert unit_words("lx*s", "en") == "lux seconds"
+    assert unit_words("s^-1", "en") == "per second"
+    assert spoken(quantity("1", "m")) == "1 metre"
+    assert spoken(quantity("1", "m/s")) == "1 metre per second"
+
+
+@pytest.mark.parametrize("unit", ["parsec", "mm^", "5", "<b>"])
+def test_unknown_units_are_refused(unit):
+    for write in WRITERS:
+        with pytest.raises(RenderError):
+            write(quantity("2", unit))
+
+
+@pytest.mark.parametrize(
+    "tree",
+    [
+        Call("gamma", (Sym("x"),)),
+        Call("sin", ()),
+        Call("sin", (Sym("x"), Sym("y"))),
+        Call("div", (Sym("x"),)),
+        Call("piecewise", (Sym("x"), Sym("y"))),
+        Call("add", ()),
+        Call("mul", ()),
+        Call("and", ()),
+    ],
+)
+def test_unknown_operators_raise(tree):
+    with pytest.raises(RenderError):
+        layout(tree)
+
+
+class Stranger:
+    level = n.ATOM
+
+
+@pytest.mark.parametrize("write", WRITERS)
+@pytest.mark.parametrize(
+    "node",
+    [
+        Stranger(),
+        n.Op("§"),
+        n.Text("unless"),
+        n.Accent("dot", n.Ident("x")),
+        n.Fence("<>", n.Ident("x")),
+        n.Big("⋃"),
+    ],
+)
+def test_unknown_nodes_raise(write, node):
+    with pytest.raises(RenderError):
+        write(node)
+
+
+def test_markup_in_names_is_inert():
+    nasty = n.Word('<b>"#$%&_\\')
+    assert "<b>" not in mathml(nasty)
+    assert typst(nasty) == r'"<b>\"#$%&_\\"'
+    assert r"\#" in latex(nasty)
+    assert r"\$" in latex(nasty)
+
+
+def test_bold_letters():
+    import unicodedata
+
+    for letter in "aAzZ":
+        assert unicodedata.normalize("NFKC", bold(letter)) == letter
+    assert unicodedata.name(bold("μ")) == "MATHEMATICAL BOLD SMALL MU"
+    assert unicodedata.name(bold("Σ")) == "MATHEMATICAL BOLD CAPITAL SIGMA"
+    with pytest.raises(RenderError):
+        bold("1")
