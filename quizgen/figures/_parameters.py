@@ -57,6 +57,8 @@ def _value(figure: str, name: str, rule: Parameter, values: Values) -> float | N
         if rule.default is None:
             raise BankError(f"figure {figure!r}: missing parameter {name!r} ({rule.meaning})")
         return None if math.isnan(rule.default) else rule.default
+    number = isinstance(values[name], (int, float))
+    require(figure, number, f"{name} = {values[name]!r} is not a number")
     value = float(values[name]) + 0.0  # the sum turns -0.0 into 0.0
     require(
         figure,

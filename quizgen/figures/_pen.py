@@ -19,8 +19,7 @@ from matplotlib.transforms import Affine2D, Transform
 from quizgen.figures._letters import outline
 
 Point = tuple[float, float]
-CM = 72 / 2.54
-WIDTH, HEIGHT = 11 * CM, 6 * CM
+WIDTH, HEIGHT = 312.0, 170.0
 """Usual size of a figure in points: 11 cm by 6 cm."""
 
 LABEL = 10.5

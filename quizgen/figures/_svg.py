@@ -24,6 +24,11 @@ _SETTINGS: dict[Any, Any] = {
     "path.effects": [],
     "path.simplify": False,
     "path.sketch": None,
+    "savefig.bbox": None,
+    "savefig.dpi": "figure",
+    "savefig.edgecolor": "none",
+    "savefig.facecolor": "auto",
+    "savefig.transparent": False,
     "svg.fonttype": "path",
     "svg.hashsalt": "quizgen",
     "svg.id": None,
@@ -54,7 +59,7 @@ def body(draw: Callable[[Figure], None]) -> tuple[str, float, float]:
     """
     out = StringIO()
     with _LOCK, mpl.rc_context(_SETTINGS):
-        figure = Figure()
+        figure = Figure(layout="none")
         draw(figure)
         figure.savefig(out, format="svg", metadata=_NO_METADATA)
     width, height = figure.get_size_inches() * 72
@@ -63,7 +68,8 @@ def body(draw: Callable[[Figure], None]) -> tuple[str, float, float]:
 
 def _inside(svg: str) -> str:
     inside = _HEAD.sub("", svg, count=1).rstrip().removesuffix("</svg>")
-    return _GAP.sub("><", _ID.sub(_group, inside)).replace("\n", " ").strip()
+    inside = _GAP.sub("><", _ID.sub(_group, inside))
+    return inside.replace(" \n", " ").replace("\n", " ").replace(' "', '"').strip()
 
 
 def _group(match: re.Match[str]) -> str:

@@ -70,7 +70,7 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
 
     _check(values)
     size = int(values["size"])
-    cell = max(34.0, 184.0 / size)
+    cell = max(34.0, float(184 // size))
     results = [] if quiz else [text for c in _asked(values) for text in _result(values, c)]
     foot = 16.0 * len(results) + (2 if results else 0)
     pen = Pen(2 * _MARGIN + size * cell, 2 * _MARGIN + size * cell + foot)

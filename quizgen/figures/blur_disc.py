@@ -72,7 +72,7 @@ def _layout(values: Values) -> _Layout:
     ratio = (values["z_s"] - values["z_p"]) / values["z_p"]
     size = min(max(abs(ratio), _LEAST), _MOST) if ratio else 0.0
     drawn = size if ratio >= 0 else -size
-    length = 164.0 / max(1.0, 1 + drawn)
+    length = 152.0 / max(1.0, 1 + drawn)
     apex, sensor = _LENS + length, _LENS + length * (1 + drawn)
     return _Layout(apex, sensor, _HALF * size, size == abs(ratio))
 

@@ -226,6 +226,8 @@ def _probability_label(pen: Pen, values: Values, *, quiz: bool) -> None:
     width = text_width(text, 10)
     lower = values["tails"] == -1
     left, y = (_LEFT + 4, 123.0) if lower else (WIDTH - 4 - width, 112.0)
+    if not lower and left < 194:  # too wide to stand beside the curve
+        y = 153.0
     pen.label((left, y), text, "l", 10)
     x, top = _place(values, values["sigma"], _inside(values))
     foot = (x, _BASE + 0.45 * (top - _BASE))

@@ -70,7 +70,7 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
     from quizgen.figures._picture import Picture
 
     wide = (WIDTH - 3 * _GAP) / 2
-    high = wide * _scene.HEIGHT / _scene.WIDTH
+    high = round(wide * _scene.HEIGHT / _scene.WIDTH)
     pen = Pen(WIDTH, 2 * (high + _CAPTION) + _GAP)
     for place, edit in enumerate(edit_order(values["order"])):
         left = _GAP + (place % 2) * (wide + _GAP)

@@ -52,7 +52,7 @@ class _Layout:
         return (self.o_x + depth * self.length, self.o_y + self.side * height * self.height)
 
     def beside(self, depth: float, offset: float) -> tuple[float, float]:
-        """Find a place a few points from the axis, counted away from it on the side of the point."""
+        """Find a place some points away from the axis, on the side of the scene point."""
         return (self.o_x + depth * self.length, self.o_y + self.side * offset)
 
     @property
@@ -206,7 +206,7 @@ def _physical(pen: Pen, place: _Layout) -> None:
 
 def _names(pen: Pen, place: _Layout, words: dict[str, str], values: Values) -> None:
     near, far = ("f", "p_z") if place.point_is_far else ("p_z", "f")
-    pen.dimension(place.beside(0, -19), place.beside(place.near, -19), words[near])
+    pen.dimension(place.beside(0, -19), place.beside(place.near, -19), words[near], "r")
     pen.dimension(place.beside(0, -37), place.beside(1, -37), words[far])
     near_leg, far_leg = ("image", "p_y") if place.point_is_far else ("p_y", "image")
     x, y = place.at(place.near, 0.5 * place.near)

@@ -187,8 +187,18 @@ def _measure(pen: Pen, place: _Layout, x: float, row: float, text: str) -> None:
     for end in (0.0, x):
         at = place.at(end, 0)
         pen.line("helpers", [(at[0], _AXIS - 4), (at[0], row - 3)], DOTTED)
-    beside = "" if row == _ROW[0] else "l" if x == -1 else "r"
+    beside = "" if row == _ROW[0] else _free_side(place, x, text)
     pen.dimension((place.at(x, 0)[0], row), (place.lens_x, row), text, beside)
+
+
+def _free_side(place: _Layout, x: float, text: str) -> str:
+    """Choose the side of a short measure on which no helper line crosses its label."""
+    from quizgen.figures._pen import text_width
+
+    if x > 0:
+        return "r"
+    farthest = max(place.object, -(place.image or 0.0))
+    return "l" if (farthest + x) * place.scale > text_width(text) + 8 else "r"
 
 
 def _labels(values: Values, *, quiz: bool) -> dict[str, str]:

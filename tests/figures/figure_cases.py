@@ -1,0 +1,93 @@
+"""Draws that the figure tests share: reference instances and the ends of the draw ranges."""
+
+from __future__ import annotations
+
+import random
+
+MOSAIC = {
+    "v00": 60,
+    "v01": 100,
+    "v02": 64,
+    "v10": 120,
+    "v12": 110,
+    "v20": 70,
+    "v21": 130,
+    "v22": 66,
+}
+
+REFERENCE = {
+    "pinhole": {"f": 2, "p_z": 3, "p_y": 5},
+    "distorted_grid": {"k1": -0.1},
+    "hsv_edits": {"a": 0.4, "b": 0.2, "delta": 120, "order": 9},
+    "gaussian": {"sigma": 2, "k": 2},
+    "thin_lens": {"f": 50, "z": 200},
+    "bayer": MOSAIC,
+    "blur_disc": {"D": 25, "z_p": 60, "z_s": 61},
+}
+
+HIDDEN = {
+    # what a question asks for, as the normal figure prints it: 5 * 2/3, curriculum C13, D17a, S14
+    "pinhole": ["3.333"],
+    "distorted_grid": ["−0.1", "barrel"],
+    "hsv_edits": ["0.4", "0.2", "120"],
+    "gaussian": ["0.1995", "4.55"],
+    "thin_lens": ["66.67"],
+    "bayer": ["115", "65"],
+    "blur_disc": ["0.4167"],
+}
+
+
+def _pinhole(rng: random.Random):
+    f = rng.randint(2, 6)
+    depth = rng.choice([z for z in range(2, 13) if z != f])
+    height = rng.choice([-1, 1]) * rng.randint(1, 15)
+    sides = {"physical": rng.randint(0, 1), "y_down": rng.randint(0, 1)}
+    yield {"f": f, "p_z": depth, "p_y": height, **sides}
+    yield {
+        "f": rng.choice([12, 35, 50, 200]),
+        "p_z": rng.choice([20, 75, 2000]),
+        "p_y": rng.choice([2, 12.5, 150]),
+        "metric": 1,
+        **sides,
+    }
+    yield {
+        "f": rng.choice([3, 6, 200]),
+        "p_z": rng.choice([1.5, 10]),
+        "p_y": rng.choice([-2, -0.1, 0.3]),
+        "metric": 1,
+        **sides,
+    }
+
+
+def _bayer(rng: random.Random):
+    size = rng.choice([3, 4, 5, 6, 8])
+    x, y = rng.randrange(size), rng.randrange(size)
+    values = {f"v{b}{a}": rng.randint(20, 235) for a in range(size) for b in range(size)}
+    yield {"size": size, "phase": rng.randrange(4), "x": x, "y": y, **values}
+
+
+def draws():  # noqa: C901 - one loop a figure
+    """Figure names and values all over the ranges of the curriculum (A3, C11-C14, D17a, S11, S14)."""
+    rng = random.Random(20)
+    for _ in range(25):
+        yield from (("pinhole", values) for values in _pinhole(rng))
+    for _ in range(12):
+        yield from (("bayer", values) for values in _bayer(rng))
+    for ratio in (5 / 4, 4 / 3, 3 / 2, 5 / 2, 3, 4, 5, 6, 11, 21, 41, 0.2, 0.5, 0.75, 0.9, 1):
+        for f in (20, 135, 200):
+            yield "thin_lens", {"f": f, "z": round(f * ratio, 3)}
+    for sigma in (0.05, 0.25, 1.5, 2, 5, 8):
+        for k in (0, 1, 1.5, 2, 3):
+            for tails in (-1, 0, 1, 2):
+                yield (
+                    "gaussian",
+                    {"sigma": sigma, "k": k, "tails": tails, "mu": rng.choice([0, 128, -3])},
+                )
+    yield "gaussian", {"sigma": 0.5, "sigma2": 1, "sigma3": 2}
+    for diameter in (3.125, 25):
+        for sharp in (50, 60):
+            for shift in (-2, -0.1, 0, 0.1, 2, 15, 40):
+                yield "blur_disc", {"D": diameter, "z_p": sharp, "z_s": sharp + shift}
+    for k1 in (-0.3, -0.15, -0.05, 0, 0.05, 0.3):
+        for k2 in (0, 0.05):
+            yield "distorted_grid", {"k1": k1, "k2": k2, "c_x": rng.choice([0, 0.2]), "c_y": 0.1}

@@ -1,0 +1,283 @@
+"""Every figure: bytes, markup, words, hidden answers, legibility, errors."""
+
+from __future__ import annotations
+
+import hashlib
+import itertools
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+from typing import ClassVar
+from xml.etree import ElementTree as ET
+
+import matplotlib as mpl
+import pytest
+from figure_cases import HIDDEN, REFERENCE, draws
+from matplotlib.figure import Figure as Canvas
+
+from quizgen.errors import BankError
+from quizgen.figures import FIGURES, _module, parameters, render
+from quizgen.figures import _pen as pens
+from quizgen.figures._letters import SUBSCRIPT, outline
+from quizgen.figures._parameters import complete
+
+BOTH = list(itertools.product(FIGURES, (False, True)))
+NUMBER = re.compile(r"\d+(?:\.\d+)?")
+HERE = Path(__file__).parent
+
+DIGESTS = """
+import hashlib, json, sys
+sys.path.insert(0, sys.argv[1])
+from figure_cases import REFERENCE
+from quizgen.figures import render
+print(json.dumps({f"{name} {quiz} {lang}": hashlib.sha256(
+    render(name, values, quiz=quiz, lang=lang).svg).hexdigest()
+    for name, values in REFERENCE.items() for quiz in (False, True) for lang in ("en", "bn")}))
+"""
+
+HOSTILE = """
+savefig.bbox: tight
+savefig.facecolor: red
+savefig.transparent: True
+figure.constrained_layout.use: True
+figure.dpi: 300
+lines.scale_dashes: True
+path.simplify: True
+path.sketch: 3, 100, 2
+svg.fonttype: none
+svg.hashsalt: other
+font.family: monospace
+patch.linewidth: 5
+"""
+
+
+def test_every_module_is_listed():
+    modules = {path.stem for path in (HERE.parents[1] / "quizgen/figures").glob("[a-z]*.py")}
+    assert modules == set(FIGURES) == set(REFERENCE)
+
+
+def test_bytes_are_equal_in_every_process(tmp_path):
+    settings = tmp_path / "matplotlibrc"
+    settings.write_text(HOSTILE)
+    outputs = [
+        subprocess.run(
+            [sys.executable, "-c", DIGESTS, str(HERE)],
+            env={"PYTHONHASHSEED": seed, "PATH": "", "HOME": str(tmp_path), **extra},
+            cwd=HERE.parents[1],
+            capture_output=True,
+            check=True,
+            text=True,
+        ).stdout
+        for seed, extra in (("0", {}), ("4711", {"MATPLOTLIBRC": str(settings)}))
+    ]
+    assert outputs[0] == outputs[1]
+    here = {
+        f"{name} {quiz} {lang}": hashlib.sha256(
+            render(name, values, quiz=quiz, lang=lang).svg
+        ).hexdigest()
+        for name, values in REFERENCE.items()
+        for quiz in (False, True)
+        for lang in ("en", "bn")
+    }
+    assert json.loads(outputs[0]) == here
+    assert len(set(here.values())) == len(here)
+
+
+def test_nothing_heavy_is_imported_before_the_first_figure():
+    code = (
+        "import sys, quizgen.figures as f; f.parameters('pinhole'); f.parameters('bayer'); "
+        "print([m for m in ('numpy', 'matplotlib', 'PIL', 'sympy') if m in sys.modules])"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        capture_output=True,
+        check=True,
+        text=True,
+        cwd=HERE.parents[1],
+    )
+    assert done.stdout.strip() == "[]"
+
+
+@pytest.mark.parametrize(("name", "quiz"), BOTH)
+def test_svg_stands_inside_html(name, quiz):
+    figure = render(name, REFERENCE[name], quiz=quiz, lang="bn")
+    text = figure.svg.decode()
+    root = ET.fromstring(text)
+    assert text.startswith("<svg ")
+    assert text.endswith("</svg>")
+    assert root.attrib["role"] == "img"
+    assert root.attrib["lang"] == "bn"
+    assert root[0].tag.endswith("title")
+    assert root[0].text == figure.alt
+    assert root.attrib["viewBox"] == f"0 0 {figure.width_pt:g} {figure.height_pt:g}"
+    assert not re.search(
+        r"\bid=|<style|<script|<text|url\(|<!--|<metadata|http(?!://www\.w3\.org/)", text
+    )
+
+
+@pytest.mark.parametrize(("name", "quiz"), BOTH)
+def test_line_art_is_transparent_and_pictures_are_on_white(name, quiz):
+    figure = render(name, REFERENCE[name], quiz=quiz, lang="en")
+    white = f'd="M 0 {figure.height_pt:g} L {figure.width_pt:g} {figure.height_pt:g} L'
+    assert (white in figure.svg.decode()) == (figure.dark == "keep")
+    assert figure.dark == ("keep" if name == "hsv_edits" else "invert")
+
+
+def test_settings_do_not_leak():
+    before = dict(mpl.rcParams)
+    render("pinhole", {"f": 3, "p_z": 7, "p_y": 2.125}, quiz=False, lang="en")
+    assert dict(mpl.rcParams) == before
+
+
+def _labels(name, values, *, quiz):
+    canvas = Canvas()
+    full = complete(name, parameters(name), values)
+    _module(name).draw(canvas, full, quiz=quiz)
+    return "\n".join(str(artist.get_label()) for artist in canvas.artists)
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_quiz_hides_the_answer(name):
+    values = REFERENCE[name]
+    normal = _labels(name, values, quiz=False)
+    normal += render(name, values, quiz=False, lang="en").alt
+    hidden = _labels(name, values, quiz=True)
+    hidden += "".join(render(name, values, quiz=True, lang=lang).alt for lang in ("en", "bn"))
+    for answer in HIDDEN[name]:
+        word = re.compile(rf"(?<![\d.]){re.escape(answer)}(?![\d.]*\d)")
+        assert word.search(normal), answer
+        assert not word.search(hidden), answer
+
+
+@pytest.mark.parametrize("k1", [-0.2, 0.2])
+def test_the_kind_of_distortion_is_not_told(k1):
+    quiz = [
+        render("distorted_grid", {"k1": k1, "extent": 0.5}, quiz=True, lang=lang).alt
+        for lang in ("en", "bn")
+    ]
+    other = [
+        render("distorted_grid", {"k1": -k1, "extent": 0.5}, quiz=True, lang=lang).alt
+        for lang in ("en", "bn")
+    ]
+    assert quiz == other
+
+
+def test_order_of_edits_is_not_told():
+    values = {"a": 0.5, "b": 0.3, "delta": 90}
+    texts = {
+        render("hsv_edits", {**values, "order": i}, quiz=True, lang="en").alt for i in range(24)
+    }
+    pictures = {
+        render("hsv_edits", {**values, "order": i}, quiz=True, lang="en").svg for i in range(24)
+    }
+    assert (len(texts), len(pictures)) == (1, 24)
+
+
+@pytest.mark.parametrize(("name", "quiz"), BOTH)
+def test_alt_texts_hold_the_same_numbers(name, quiz):
+    english, bangla = (
+        render(name, REFERENCE[name], quiz=quiz, lang=lang).alt for lang in ("en", "bn")
+    )
+    assert sorted(NUMBER.findall(english)) == sorted(NUMBER.findall(bangla))
+    assert re.search("[\u0985-\u09b9]", bangla)
+    assert not re.search("[\u0980-\u09ff{}]", english)
+    assert not re.search("[{}০-৯]", bangla)
+
+
+def test_alt_texts_of_all_draws_hold_the_same_numbers():
+    for name, values in draws():
+        full = complete(name, parameters(name), values)
+        alt = _module(name).alt
+        for quiz in (False, True):
+            texts = [alt(full, lang, quiz=quiz) for lang in ("en", "bn")]
+            found = [sorted(NUMBER.findall(text)) for text in texts]
+            assert found[0] == found[1], texts
+            assert "nan" not in texts[0]
+
+
+class _Recorder(pens.Pen):
+    """A pen that keeps the boxes of its labels."""
+
+    made: ClassVar[list[_Recorder]] = []
+
+    def __init__(self, *args, **named):
+        super().__init__(*args, **named)
+        self.boxes = []
+        self.made.append(self)
+
+    def label(self, at, text, anchor="c", size=pens.LABEL):
+        super().label(at, text, anchor, size)
+        shape = outline(text)
+        shift = {"c": 0.5, "l": 0, "r": 1}[anchor] * shape.width * size
+        points = shape.points * size + (at[0] - shift, at[1] - 0.33 * size)
+        self.boxes.append((text, size, *points.min(axis=0), *points.max(axis=0)))
+
+
+@pytest.fixture
+def drawn(monkeypatch):
+    monkeypatch.setattr(pens, "Pen", _Recorder)
+
+    def draw(name, values, *, quiz):
+        _Recorder.made.clear()
+        _module(name).draw(Canvas(), complete(name, parameters(name), values), quiz=quiz)
+        return _Recorder.made[0]
+
+    return draw
+
+
+def test_labels_are_inside_apart_and_large_enough(drawn):
+    for name, values in draws():
+        for quiz in (False, True):
+            pen = drawn(name, values, quiz=quiz)
+            for text, size, left, low, right, top in pen.boxes:
+                assert 0 < left < right < pen.width, (name, values, text)
+                assert 0 < low < top < pen.height, (name, values, text)
+                assert size * (SUBSCRIPT if "_" in text else 1) >= 7, (name, text)
+            for one, other in itertools.combinations(pen.boxes, 2):
+                apart = (
+                    one[2] >= other[4]
+                    or other[2] >= one[4]
+                    or one[3] >= other[5]
+                    or other[3] >= one[5]
+                )
+                assert apart, (name, values, one[0], other[0])
+
+
+def test_no_line_is_thinner_than_print_can_hold(drawn):
+    for name, values in REFERENCE.items():
+        widths = {style.width for _, style in drawn(name, values, quiz=False).paths}
+        assert min(width for width in widths if width) >= 0.6
+
+
+@pytest.mark.parametrize(
+    ("name", "values", "lang", "message"),
+    [
+        ("pinhol", {}, "en", "unknown figure 'pinhol'"),
+        ("pinhole", {"f": 2, "p_z": 3}, "en", "missing parameter 'p_y'"),
+        ("pinhole", {"f": 2, "p_z": 3, "p_y": 1, "q": 1}, "en", "unknown parameter 'q'"),
+        ("pinhole", {"f": 2, "p_z": 0, "p_y": 1}, "en", "p_z = 0"),
+        ("pinhole", {"f": 2, "p_z": 2, "p_y": 1}, "en", "p_z must not be f"),
+        ("pinhole", {"f": 2, "p_z": float("nan"), "p_y": 1}, "en", "p_z = nan"),
+        ("pinhole", {"f": 2, "p_z": float("inf"), "p_y": 1}, "en", "p_z = inf"),
+        ("pinhole", {"f": 2, "p_z": "3", "p_y": 1}, "en", "'3' is not a number"),
+        ("pinhole", {"f": 2, "p_z": 3, "p_y": 1}, "de", "'de'"),
+        ("bayer", {"x": 4}, "en", "outside the tile"),
+        ("bayer", {"channel": 3}, "en", "is B itself"),
+        ("bayer", {"phase": 0.5}, "en", "not whole"),
+        ("distorted_grid", {"k1": -60}, "en", "folds over"),
+        ("distorted_grid", {"k1": -2, "c_x": 0.8}, "en", "folds over|outside"),
+        ("gaussian", {"sigma": 1, "sigma2": 2, "k": 1}, "en", "single curve"),
+        ("thin_lens", {"f": 0, "z": 1}, "en", "f = 0"),
+    ],
+)
+def test_bad_values_get_one_line(name, values, lang, message):
+    with pytest.raises(BankError, match=message) as caught:
+        render(name, values, quiz=False, lang=lang)
+    assert "\n" not in str(caught.value)
+
+
+def test_same_figure_is_drawn_once():
+    one = render("pinhole", {"f": 2, "p_z": 3, "p_y": 5}, quiz=True, lang="en")
+    assert render("pinhole", {"p_y": 5.0, "f": 2.0, "p_z": 3.0}, quiz=True, lang="en") is one
