@@ -1,0 +1,120 @@
+"""What a paper costs: ``uv run python benchmarks/papers.py``.
+
+Fifteen questions with seven matplotlib figures; HTML and PDF, questions and solutions, and the key.
+Prints CPU seconds and megabytes per paper for n = 1, 10, 100 distinct papers (cold process and
+warm), figures, typesetting and drawing apart, and draws per second with all trap checks. Timings
+are CPU time of this process; compare ratios, the machine is shared.
+"""
+
+from __future__ import annotations
+
+import resource
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+
+FIGURES = ("A3", "Q4a", "C12", "C13", "D17a", "S14", "S11")
+PLAIN = ("A4", "B7", "C14", "C15a", "S13", "D18", "D19b", "D20b")
+COLD = "import sys; sys.path.insert(0, {path!r}); import papers; papers.paper_bytes(1)"
+
+
+def cpu() -> float:
+    """CPU seconds of this process."""
+    return time.process_time()
+
+
+def memory() -> float:
+    """Largest resident size so far in megabytes."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+
+
+def made(seed: int, *, figures: bool = True):  # noqa: ANN201
+    from quizgen.bank import builtin
+    from quizgen.blueprint import Blueprint, SlotRule
+    from quizgen.exam import build
+
+    slots = tuple(SlotRule(templates=(name,)) for name in FIGURES + PLAIN)
+    return build(builtin(), Blueprint({"en": "Benchmark"}, slots, name="bench"), seed, "en",
+                 figures=figures)  # fmt: skip
+
+
+def paper_bytes(seed: int) -> int:
+    """Everything that ``quizgen exam`` writes, as a number of bytes."""
+    from quizgen.exam import form_bytes, key_bytes
+    from quizgen.render import KINDS, RENDERERS, render
+
+    paper = made(seed)
+    assert sum(item.questions[0].figure is not None for item in paper.items) == len(FIGURES)
+    rendered = [render(paper, kind, output) for output in RENDERERS for kind in KINDS]
+    return sum(map(len, rendered)) + len(key_bytes(paper)) + len(form_bytes(paper))
+
+
+def timed(work: Callable[[int], object], seeds: range) -> float:
+    """CPU seconds per call."""
+    started = cpu()
+    for seed in seeds:
+        work(seed)
+    return (cpu() - started) / len(seeds)
+
+
+def cold() -> float:
+    """CPU seconds of a fresh process that makes one paper."""
+    best = 1e9
+    for _ in range(3):
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        subprocess.run([sys.executable, "-c", COLD.format(path=sys.path[0])], check=True)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        used = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+        best = min(best, used)
+    return best
+
+
+def stages(seeds: range) -> dict[str, float]:
+    """CPU seconds per paper of each stage, warm."""
+    from quizgen.render import KINDS, render
+
+    words = timed(lambda s: made(s, figures=False), seeds)
+    full = timed(made, range(seeds.start + 1000, seeds.stop + 1000))
+    papers = [made(s) for s in seeds]
+    found = {"draw, solve, words": words, "14 figures": full - words}
+    for output in ("html", "pdf"):
+        for kind in KINDS:
+            started = cpu()
+            for paper in papers:
+                render(paper, kind, output)
+            found[f"{output} {kind}"] = (cpu() - started) / len(papers)
+    return found
+
+
+def draws_per_second() -> float:
+    """Questions drawn and solved per CPU second, all trap checks included."""
+    from quizgen.bank import builtin
+    from quizgen.draw import draw
+
+    templates = [builtin().template(name) for name in FIGURES + PLAIN]
+    for template in templates:
+        draw(template, 0)
+    count, started = 0, cpu()
+    for seed in range(1, 121):
+        for template in templates:
+            draw(template, seed)
+            count += 1
+    return count / (cpu() - started)
+
+
+def main() -> None:
+    """Print the tables."""
+    print(f"cold process, one paper: {cold():.2f} CPU s")
+    paper_bytes(0)
+    print(f"{'n':>5} {'CPU s/paper':>12} {'peak MB':>8}")
+    for n, first in ((1, 10), (10, 100), (100, 1000)):
+        print(f"{n:>5} {timed(paper_bytes, range(first, first + n)):>12.3f} {memory():>8.0f}")
+    print("warm, per paper, n = 20:")
+    for name, seconds in stages(range(20)).items():
+        print(f"  {name:<22} {1e3 * seconds:7.1f} ms")
+    print(f"draw + solve + trap checks: {draws_per_second():,.0f} questions/s")
+
+
+if __name__ == "__main__":
+    main()

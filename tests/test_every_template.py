@@ -1,0 +1,119 @@
+"""What must hold for each template: one parametrised proof over seeds, languages and mistakes."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import mpmath
+import pytest
+
+from quizgen.bank import LANGUAGES, builtin
+from quizgen.draw import admissible, draw, plan_of
+from quizgen.expr import Call, Expr, Num, Sym
+from quizgen.lint import composed_problems, lint
+from quizgen.numbers import to_float
+
+NAMES = list(builtin().paths)
+SEEDS = 200
+MARKED = 12
+COUNTED = 60_000
+"""Largest number of candidates that the test suite walks through to count a pool."""
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_lint_finds_nothing(bank, name):
+    report = lint(bank.template(name), SEEDS)
+    assert report.problems == []
+    assert report.seeds == SEEDS
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_written_in_both_languages(bank, name):
+    assert bank.template(name).languages == LANGUAGES
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_printed_answers_and_traps_are_marked_as_such_far_along_the_seeds(bank, name):
+    template = bank.template(name)
+    for seed in range(10_000, 10_000 + MARKED):
+        assert composed_problems(draw(template, seed, "far")) == []
+
+
+MPMATH = {
+    "add": lambda *a: mpmath.fsum(a), "mul": lambda *a: mpmath.fprod(a), "sub": lambda a, b: a - b,
+    "neg": lambda a: -a, "div": lambda a, b: a / b, "pow": mpmath.power, "sqrt": mpmath.sqrt,
+    "exp": mpmath.exp, "ln": mpmath.log, "log2": lambda a: mpmath.log(a, 2), "log10": mpmath.log10,
+    "sin": mpmath.sin, "cos": mpmath.cos, "tan": mpmath.tan, "asin": mpmath.asin,
+    "acos": mpmath.acos, "atan": mpmath.atan, "atan2": mpmath.atan2, "erf": mpmath.erf,
+    "erfc": mpmath.erfc, "abs": abs, "sign": mpmath.sign, "floor": mpmath.floor,
+    "ceil": mpmath.ceil, "mod": lambda a, b: a - b * mpmath.floor(a / b), "min": min, "max": max,
+    "round": lambda a: mpmath.sign(a) * mpmath.floor(abs(a) + mpmath.mpf(1) / 2),
+    "pi": lambda: +mpmath.pi, "eq": lambda a, b: a == b, "ne": lambda a, b: a != b,
+    "lt": lambda a, b: a < b, "le": lambda a, b: a <= b, "gt": lambda a, b: a > b,
+    "ge": lambda a, b: a >= b, "and": lambda *a: all(a), "or": lambda *a: any(a),
+    "not": lambda a: not a,
+}  # fmt: skip
+
+
+def by_mpmath(expr: Expr, env):
+    """An evaluator of our trees that shares nothing with ours: mpmath at 60 digits."""
+    if isinstance(expr, Num):
+        return mpmath.mpf(expr.value.numerator) / expr.value.denominator
+    if isinstance(expr, Sym):
+        return env[expr.name]
+    if expr.op == "piecewise":
+        for value, condition in zip(expr.args[:-1:2], expr.args[1::2], strict=True):
+            if by_mpmath(condition, env):
+                return by_mpmath(value, env)
+        return by_mpmath(expr.args[-1], env)
+    assert isinstance(expr, Call)
+    return MPMATH[expr.op](*(by_mpmath(arg, env) for arg in expr.args))
+
+
+@pytest.mark.parametrize("name", [n for n in NAMES if builtin().template(n).chain.steps])
+def test_values_agree_with_mpmath_at_sixty_digits(bank, name):
+    template = bank.template(name)
+    with mpmath.workdps(60):
+        for seed in range(15):
+            one = draw(template, seed)
+            env = {}
+            for given in template.chain.given:
+                value = one.values[given]
+                env[given] = mpmath.mpf(int(value.p)) / int(value.q)
+            for step in template.chain.steps:
+                env[step.name] = by_mpmath(step.expr, env)
+                ours = to_float(one.values[step.name])
+                assert math.isclose(ours, float(env[step.name]), rel_tol=1e-14, abs_tol=1e-300)
+
+
+def candidates_of(template):
+    return math.prod(max(len(v.choices), len(v.words), 1) for v in plan_of(template).variables)
+
+
+@pytest.mark.parametrize(
+    "name",
+    [n for n in NAMES if builtin().rules(n).pool and candidates_of(builtin().template(n)) <= COUNTED],
+)  # fmt: skip
+def test_the_pool_is_as_large_as_stated(bank, name):
+    template = bank.template(name)
+    plan = plan_of(template)
+    free = [v for v in plan.variables if v.choices]
+    count = 0
+    for values in itertools.product(*(v.choices for v in free)):
+        shown, words = dict(zip((v.name for v in free), values, strict=True)), {}
+        for variable in plan.variables:
+            if variable.formula is not None:
+                variable.derive(shown, words)
+        count += not isinstance(admissible(plan, shown), str)
+    assert count == template.rules.pool
+
+
+@pytest.mark.parametrize("name", [n for n in NAMES if builtin().rules(n).pool])
+def test_draws_come_from_a_pool_of_about_that_size(bank, name):
+    """Birthday bound: the number of repeats in n draws fits the stated pool."""
+    pool = bank.rules(name).pool
+    template = bank.template(name)
+    draws = 300
+    seen = {tuple(sorted((k, str(v)) for k, v in draw(template, s).shown.items())) for s in range(draws)}
+    assert len(seen) <= pool or pool == 1

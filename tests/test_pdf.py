@@ -1,0 +1,76 @@
+"""The PDF: tagged, PDF/UA-1, fonts embedded, alternatives for every figure and formula."""
+
+from __future__ import annotations
+
+import io
+
+import pikepdf
+import pytest
+
+from quizgen.blueprint import load
+from quizgen.exam import build
+from quizgen.render import KINDS, render
+
+
+@pytest.fixture(scope="module")
+def files(bank):
+    paper = build(bank, load("mock"), 11, "both")
+    return paper, {kind: pikepdf.open(io.BytesIO(render(paper, kind, "pdf"))) for kind in KINDS}
+
+
+def structure(node, found):
+    if isinstance(node, pikepdf.Array):
+        for item in node:
+            structure(item, found)
+    elif isinstance(node, pikepdf.Dictionary):
+        if "/S" in node:
+            found.append(node)
+        if "/K" in node:
+            structure(node.K, found)
+    return found
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_tagged_with_title_and_language(files, kind):
+    paper, pdfs = files
+    root = pdfs[kind].Root
+    assert root.MarkInfo.Marked
+    assert str(root.Lang).startswith("en")
+    with pdfs[kind].open_metadata() as metadata:
+        assert metadata["pdfuaid:part"] == "1"
+        assert metadata["dc:title"].startswith(paper.title("en"))
+    assert root.ViewerPreferences.DisplayDocTitle
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_figure_and_formula_has_an_alternative(files, kind):
+    nodes = structure(files[1][kind].Root.StructTreeRoot.K, [])
+    pictures = [n for n in nodes if str(n.S) in {"/Figure", "/Formula"}]
+    assert pictures
+    assert all(str(n.get("/Alt", "")).strip() for n in pictures)
+
+
+def fonts_of(pdf):
+    for page in pdf.pages:
+        for font in page.get("/Resources", {}).get("/Font", {}).values():
+            yield font
+
+
+def embedded(font):
+    for one in font.get("/DescendantFonts", [font]):
+        descriptor = one.get("/FontDescriptor")
+        if descriptor is not None:
+            return any(f"/FontFile{n}" in descriptor for n in ("", "2", "3"))
+    return str(font.get("/Subtype")) == "/Type3"
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_all_fonts_are_embedded_with_bangla_among_them(files, kind):
+    fonts = list(fonts_of(files[1][kind]))
+    assert all(embedded(font) for font in fonts)
+    assert any("HindSiliguri" in str(font.get("/BaseFont")) for font in fonts)
+
+
+def test_english_papers_carry_no_bangla_font(bank):
+    pdf = pikepdf.open(io.BytesIO(render(build(bank, load("trial"), 1, "en"), "exam", "pdf")))
+    assert not any("HindSiliguri" in str(f.get("/BaseFont")) for f in fonts_of(pdf))
