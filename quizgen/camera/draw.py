@@ -1,0 +1,287 @@
+"""Draw a scene as a stack of layers, farthest first, with one-pixel soft edges.
+
+Layers are kept apart only where something needs it: different blur or different motion.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import groupby
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quizgen.camera.scene import Image, Scene, SceneError, Thing, View
+
+Plane = NDArray[np.float64]
+Shape = Callable[[Thing, Plane, Plane], Plane]
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """How a layer moves: px/s, rad/s about a pivot (px from the first pixel), and its reach."""
+
+    velocity: tuple[float, float] = (0.0, 0.0)
+    spin: float = 0.0
+    pivot: tuple[float, float] = (0.0, 0.0)
+    reach: float = 0.0
+
+    @property
+    def still(self) -> bool:
+        """Whether nothing moves."""
+        return self.velocity == (0.0, 0.0) and self.spin == 0.0
+
+
+STILL = Motion()
+
+
+@dataclass(frozen=True, slots=True)
+class Layer:
+    """One depth of the picture.
+
+    Parameters
+    ----------
+    colour : numpy.ndarray
+        Shape (H, W, 3), float32, linear radiance times coverage.
+    cover : numpy.ndarray or None
+        Shape (H, W, 1) or (H, W, 3), coverage in [0, 1]; None is opaque everywhere.
+    depth : float or numpy.ndarray
+        m; a map of shape (H, W) for a picture with depth.
+    motion : Motion
+    """
+
+    colour: Image
+    cover: Image | None = None
+    depth: float | Image = math.inf
+    motion: Motion = STILL
+
+
+Stack = tuple[Layer, ...]
+
+
+def composite(stack: Stack) -> Image:
+    """Lay the layers over each other, farthest first; one opaque layer is returned as it is."""
+    picture = stack[0].colour
+    for layer in stack[1:]:
+        picture = layer.colour if layer.cover is None else _over(layer, picture)
+    return picture
+
+
+def _over(layer: Layer, behind: Image) -> Image:
+    return layer.colour + (np.float32(1.0) - np.asarray(layer.cover)) * behind
+
+
+def _box(thing: Thing, x: Plane, y: Plane) -> Plane:
+    return np.maximum(np.abs(x) - thing.width.value / 2, np.abs(y) - thing.height.value / 2)
+
+
+def _disc(thing: Thing, x: Plane, y: Plane) -> Plane:
+    return np.hypot(x, y) - thing.radius.value
+
+
+def _ellipse(thing: Thing, x: Plane, y: Plane) -> Plane:
+    half_width, half_height = thing.width.value / 2, thing.height.value / 2
+    level = np.hypot(x / half_width, y / half_height)
+    slope = np.hypot(x / half_width**2, y / half_height**2)
+    return (level - 1.0) * level / np.maximum(slope, 1e-12)
+
+
+def _grid(thing: Thing, x: Plane, y: Plane) -> Plane:
+    def to_line(position: Plane) -> Plane:
+        return np.abs(position - thing.cell.value * np.round(position / thing.cell.value))
+
+    return np.minimum(to_line(x), to_line(y)) - thing.stroke.value / 2
+
+
+def _blades(thing: Thing, x: Plane, y: Plane) -> Plane:
+    step = 2.0 * math.pi / thing.count
+    turn = np.arctan2(y, x)
+    turn -= step * np.round(turn / step)
+    distance = np.hypot(x, y)
+    along, aside = distance * np.cos(turn), distance * np.sin(turn)
+    blade = np.maximum(np.abs(aside) - thing.stroke.value / 2, along - thing.radius.value)
+    return np.minimum(blade, distance - thing.stroke.value * 0.8)
+
+
+def _polygon(thing: Thing, x: Plane, y: Plane) -> Plane:
+    distance, inside = np.full(x.shape, np.inf), np.zeros(x.shape, bool)
+    for (ax, ay), (bx, by) in zip(
+        thing.points, (*thing.points[1:], thing.points[0]), strict=True
+    ):
+        along = ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / ((bx - ax) ** 2 + (by - ay) ** 2)
+        along = np.clip(along, 0.0, 1.0)
+        distance = np.minimum(distance, np.hypot(x - ax - along * (bx - ax), y - ay - along * (by - ay)))
+        if ay != by:
+            crossing = (ay > y) != (by > y)
+            inside ^= crossing & (x < (bx - ax) * (y - ay) / (by - ay) + ax)
+    return np.where(inside, -distance, distance)
+
+
+def _full(thing: Thing, x: Plane, y: Plane) -> Plane:  # noqa: ARG001 - every shape takes the same
+    return np.full(x.shape, -np.inf)
+
+
+SHAPES: dict[str, Shape] = {
+    "box": _box,
+    "disc": _disc,
+    "ellipse": _ellipse,
+    "grid": _grid,
+    "blades": _blades,
+    "polygon": _polygon,
+    "full": _full,
+}
+"""Signed distance to the outline in px, negative inside."""
+
+SIZES = {
+    "box": ("width", "height"),
+    "disc": ("radius",),
+    "ellipse": ("width", "height"),
+    "grid": ("cell", "stroke"),
+    "blades": ("radius", "stroke"),
+    "polygon": ("points",),
+    "full": (),
+}
+"""What each shape needs."""
+
+
+def _checker(thing: Thing, x: Plane, y: Plane) -> Plane:
+    return (np.floor(x / thing.cell.value) + np.floor(y / thing.cell.value)) % 2
+
+
+def _stripes(thing: Thing, x: Plane, y: Plane) -> Plane:  # noqa: ARG001
+    return 0.5 - 0.5 * np.cos(2.0 * math.pi * x / thing.cell.value)
+
+
+def _ramp(thing: Thing, x: Plane, y: Plane) -> Plane:  # noqa: ARG001
+    return np.clip(x / max(thing.width.value, 1e-9) + 0.5, 0.0, 1.0)
+
+
+def _rings(thing: Thing, x: Plane, y: Plane) -> Plane:
+    """Rings whose period shrinks to ``cell`` at ``radius`` (a zone plate)."""
+    scale = math.pi / (thing.cell.value * max(thing.radius.value, 1.0))
+    return 0.5 - 0.5 * np.cos(scale * (x * x + y * y))
+
+
+TEXTURES: dict[str, Shape | None] = {
+    "plain": None,
+    "checker": _checker,
+    "stripes": _stripes,
+    "ramp": _ramp,
+    "rings": _rings,
+}
+"""Share of the second colour, in [0, 1]."""
+
+
+def _place(thing: Thing, view: View) -> tuple[float, float]:
+    return view.centre[0] + thing.x.value, view.centre[1] + thing.y.value
+
+
+def _own_axes(thing: Thing, view: View) -> tuple[Plane, Plane]:
+    column, row = _place(thing, view)
+    x, y = np.meshgrid(np.arange(view.width) - column, np.arange(view.height) - row)
+    cosine, sine = math.cos(thing.angle), math.sin(thing.angle)
+    return cosine * x + sine * y, cosine * y - sine * x
+
+
+def _draw_thing(thing: Thing, view: View) -> tuple[Image, Image]:
+    x, y = _own_axes(thing, view)
+    cover = np.clip(0.5 - SHAPES[thing.shape](thing, x, y), 0.0, 1.0)[..., None]
+    texture = TEXTURES[thing.texture]
+    colour = np.asarray(thing.colour)
+    if texture is not None:
+        share = texture(thing, x, y)[..., None]
+        colour = (1.0 - share) * colour + share * np.asarray(thing.other)
+    return (cover * colour).astype(np.float32), cover.astype(np.float32)
+
+
+def reach(thing: Thing) -> float:
+    """Largest distance of a thing's outline from its own centre, px."""
+    corners = [math.hypot(*point) for point in thing.points]
+    box = math.hypot(thing.width.value, thing.height.value) / 2.0
+    return max(thing.radius.value, box, *corners, 0.0) + 1.0
+
+
+def motion(thing: Thing, view: View) -> Motion:
+    """How a thing moves over the picture."""
+    across, down = (part.value for part in thing.velocity)
+    if not thing.spin:
+        return Motion((across, down)) if across or down else STILL
+    return Motion((across, down), thing.spin, _place(thing, view), reach(thing))
+
+
+@dataclass(frozen=True, slots=True)
+class Sheet:
+    """A layer before it is drawn: its depth (None for a depth map), motion and things."""
+
+    depth: float | None
+    motion: Motion
+    things: tuple[Thing, ...]
+    opaque: bool
+
+
+def sheets(view: View) -> tuple[Sheet, ...]:
+    """Which layers a scene needs, farthest first: things that share blur and motion share one."""
+    scene = view.scene
+    behind = scene.background_depth if scene.image is None else scene.depth
+    base = None if isinstance(behind, np.ndarray) else behind
+    found = [Sheet(base, STILL, (), opaque=True)]
+    ordered = sorted(scene.things, key=lambda thing: -thing.depth)
+    for (depth, moves), group in groupby(ordered, key=lambda thing: _key(thing, view)):
+        if len(found) == 1 and moves.still and depth in (base, None):
+            found[0] = Sheet(base, STILL, tuple(group), opaque=True)
+        else:
+            found.append(Sheet(depth, moves, tuple(group), opaque=False))
+    return tuple(found)
+
+
+def _key(thing: Thing, view: View) -> tuple[float | None, Motion]:
+    return (thing.depth if view.camera.f_number is not None else None), motion(thing, view)
+
+
+def _background(view: View) -> Layer:
+    scene = view.scene
+    if scene.image is not None:
+        return Layer(scene.image, depth=scene.depth)
+    flat = np.empty((scene.height, scene.width, 3), np.float32)
+    flat[:] = scene.background
+    return Layer(flat, depth=scene.background_depth)
+
+
+def _add(layer: Layer, thing: Thing, view: View) -> Layer:
+    colour, cover = _draw_thing(thing, view)
+    keep = np.float32(1.0) - cover
+    total = None if layer.cover is None else cover + keep * layer.cover
+    return Layer(colour + keep * layer.colour, total, layer.depth, layer.motion)
+
+
+def draw(view: View) -> Stack:
+    """Draw everything.
+
+    Parameters
+    ----------
+    view : View
+        All lengths in px (see `quizgen.camera.effects.optics.projection`).
+
+    Returns
+    -------
+    tuple of Layer
+        Farthest first; the first is opaque. A bare picture is returned untouched.
+    """
+    if view.scene.metric:
+        raise SceneError("lengths in metres must be projected first")
+    return tuple(_draw_sheet(sheet, view) for sheet in sheets(view))
+
+
+def _draw_sheet(sheet: Sheet, view: View) -> Layer:
+    layer = _background(view) if sheet.opaque else _empty(view, sheet)
+    for thing in sheet.things:
+        layer = _add(layer, thing, view)
+    return layer
+
+
+def _empty(view: View, sheet: Sheet) -> Layer:
+    shape = (view.height, view.width)
+    nothing = np.zeros((*shape, 3), np.float32), np.zeros((*shape, 1), np.float32)
+    return Layer(*nothing, math.inf if sheet.depth is None else sheet.depth, sheet.motion)

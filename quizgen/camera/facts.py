@@ -1,0 +1,236 @@
+"""What bounds need to know of a picture, and the arithmetic of errors.
+
+A `Facts` holds upper bounds only: range, largest step (jump) and largest second difference (bend)
+per layer, and the random part. Effects turn the facts of their input into facts of their output,
+so every bound is computed without running anything.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from quizgen.camera.draw import Layer, Sheet, Stack, sheets
+from quizgen.camera.scene import Image, View
+
+EXCEEDED = 1e-4
+"""Share of values by which a bound on something random may be exceeded."""
+
+DEVIATIONS = 3.8905918864131203
+"""Standard deviations of a normal value exceeded with probability `EXCEEDED`, two-sided."""
+
+_ROWS = 64
+
+
+@dataclass(frozen=True, slots=True)
+class Error:
+    """How far two pictures can be apart: a sure part and a random part, 1 = white.
+
+    Parameters
+    ----------
+    sure : float
+        Bound on the difference of the means.
+    sigma : float
+        Bound on the standard deviation of the rest.
+    """
+
+    sure: float = 0.0
+    sigma: float = 0.0
+
+    @property
+    def total(self) -> float:
+        """Difference exceeded by at most the share `EXCEEDED` of the values."""
+        return self.sure + DEVIATIONS * self.sigma
+
+    def plus(self, other: Error) -> Error:
+        """Both errors: sure parts add, random parts add in quadrature."""
+        return Error(self.sure + other.sure, math.hypot(self.sigma, other.sigma))
+
+    def times(self, factor: float) -> Error:
+        """Scaled by a factor >= 0."""
+        return Error(self.sure * factor, self.sigma * factor)
+
+
+NO_ERROR = Error()
+
+
+@dataclass(frozen=True, slots=True)
+class LayerFacts:
+    """Largest step and bend of a layer along x and y, as they can show in the finished stack."""
+
+    jump: tuple[float, float]
+    bend: tuple[float, float]
+
+    def times(self, x: float, y: float) -> LayerFacts:
+        """Steps scaled along x and y; second differences become at most two steps."""
+        jump = self.jump[0] * x, self.jump[1] * y
+        return LayerFacts(jump, (2 * jump[0], 2 * jump[1]))
+
+
+@dataclass(frozen=True, slots=True)
+class Facts:
+    """Upper bounds on a picture.
+
+    Parameters
+    ----------
+    low, high : float
+        Range of the noise-free values, 1 = white.
+    layers : tuple of LayerFacts
+        One per layer of the stack, a single one after it is flattened.
+    noise : float
+        Largest standard deviation of the random part.
+    """
+
+    low: float
+    high: float
+    layers: tuple[LayerFacts, ...]
+    noise: float = 0.0
+
+    @property
+    def span(self) -> float:
+        """Largest minus smallest value."""
+        return self.high - self.low
+
+    @property
+    def reach(self) -> float:
+        """How far noise carries a value (all but a share `EXCEEDED`)."""
+        return DEVIATIONS * self.noise
+
+    @property
+    def top(self) -> float:
+        """Largest value including noise."""
+        return self.high + self.reach
+
+    @property
+    def bottom(self) -> float:
+        """Smallest value including noise."""
+        return self.low - self.reach
+
+    @property
+    def size(self) -> float:
+        """Largest magnitude of a noise-free value."""
+        return max(abs(self.low), abs(self.high))
+
+    @property
+    def jump(self) -> tuple[float, float]:
+        """Largest step of the flattened picture along x and y."""
+        return tuple(  # type: ignore[return-value]
+            min(sum(layer.jump[axis] for layer in self.layers), self.span) for axis in (0, 1)
+        )
+
+    @property
+    def bend(self) -> tuple[float, float]:
+        """Largest second difference of the flattened picture along x and y."""
+        steps = self.jump
+        if len(self.layers) > 1:
+            return 2 * steps[0], 2 * steps[1]
+        return tuple(  # type: ignore[return-value]
+            min(self.layers[0].bend[axis], 2 * steps[axis]) for axis in (0, 1)
+        )
+
+    def flat(self) -> Facts:
+        """Facts of the flattened stack."""
+        return replace(self, layers=(LayerFacts(self.jump, self.bend),))
+
+    def stepped(self, x: float, y: float) -> Facts:
+        """Every layer's steps scaled."""
+        return replace(self, layers=tuple(layer.times(x, y) for layer in self.layers))
+
+    def scaled(self, factor: float) -> Facts:
+        """Everything times a factor >= 0."""
+        layers = tuple(
+            LayerFacts(
+                (layer.jump[0] * factor, layer.jump[1] * factor),
+                (layer.bend[0] * factor, layer.bend[1] * factor),
+            )
+            for layer in self.layers
+        )
+        return Facts(self.low * factor, self.high * factor, layers, self.noise * factor)
+
+    def with_jump(self, jump: tuple[float, float]) -> Facts:
+        """One layer with these steps and whatever bends they allow."""
+        return replace(self, layers=(LayerFacts(jump, (2 * jump[0], 2 * jump[1])),))
+
+
+def _guess(sheet: Sheet, middle: float, span: float) -> LayerFacts:
+    """Steps a layer may have, from its colours: from nothing to any of them, plus the cover's."""
+    jump = span if sheet.opaque else _colour_step(sheet, middle) + span / 2
+    return LayerFacts((jump, jump), (2 * jump, 2 * jump))
+
+
+def _colour_step(sheet: Sheet, middle: float) -> float:
+    textured = [thing.other for thing in sheet.things if thing.texture != "plain"]
+    colours = [*textured, *(thing.colour for thing in sheet.things)]
+    levels = [0.0, *(level - middle for colour in colours for level in colour)]
+    return max(levels) - min(levels)
+
+
+def coarse(view: View) -> Facts:
+    """Facts from the colours alone, without drawing or reading a pixel."""
+    low, high = view.scene.range
+    middle, span = (low + high) / 2, high - low
+    return Facts(low, high, tuple(_guess(sheet, middle, span) for sheet in sheets(view)))
+
+
+def measured(stack: Stack, view: View) -> Facts:
+    """Facts from one pass over the drawn layers."""
+    low, high = view.scene.range
+    middle = (low + high) / 2
+    return Facts(low, high, tuple(_measure(layer, middle, high - low, 1) for layer in stack))
+
+
+def glimpsed(stack: Stack, view: View, every: int = 16) -> Facts:
+    """Facts of every 16th row and column only: never above the true ones, so a hint, no bound."""
+    low, high = view.scene.range
+    middle = (low + high) / 2
+    return Facts(low, high, tuple(_measure(layer, middle, high - low, every) for layer in stack))
+
+
+def _measure(layer: Layer, middle: float, span: float, every: int) -> LayerFacts:
+    cover = layer.cover
+    along_x = _differences(layer.colour, cover, middle, span, every, axis=1)
+    along_y = _differences(layer.colour, cover, middle, span, every, axis=0)
+    return LayerFacts((along_x[0], along_y[0]), (along_x[1], along_y[1]))
+
+
+def _differences(
+    colour: Image, cover: Image | None, middle: float, span: float, every: int, axis: int
+) -> tuple[float, float]:
+    step, bend = 0.0, 0.0
+    for part in _slices(colour, every, axis):
+        first, second = _extremes(colour[part], axis)
+        if cover is not None:
+            first, second = _extremes(colour[part] - np.float32(middle) * cover[part], axis)
+            edge = _extremes(cover[part], axis)
+            first, second = first + edge[0] * span / 2, second + edge[1] * span / 2
+        step, bend = max(step, first), max(bend, second)
+    slack = 1.0 + 1e-6
+    return step * slack, bend * slack
+
+
+def _slices(colour: Image, every: int, axis: int) -> Iterator[tuple[slice, ...]]:
+    """Bands across the axis, thinned out to every n-th line."""
+    lines = colour.shape[1 - axis]
+    width = _ROWS if every == 1 else lines
+    for start in range(0, lines, width):
+        band = slice(start, start + width, every)
+        yield (band, slice(None)) if axis == 1 else (slice(None), band)
+
+
+def _extremes(values: Image, axis: int) -> tuple[float, float]:
+    """Largest first and second difference along an axis; at the border mirrored."""
+    if values.shape[axis] < 2:
+        return 0.0, 0.0
+    steps = np.diff(values, axis=axis)
+    ends = np.abs(np.take(steps, [0, -1], axis=axis)).max()
+    bend = 2.0 * float(ends)
+    if steps.shape[axis] > 1:
+        bend = max(bend, _largest(np.diff(steps, axis=axis)))
+    return _largest(steps), bend
+
+
+def _largest(values: Image) -> float:
+    return float(max(values.max(), -values.min()))

@@ -1,0 +1,333 @@
+"""Decide which effects a scene calls for.
+
+Rules, in this order: what a question asks about is kept and computed exactly; what the camera does
+not have is absent; what cannot change the picture within the budget is skipped and reported; the
+rest runs on the cheapest rung that the budget still allows. The budget is spent where it saves
+most time per grey level. Bounds follow the error through every later effect, so the total holds.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from quizgen.camera.costs import FACTS_PER_MEGAPIXEL, cost
+from quizgen.camera.draw import Stack, draw
+from quizgen.camera.effects import EFFECTS, QUESTIONS
+from quizgen.camera.effects.base import Effect
+from quizgen.camera.effects.optics import projection
+from quizgen.camera.facts import NO_ERROR, Error, Facts, coarse, glimpsed, measured
+from quizgen.camera.scene import Camera, Scene, SceneError, View
+
+BUDGETS = {"same": 0.5, "visible": 2.0, "sketch": 8.0}
+"""Named budgets in 8-bit grey levels."""
+
+GREY_LEVELS = 255.0
+
+EXACT, SKIP = "", "skip"
+
+_ROUNDING = 1e-6
+"""What single precision adds to a difference in one step, relative to the largest value."""
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """An effect that runs: how, why, and its predicted time in ms."""
+
+    effect: str
+    rung: str
+    reason: str
+    bound_dn: float
+    predicted_ms: float
+
+
+@dataclass(frozen=True, slots=True)
+class Skipped:
+    """An effect left out: why, by how many grey levels that can matter, and the ms it saves."""
+
+    effect: str
+    reason: str
+    bound_dn: float
+    saved_ms: float
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """What to run.
+
+    Parameters
+    ----------
+    steps : tuple of Step
+        In physical order.
+    skipped : tuple of Skipped
+    absent : tuple of str
+        Effects this camera does not have.
+    predicted_error_dn : float
+        Bound on the difference to running everything, in 8-bit grey levels before rounding; where
+        noise is skipped, all but 1 in 10 000 values keep it.
+    predicted_ms : float
+    budget : float
+    """
+
+    steps: tuple[Step, ...]
+    skipped: tuple[Skipped, ...]
+    absent: tuple[str, ...]
+    predicted_error_dn: float
+    predicted_ms: float
+    budget: float
+
+
+class Prepared:
+    """A scene in pixels, drawn when first needed.
+
+    Parameters
+    ----------
+    scene : Scene
+    camera : Camera
+    """
+
+    def __init__(self, scene: Scene, camera: Camera) -> None:
+        self.given = View(scene, camera)
+
+    @cached_property
+    def view(self) -> View:
+        """Everything in px."""
+        if not self.given.scene.metric:
+            return self.given
+        return replace(self.given, scene=projection(self.given.scene, self.given))
+
+    @cached_property
+    def stack(self) -> Stack:
+        """The drawn layers."""
+        return draw(self.view)
+
+
+@dataclass(frozen=True)
+class _Unit:
+    """Effects that are kept or skipped together, with what each choice costs."""
+
+    members: tuple[int, ...]
+    choices: tuple[str, ...]
+    fixed: bool
+
+
+class _Chain:
+    """The present effects of one view with their facts; predicts the error of any choice."""
+
+    def __init__(self, present: tuple[Effect, ...], view: View, facts: Facts) -> None:
+        self.present, self.view = present, view
+        self.before = _facts_along(present, view, facts)
+        self.lost = [effect.skipped(f, view) for effect, f in zip(present, self.before, strict=True)]
+        self.rough = [
+            {rung.name: rung.error(f, view) for rung in effect.cheaper}
+            for effect, f in zip(present, self.before, strict=True)
+        ]
+
+    def error(self, choice: dict[int, str]) -> Error:
+        """Difference to running everything exactly; choices not given are exact."""
+        error = NO_ERROR
+        for index, effect in enumerate(self.present):
+            made = choice.get(index, EXACT)
+            if made == SKIP:
+                error = error.plus(self.lost[index])
+                continue
+            error = self._carried(effect, index, error)
+            if made != EXACT:
+                error = error.plus(self.rough[index][made])
+        return error
+
+    def _carried(self, effect: Effect, index: int, error: Error) -> Error:
+        if error == NO_ERROR or math.isinf(error.total):
+            return error
+        facts = self.before[index]
+        carried = effect.carried(error, facts, self.view)
+        return carried.plus(Error(_ROUNDING * max(1.0, facts.size)))
+
+    def dn(self, choice: dict[int, str]) -> float:
+        """The same in grey levels."""
+        return GREY_LEVELS * self.error(choice).total
+
+
+def _facts_along(present: tuple[Effect, ...], view: View, facts: Facts) -> list[Facts]:
+    before = []
+    for effect in present:
+        if effect.stage not in ("scene", "optics"):
+            facts = facts.flat()
+        before.append(facts)
+        facts = effect.after(facts, view)
+    return before
+
+
+def _units(present: tuple[Effect, ...], asked: frozenset[str]) -> list[_Unit]:
+    units: dict[str, list[int]] = {}
+    for index, effect in enumerate(present):
+        units.setdefault(effect.pair or effect.name, []).append(index)
+    return [_unit(tuple(members), present, asked) for members in units.values()]
+
+
+def _unit(members: tuple[int, ...], present: tuple[Effect, ...], asked: frozenset[str]) -> _Unit:
+    effects = [present[index] for index in members]
+    rungs = [rung.name for rung in effects[0].cheaper] if len(effects) == 1 else []
+    needed = any(asked.intersection(effect.decides) for effect in effects)
+    return _Unit(members, (EXACT, *rungs, SKIP), needed or effects[0].stage == "scene")
+
+
+def _costs(present: tuple[Effect, ...], view: View, *, opencv_used: bool | None) -> list[
+    dict[str, float]
+]:
+    def one(effect: Effect) -> dict[str, float]:
+        rungs = (EXACT, *(rung.name for rung in effect.cheaper))
+        known = {rung: cost(effect.name, rung, view, opencv_used=opencv_used) for rung in rungs}
+        return {**known, SKIP: 0.0}
+
+    return [one(effect) for effect in present]
+
+
+def _spend(
+    chain: _Chain, units: list[_Unit], costs: list[dict[str, float]], budget: float
+) -> dict[int, str]:
+    """Take the affordable choice that saves most per grey level, again and again."""
+    choice = {index: EXACT for unit in units for index in unit.members}
+    while True:
+        now, best = chain.dn(choice), (0.0, choice)
+        for unit in units:
+            for made in () if unit.fixed else unit.choices:
+                trial = {**choice, **dict.fromkeys(unit.members, made)}
+                saved = sum(costs[i][choice[i]] - costs[i][trial[i]] for i in unit.members)
+                error = chain.dn(trial) if saved > 0.0 else math.inf
+                if error <= budget:
+                    score = saved / (max(error - now, 0.0) + 1e-6)
+                    best = max(best, (score, trial), key=lambda pair: pair[0])
+        if best[0] == 0.0:
+            return choice
+        choice = best[1]
+
+
+def _total(costs: list[dict[str, float]], choice: dict[int, str]) -> float:
+    return sum(costs[index][made] for index, made in choice.items())
+
+
+def _best(
+    prepared: Prepared, present: tuple[Effect, ...], units: list[_Unit], budget: float
+) -> tuple[_Chain, dict[int, str]]:
+    """Decide from colours alone; look at the pixels only where that can still save time."""
+    view = prepared.view
+    costs = _costs(present, view, opencv_used=False)
+    chain = _Chain(present, view, coarse(view))
+    choice = _spend(chain, units, costs, budget)
+    if all(unit.fixed or choice[unit.members[0]] == SKIP for unit in units):
+        return chain, choice
+    hopeful = _spend(_Chain(present, view, glimpsed(prepared.stack, view)), units, costs, budget)
+    gain = _total(costs, choice) - _total(costs, hopeful)
+    if gain <= FACTS_PER_MEGAPIXEL * view.megapixels:
+        return chain, choice
+    chain = _Chain(present, view, measured(prepared.stack, view))
+    return chain, _spend(chain, units, costs, budget)
+
+
+def wanted(question: str | tuple[str, ...] | None, scene: Scene) -> frozenset[str]:
+    """Kinds of question asked, by the caller or else by the scene.
+
+    Raises
+    ------
+    SceneError
+        If a kind is not in `quizgen.camera.effects.QUESTIONS`.
+    """
+    kinds = scene.question if question is None else question
+    asked = frozenset((kinds,) if isinstance(kinds, str) else kinds)
+    for kind in sorted(asked.difference(QUESTIONS)):
+        raise SceneError(f"unknown question {kind!r}; one of {', '.join(QUESTIONS)}")
+    return asked
+
+
+def read_budget(text: str | float) -> float:
+    """Grey levels of a number or of a name in `BUDGETS`."""
+    try:
+        budget = BUDGETS[text] if text in BUDGETS else float(text)
+    except (TypeError, ValueError):
+        budget = math.nan
+    if not budget >= 0.0:
+        raise SceneError(f"budget {text!r}: a number of grey levels >= 0 or {', '.join(BUDGETS)}")
+    return budget
+
+
+def plan(
+    scene: Scene | Prepared,
+    camera: Camera | None = None,
+    question: str | tuple[str, ...] | None = None,
+    budget: str | float = 0.5,
+) -> Plan:
+    """Decide what to run.
+
+    Parameters
+    ----------
+    scene : Scene or Prepared
+    camera : Camera
+        Not needed with a `Prepared`.
+    question : str or tuple of str, optional
+        Kinds of question; what decides them is kept. By default the scene's own.
+    budget : float or str
+        Largest tolerated change in 8-bit grey levels, or a name in `BUDGETS`.
+
+    Returns
+    -------
+    Plan
+        A pure function of the arguments.
+    """
+    prepared = scene if isinstance(scene, Prepared) else Prepared(scene, camera or Camera())
+    given, limit = prepared.given, read_budget(budget)
+    asked = wanted(question, given.scene)
+    present = tuple(effect for effect in EFFECTS if effect.present(given))
+    absent = tuple(effect.name for effect in EFFECTS if effect not in present)
+    if not present:
+        return Plan((), (), absent, 0.0, 0.0, limit)
+    units = _units(present, asked)
+    chain, choice = _best(prepared, present, units, limit)
+    return _report(chain, choice, units, absent, limit)
+
+
+def everything(scene: Scene | Prepared, camera: Camera | None = None) -> Plan:
+    """The plan that runs every present effect exactly."""
+    prepared = scene if isinstance(scene, Prepared) else Prepared(scene, camera or Camera())
+    present = tuple(effect for effect in EFFECTS if effect.present(prepared.given))
+    absent = tuple(effect.name for effect in EFFECTS if effect not in present)
+    steps = tuple(
+        Step(effect.name, EXACT, "everything", math.nan, cost(effect.name, EXACT, prepared.view))
+        for effect in present
+    )
+    return Plan(steps, (), absent, 0.0, sum(step.predicted_ms for step in steps), 0.0)
+
+
+def _report(
+    chain: _Chain, choice: dict[int, str], units: list[_Unit], absent: tuple[str, ...], limit: float
+) -> Plan:
+    times = _costs(chain.present, chain.view, opencv_used=None)
+    steps, skipped = [], []
+    for unit in units:
+        alone = min(chain.dn(dict.fromkeys(unit.members, SKIP)), GREY_LEVELS)
+        for index in unit.members:
+            name, made, time = chain.present[index].name, choice[index], times[index]
+            if made == SKIP:
+                skipped.append(Skipped(name, _why_skipped(alone), alone, time[EXACT]))
+            else:
+                reason = _why_kept(chain, unit, index, made, alone)
+                steps.append((index, Step(name, made, reason, alone, time[made])))
+    ran = tuple(step for _, step in sorted(steps, key=lambda pair: pair[0]))
+    spent = sum(step.predicted_ms for step in ran)
+    return Plan(ran, tuple(skipped), absent, chain.dn(choice), spent, limit)
+
+
+def _why_skipped(bound: float) -> str:
+    return f"changes at most {bound:.2g} DN" if bound else "changes nothing"
+
+
+def _why_kept(chain: _Chain, unit: _Unit, index: int, made: str, alone: float) -> str:
+    if chain.present[index].stage == "scene":
+        return "lengths in metres"
+    if unit.fixed:
+        return "asked about"
+    size = "anything" if alone >= GREY_LEVELS else f"up to {alone:.2g} DN"
+    if made == EXACT:
+        return f"may change {size}"
+    return f"may change {size}; this rung is off by {chain.dn({index: made}):.2g} DN at most"

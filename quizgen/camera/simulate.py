@@ -1,0 +1,106 @@
+"""Run a plan and keep the times."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quizgen.camera.draw import composite
+from quizgen.camera.effects import EFFECTS
+from quizgen.camera.effects.isp import rounded
+from quizgen.camera.plan import GREY_LEVELS, Plan, Prepared, everything, plan
+from quizgen.camera.scene import Camera, Image, Scene
+
+_BY_NAME = {effect.name: effect for effect in EFFECTS}
+
+
+@dataclass(frozen=True, slots=True)
+class Photo:
+    """A simulated picture.
+
+    Parameters
+    ----------
+    values : numpy.ndarray
+        Shape (H, W, 3), float32, 1 = white; an ideal camera returns its input untouched.
+    plan : Plan
+        What was run and what was left out.
+    times : dict of str to float
+        Measured ms per effect that ran.
+    drawn_ms : float
+        Time for drawing the scene, which is no effect.
+    """
+
+    values: Image
+    plan: Plan
+    times: dict[str, float]
+    drawn_ms: float
+
+    @property
+    def measured_ms(self) -> float:
+        """Time of all effects."""
+        return sum(self.times.values())
+
+    def pixels(self) -> NDArray[np.uint8]:
+        """8-bit codes, halves rounded upward."""
+        return rounded(self.values * np.float32(GREY_LEVELS))
+
+
+def run(prepared: Prepared, what: Plan) -> Photo:
+    """Run the steps of a plan on a scene."""
+    started = perf_counter()
+    state: Any = prepared.stack
+    drawn = (perf_counter() - started) * 1e3
+    times: dict[str, float] = {}
+    for step in what.steps:
+        started = perf_counter()
+        state = _apply(state, step.effect, step.rung, prepared)
+        times[step.effect] = (perf_counter() - started) * 1e3
+    return Photo(composite(state) if isinstance(state, tuple) else state, what, times, drawn)
+
+
+def _apply(state: Any, name: str, rung: str, prepared: Prepared) -> Any:
+    effect = _BY_NAME[name]
+    if effect.stage == "scene":
+        effect.run(prepared.given.scene, prepared.given, rung)
+        return state
+    if effect.stage != "optics" and isinstance(state, tuple):
+        state = composite(state)
+    return effect.run(state, prepared.view, rung)
+
+
+def simulate(
+    scene: Scene,
+    camera: Camera,
+    question: str | tuple[str, ...] | None = None,
+    budget: str | float = 0.5,
+) -> Photo:
+    """Plan and run.
+
+    Parameters
+    ----------
+    scene : Scene
+    camera : Camera
+    question : str or tuple of str, optional
+        Kinds of question asked about the picture; by default the scene's own.
+    budget : float or str
+        Grey levels, see `quizgen.camera.plan.plan`.
+    """
+    prepared = Prepared(scene, camera)
+    return run(prepared, plan(prepared, question=question, budget=budget))
+
+
+def simulate_everything(scene: Scene, camera: Camera) -> Photo:
+    """Run every present effect exactly, for comparison."""
+    prepared = Prepared(scene, camera)
+    return run(prepared, everything(prepared))
+
+
+def difference_dn(one: Photo, other: Photo) -> float:
+    """Largest difference of two pictures in 8-bit grey levels, before rounding."""
+    if one.values is other.values:
+        return 0.0
+    return float(np.abs(one.values - other.values).max() * GREY_LEVELS)
