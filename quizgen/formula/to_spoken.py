@@ -15,7 +15,12 @@ from quizgen.errors import RenderError
 from quizgen.formula import nodes as n
 from quizgen.formula.names import GREEK
 from quizgen.formula.units import Part, parts
-from quizgen.formula.words import TEXTS, WORDS, Words
+from quizgen.formula.words import TEXTS, Words
+from quizgen.formula.words_bn import BANGLA
+from quizgen.formula.words_en import ENGLISH
+
+WORDS = {"en": ENGLISH, "bn": BANGLA}
+"""Reading tables by language."""
 
 _BINDING = tuple(map(n.Op, ("", "·", "×", "mod")))
 _BOUNDS = tuple(map(n.Op, "<≤"))

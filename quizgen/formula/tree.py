@@ -23,7 +23,6 @@ from quizgen.formula.nodes import (
     RELATION,
     SUM,
     WORDS,
-    Accent,
     Cases,
     Fence,
     Frac,
@@ -32,13 +31,13 @@ from quizgen.formula.nodes import (
     Node,
     Number,
     Op,
-    Quantity,
     Root,
     Row,
     Scripts,
     Text,
     Word,
 )
+from quizgen.formula.products import between
 
 SIGNS = {"eq": "=", "ne": "≠", "lt": "<", "le": "≤", "gt": ">", "ge": "≥"}
 FENCES = {"abs": "||", "floor": "⌊⌋", "ceil": "⌈⌉"}
@@ -62,10 +61,8 @@ FUNCTIONS: dict[str, Node] = {
 }
 _POWER_ON_NAME = frozenset({"sin", "cos", "tan"})
 _OPPOSITES = {"eq": "ne", "ne": "eq", "lt": "ge", "ge": "lt", "gt": "le", "le": "gt"}
-_READ_AS_FUNCTION = frozenset("fghPVEFGNLφψ")
-"""Letters before a bracket that readers take for a function: they get a dot."""
 
-_TIMES, _DOT, _NEG = Op(""), Op("·"), Op("neg")
+_NEG = Op("neg")
 _ONE = Fraction(1)
 _MINUS_ONES = (Num(-_ONE), Call("neg", (Num(_ONE),)))
 
@@ -226,69 +223,9 @@ def _mul(run: _Layout, args: tuple[Expr, ...]) -> Node:
     items = [run.held(args[0], NEGATIVE)]
     for arg in args[1:]:
         factor = run.held(arg, PRODUCT)
-        items += [_between(items[-1], factor), factor]
+        items += [between(items[-1], factor), factor]
     level = NEGATIVE if items[0].level == NEGATIVE else PRODUCT
     return Row(_flat(items, PRODUCT), level)
-
-
-def _between(left: Node, right: Node) -> Op:
-    """Put a dot where juxtaposed factors would be misread."""
-    before, after = _last(left), _first(right)
-    if _starts_number(after) or isinstance(before, Quantity):
-        return _DOT
-    if isinstance(before, Word) or isinstance(after, Word) or _slashed(left, right):
-        return _DOT
-    return _DOT if isinstance(after, Fence) and _calls(before, after) else _TIMES
-
-
-def _slashed(left: Node, right: Node) -> bool:
-    """Whether one factor is a quotient with a slash, whose end would be unclear."""
-    ends = _last(left), right
-    return any(isinstance(node, Frac) and node.inline for node in ends)
-
-
-def _calls(before: Node, after: Fence) -> bool:
-    """Whether a factor before a bracket looks like a function, or bars like one pair of bars."""
-    if isinstance(before, Number | Func):
-        return after.kind == "()"
-    if isinstance(before, Ident):
-        return after.kind == "()" and before.text in _READ_AS_FUNCTION
-    return isinstance(before, Fence) and "|" in (before.kind[0], after.kind[0])
-
-
-def _first(node: Node) -> Node:
-    """Find what a reader meets first in a factor."""
-    while True:
-        match node:
-            case Row():
-                node = node.items[0]
-            case Scripts() | Accent():
-                node = node.base
-            case Frac():
-                node = node.top
-            case _:
-                return node
-
-
-def _last(node: Node) -> Node:
-    """Find what a reader meets last in a factor."""
-    while True:
-        match node:
-            case Row():
-                node = node.items[-1]
-            case Scripts(sup=None) | Accent():
-                node = node.base
-            case _:
-                return node
-
-
-def _starts_number(node: Node) -> bool:
-    """Whether a factor is a number, maybe in brackets with a sign or a unit."""
-    if isinstance(node, Fence):
-        node = node.body
-        if isinstance(node, Row) and node.level == NEGATIVE:
-            node = node.items[1]
-    return isinstance(node, Number | Quantity)
 
 
 def _div(run: _Layout, args: tuple[Expr, ...]) -> Node:
