@@ -37,7 +37,21 @@ _HOMES = {
     "QuizgenError": "quizgen.errors",
 }
 
-__all__ = sorted(_HOMES)
+__all__ = [  # noqa: RUF022 - in the order of the line
+    "Bank",
+    "builtin",
+    "Model",
+    "Step",
+    "compose",
+    "build",
+    "rebuild",
+    "load",
+    "render",
+    "mark",
+    "show",
+    "lint",
+    "QuizgenError",
+]
 
 
 def __getattr__(name: str) -> Any:

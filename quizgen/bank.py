@@ -1,7 +1,7 @@
 """A bank: a folder with ``templates/`` and ``solvers/``, read on demand.
 
-The built-in bank is the first one; a third party's bank is a folder of the same shape. Text is always
-safe to read. Solvers are Python, so a foreign bank runs its own only when it is trusted by name.
+The built-in bank is the first one; a third party's bank is a folder of the same shape. Text is
+always safe to read. Solvers are Python, so a foreign bank runs its own only when it is trusted.
 """
 
 from __future__ import annotations
@@ -75,7 +75,7 @@ class Bank:
         names = [path.parent.name for path in found]
         twins = {name for name in names if names.count(name) > 1}
         if twins:
-            raise BankError(f"{self.root}: two templates share the name {sorted(twins)[0]!r}")
+            raise BankError(f"{self.root}: two templates share the name {min(twins)!r}")
         return {path.parent.name: path.parent for path in found}
 
     @cached_property

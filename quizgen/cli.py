@@ -50,7 +50,7 @@ class _Lazy(click.Group):
 @click.group(cls=_Lazy, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(package_name="quizgen")
 def group() -> None:
-    """Mock exams from parametric templates: exact worked solutions, figures, typed answers checked."""
+    """Mock exams from parametric templates: exact solutions, figures, typed answers checked."""
 
 
 def main(arguments: list[str] | None = None) -> Any:

@@ -23,7 +23,9 @@ KEY, FORM = "key.json", "answers.toml"
 @click.option("--code", help="Code of a paper: builds exactly that paper again.")
 @click.option("--blueprint", default="mock", show_default=True, help="mock, trial or a TOML file.")
 @click.option("--lang", type=click.Choice(["en", "bn", "both"]), help="Language. [default: en]")
-@click.option("--format", "formats", default="html,pdf", show_default=True, help="Outputs, by comma.")
+@click.option(
+    "--format", "formats", default="html,pdf", show_default=True, help="Outputs, by comma."
+)
 @click.option("--out", type=click.Path(path_type=Path), default=Path("exam"), show_default=True,
               help="Folder to write to.")  # fmt: skip
 @click.option("--reference", is_flag=True, help="The questions with the numbers of the notes.")

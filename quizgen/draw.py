@@ -14,7 +14,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import cached_property, lru_cache
+from functools import cache, cached_property, partial
 from typing import Any
 
 import flint
@@ -72,7 +72,7 @@ class Draw:
         return self.values[name] / factor(self.template.units.get(name, ""))
 
 
-@lru_cache(maxsize=None)
+@cache
 def factor(text: str) -> fmpq:
     """Exact factor from a unit to base units."""
     return rational(unit(text).factor)
@@ -116,6 +116,10 @@ class _Condition:
     needs: frozenset[str]
 
 
+def _of(name: str, test: Callable[[Any], bool]) -> Callable[[Mapping[str, Any]], bool]:
+    return lambda env: test(env[name])
+
+
 class Plan:
     """Everything about drawing a template that does not depend on the seed."""
 
@@ -141,9 +145,7 @@ class Plan:
             yield _Condition(text, compile_expr(expr, exact()), names(expr))
         for name, rule in self.template.rules.keep.items():
             test = keep_test(rule)
-            yield _Condition(
-                f"keep.{name}", lambda env, n=name, t=test: t(env[n]), frozenset({name})
-            )
+            yield _Condition(f"keep.{name}", _of(name, test), frozenset({name}))
 
     def candidate(self, stem: str, attempt: int) -> tuple[dict[str, fmpq], dict[str, str]]:
         """Values of one try, before any condition."""
@@ -178,7 +180,7 @@ class Plan:
         return {**solved, **shown}
 
 
-@lru_cache(maxsize=None)
+@cache
 def candidates(
     listed: tuple[Any, ...], span: tuple[Any, ...], skip: tuple[Any, ...]
 ) -> tuple[fmpq, ...]:
@@ -190,26 +192,37 @@ def candidates(
     first, last, step = (Fraction(str(v)) for v in span)
     left_out = {Fraction(str(v)) for v in skip}
     count = int((last - first) / step) + 1
-    return tuple(rational(first + i * step) for i in range(count) if first + i * step not in left_out)
+    return tuple(
+        rational(first + i * step) for i in range(count) if first + i * step not in left_out
+    )
 
 
 def keep_test(rule: KeepRule) -> Callable[[Any], bool]:
     """Compile a keep rule into a test of one value."""
-    tests: list[Callable[[Any], bool]] = []
-    if rule.min is not None:
-        tests.append(lambda v, least=rational(str(rule.min)): bool(v >= least))
-    if rule.max is not None:
-        tests.append(lambda v, most=rational(str(rule.max)): bool(v <= most))
-    if rule.multiple is not None:
-        tests.append(lambda v, m=rational(str(rule.multiple)): isinstance(v, fmpq) and (v / m).q == 1)
-    if rule.decimals is not None:
-        tests.append(lambda v, d=rule.decimals: _terminates(v, d))
-    if rule.denominator is not None:
-        tests.append(lambda v, d=rule.denominator: isinstance(v, fmpq) and v.q <= d)
-    if rule.skip:
-        left_out = {rational(str(v)) for v in rule.skip}
-        tests.append(lambda v: not (isinstance(v, fmpq) and v in left_out))
+    tests = [
+        partial(KEEP_TESTS[name], _limit(name, getattr(rule, name)))
+        for name in KEEP_TESTS
+        if getattr(rule, name) not in (None, ())
+    ]
     return lambda value: all(test(value) for test in tests)
+
+
+def _limit(name: str, written: Any) -> Any:
+    """A limit as written, made exact."""
+    if name == "skip":
+        return {rational(str(v)) for v in written}
+    return written if name in {"decimals", "denominator"} else rational(str(written))
+
+
+KEEP_TESTS: dict[str, Callable[[Any, Any], bool]] = {
+    "min": lambda least, v: bool(v >= least),
+    "max": lambda most, v: bool(v <= most),
+    "multiple": lambda step, v: isinstance(v, fmpq) and (v / step).q == 1,
+    "decimals": lambda count, v: _terminates(v, count),
+    "denominator": lambda most, v: isinstance(v, fmpq) and v.q <= most,
+    "skip": lambda left_out, v: not (isinstance(v, fmpq) and v in left_out),
+}
+"""Field of a keep rule to the test of (limit, value)."""
 
 
 def _terminates(value: Any, decimals: int) -> bool:
@@ -247,8 +260,7 @@ class PartPlan:
         self.traps = {
             trap: _float_plan(template, wrong)
             for trap, wrong in template.chain.traps.items()
-            if trap not in rules.drop
-            and self._concerns(template, wrong, needed)
+            if trap not in rules.drop and self._concerns(template, wrong, needed)
         }
         self.may_vanish = frozenset(rules.may_vanish)
         self.one_step = "decimals" in self.answer and "within" in self.answer

@@ -130,7 +130,7 @@ def _compile_call(op: Callable[..., Any], args: list[Compiled]) -> Compiled:
     if len(args) == 1:
         (first,) = args
         return lambda env: op(first(env))
-    if len(args) == 2:  # noqa: PLR2004 - the common binary case, spelled out for speed
+    if len(args) == 2:
         first, second = args
         return lambda env: op(first(env), second(env))
     return lambda env: op(*[arg(env) for arg in args])
@@ -145,7 +145,7 @@ def _compile_piecewise(expr: Call, field: Field) -> Compiled:
     pairs = list(zip(parts[:-1:2], parts[1::2], strict=True))
     otherwise = parts[-1]
 
-    def choose(env: Env) -> Any:  # noqa: ANN401 - a number of whichever field
+    def choose(env: Env) -> Any:
         for value, condition in pairs:
             if field.truth(condition(env)):
                 return value(env)
@@ -172,9 +172,9 @@ def taken_branch(expr: Expr, env: Env, field: Field) -> Expr:
 @cache
 def exact() -> Field:
     """Exact rationals (``flint.fmpq``), and certified balls (``flint.arb``) beyond them."""
-    import flint  # noqa: PLC0415 - 26 ms that `--help` does not need
+    import flint
 
-    from quizgen import _exact  # noqa: PLC0415
+    from quizgen import _exact
 
     return Field("exact", lambda q: flint.fmpq(q.numerator, q.denominator), _exact.OPS)
 
@@ -182,12 +182,12 @@ def exact() -> Field:
 @cache
 def floats() -> Field:
     """Python floats: the fast approximation used by figures."""
-    from quizgen import _floats  # noqa: PLC0415
+    from quizgen import _floats
 
     return Field("float64", float, _floats.OPS)
 
 
-def evaluate(expr: Expr, env: Env, field: Field | None = None) -> Any:  # noqa: ANN401
+def evaluate(expr: Expr, env: Env, field: Field | None = None) -> Any:
     """Evaluate a tree once (compile it instead when it is needed often).
 
     Raises
@@ -195,7 +195,7 @@ def evaluate(expr: Expr, env: Env, field: Field | None = None) -> Any:  # noqa: 
     MathError
         If there is no finite real value.
     """
-    import flint  # noqa: PLC0415
+    import flint
 
     with flint.ctx.workprec(PRECISION):
         try:

@@ -2,8 +2,9 @@
 
 For each template: every language is complete; over ``seeds`` draws no trap scores or coincides with
 another (each draw is checked, then counted), the answers' range, the share of duplicates, of kept
-candidates, and the time per draw; over a few composed instances no placeholder is left, every number
-stands in every language, the printed answer typed back is correct and every trap is recognised.
+candidates, and the time per draw; over a few composed instances no placeholder is left, every
+number stands in every language, the printed answer typed back is correct and every trap is
+recognised.
 """
 
 from __future__ import annotations
@@ -109,9 +110,7 @@ def _widen(report: Report, one: Draw) -> None:
 
 
 def _language_problems(template: Template) -> list[str]:
-    problems = [
-        f"no {lang}.md" for lang in LANGUAGES if lang not in template.texts
-    ]
+    problems = [f"no {lang}.md" for lang in LANGUAGES if lang not in template.texts]
     for lang in template.texts:
         problems += [f"{lang}.md: {p}" for p in _missing(template, lang)]
     problems += _unequal_slots(template)
@@ -119,26 +118,23 @@ def _language_problems(template: Template) -> list[str]:
 
 
 def _missing(template: Template, lang: str) -> Iterator[str]:
-    text = template.texts[lang]
+    text, chain = template.texts[lang], template.chain
     for label in template.labels:
         if label and label not in text.sections:
             yield f"section {label!r} is missing"
-    for part in plan_of(template).parts:
-        for step in part.steps:
-            if text.sentence("steps", step.name) is None:
-                yield f"section 'steps' lacks {step.name!r}"
-        for trap in part.traps:
-            if text.sentence("traps", trap) is None:
-                yield f"section 'traps' lacks {trap!r}"
-    if template.chain.steps and "check" not in text.sections:
+    if chain.steps and "check" not in text.sections:
         yield "section 'check' is missing"
-    known = {step.name for step in template.chain.steps}
-    for name in text.named.get("steps", {}):
-        if name not in known:
-            yield f"section 'steps' explains {name!r}, which is not a step"
-    for name in text.named.get("traps", {}):
-        if name not in template.chain.traps:
-            yield f"section 'traps' explains {name!r}, which is not a trap"
+    parts = plan_of(template).parts
+    wanted = {
+        "steps": {step.name for part in parts for step in part.steps},
+        "traps": {trap for part in parts for trap in part.traps},
+    }
+    known = {"steps": set(chain.by_name), "traps": set(chain.traps)}
+    for section, names in wanted.items():
+        said = set(text.named.get(section, {}))
+        yield from (f"section {section!r} lacks {name!r}" for name in sorted(names - said))
+        strangers = sorted(said - known[section])
+        yield from (f"section {section!r} explains {n!r}, unknown to the solver" for n in strangers)
 
 
 def _unequal_slots(template: Template) -> Iterator[str]:
@@ -153,7 +149,8 @@ def _unequal_slots(template: Template) -> Iterator[str]:
         keys = {lang: set(text.named.get(section, {})) for lang, text in template.texts.items()}
         for lang in others:
             if keys[first] != keys[lang]:
-                yield f"{lang}.md: section {section!r} differs by {sorted(keys[first] ^ keys[lang])}"
+                odd = sorted(keys[first] ^ keys[lang])
+                yield f"{lang}.md: section {section!r} differs by {odd}"
 
 
 def _question_slots(text: Any) -> Iterator[str]:

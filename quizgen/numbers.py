@@ -131,4 +131,4 @@ def key_text(value: Any) -> str:
         whole = int(value.q) == 1
         return str(int(value.p)) if whole else fraction_text(value, minus="-")
     with flint.ctx.workprec(400):
-        return arb(value).str(40, radius=False, condense=0)
+        return str(arb(value).str(40, radius=False, condense=0))

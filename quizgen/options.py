@@ -15,7 +15,9 @@ if TYPE_CHECKING:
 def bank_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """Add ``--bank`` and ``--trust``."""
     trust = click.option("--trust", is_flag=True, help="Run the Python solvers of --bank.")
-    bank = click.option("--bank", type=click.Path(path_type=Path), help="Another bank of templates.")
+    bank = click.option(
+        "--bank", type=click.Path(path_type=Path), help="Another bank of templates."
+    )
     return bank(trust(command))
 
 

@@ -1,8 +1,8 @@
-"""Worked solutions: every step as *formula = numbers in place = exact value ~ rounded value*.
+"""Worked solutions: each step as *formula = numbers in place = exact value ~ rounded value*.
 
-All of it comes from the one chain of the solver: the formula is printed, the same formula is printed
-with the drawn numbers in place, and its exact value follows. The language files add one sentence of
-why per step.
+All of it comes from the one chain of the solver: the formula is printed, the same formula is
+printed with the drawn numbers in place, and its exact value follows. The language files add one
+sentence of why per step.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from quizgen.errors import BankError
 from quizgen.expr import PRECISION, Call, Expr, Num, Sym, exact, names, taken_branch
 from quizgen.numbers import exact_text, rounded_text, short_decimal
 from quizgen.reader import to_text
-from quizgen.text import Block, Formula, Inline, Slot, Words, fill, fill_words
+from quizgen.text import Block, Inline, Slot, Words, fill, fill_words
 from quizgen.units import shown as unit_shown
 
 NBSP = "\u00a0"
@@ -243,9 +243,7 @@ def _sign(drawn: Draw, expr: Expr) -> str:
 
 def _leaves(drawn: Draw, expr: Expr) -> dict[str, Any]:
     units = drawn.template.units
-    return {
-        name: _leaf(drawn.in_unit(name), units.get(name, "")) for name in sorted(names(expr))
-    }
+    return {name: _leaf(drawn.in_unit(name), units.get(name, "")) for name in sorted(names(expr))}
 
 
 def _leaf(value: Any, unit: str) -> Any:

@@ -17,9 +17,7 @@ from quizgen.text import Code, Formula, Slot, Styled, Words
 
 Spec = dict[str, Any]
 LETTERS = "ABCDEFGHIJKL"
-OWN_KEYS = frozenset(
-    {"of", "options", "pairs", "steps", "before", "distractors", "gaps", "true"}
-)
+OWN_KEYS = frozenset({"of", "options", "pairs", "steps", "before", "distractors", "gaps", "true"})
 """Keys of an authored answer that the builder replaces; all others are handed on as they are."""
 
 
@@ -197,11 +195,7 @@ def _match_sides(drawn: Draw, index: int) -> tuple[list[str], list[str]]:
 def _match(drawn: Draw, index: int, answer: Mapping[str, Any]) -> Spec:
     left, right = _match_sides(drawn, index)
     pairs = answer["pairs"]
-    return {
-        "pairs": {
-            LETTERS[i]: str(right.index(pairs[name]) + 1) for i, name in enumerate(left)
-        }
-    }
+    return {"pairs": {LETTERS[i]: str(right.index(pairs[name]) + 1) for i, name in enumerate(left)}}
 
 
 def _step_order(drawn: Draw, index: int) -> list[str]:

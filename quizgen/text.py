@@ -14,8 +14,8 @@ A language file has a title, a stem, one section per part and lists of named sen
     ## words          wording of drawn phrases
     ## note           a remark shown with the solution (where the notes differ, and why)
 
-``{{ name }}`` fills in a drawn value with its unit and nothing else; ``$...$`` is mathematics in the
-grammar that students type. Loops, calls, attributes and arithmetic do not exist here.
+``{{ name }}`` fills in a drawn value with its unit and nothing else; ``$...$`` is mathematics in
+the grammar that students type. Loops, calls, attributes and arithmetic do not exist here.
 """
 
 from __future__ import annotations

@@ -33,7 +33,10 @@ with evaluate(False):
             "difference-as-saturation": Step(S, Delta),
             "lightness-saturation": Step(S, Delta / (V + m)),
             "mean-as-value": Step(V, (R + G + B) / 3),
-            "middle-as-value": (Step(V, (Max(R, G, B) + Min(R, G, B)) / 2), Step(Delta, 2 * V - 2 * m)),
+            "middle-as-value": (
+                Step(V, (Max(R, G, B) + Min(R, G, B)) / 2),
+                Step(Delta, 2 * V - 2 * m),
+            ),
             "red-branch": Step(H_0, 60 * ((G - B) / Delta)),
             "next-branch": Step(
                 H_0,

@@ -35,9 +35,10 @@ def test_every_command_loads_and_is_in_the_readme(name):
     command = group.get_command(None, name)
     assert command is not None
     assert command.help
-    assert f"quizgen {name}" in (ROOT / "README.md").read_text() or f"`{name}" in (
-        ROOT / "README.md"
-    ).read_text()
+    assert (
+        f"quizgen {name}" in (ROOT / "README.md").read_text()
+        or f"`{name}" in (ROOT / "README.md").read_text()
+    )
 
 
 def test_every_key_of_a_template_is_documented():
@@ -67,10 +68,16 @@ def test_every_interface_word_exists_in_both_languages():
 def test_nothing_in_the_repository_names_a_machine():
     import subprocess
 
-    files = subprocess.run(["git", "ls-files"], capture_output=True, text=True, check=True, cwd=ROOT)
+    files = subprocess.run(
+        ["git", "ls-files"], capture_output=True, text=True, check=True, cwd=ROOT
+    )
     marks = ["/" + a + b + "/" for a, b in (("ro", "ot"), ("ho", "me"), ("wo", "rk"))]
     for name in files.stdout.split("\n"):
         path = ROOT / name
-        if name and path.suffix in {".py", ".md", ".toml", ".j2", ".css", ".typ", ""} and path.is_file():
+        if (
+            name
+            and path.suffix in {".py", ".md", ".toml", ".j2", ".css", ".typ", ""}
+            and path.is_file()
+        ):
             text = path.read_text(encoding="utf-8", errors="replace")
             assert not [m for m in marks if m in text], name

@@ -115,5 +115,7 @@ def test_draws_come_from_a_pool_of_about_that_size(bank, name):
     pool = bank.rules(name).pool
     template = bank.template(name)
     draws = 300
-    seen = {tuple(sorted((k, str(v)) for k, v in draw(template, s).shown.items())) for s in range(draws)}
+    seen = {
+        tuple(sorted((k, str(v)) for k, v in draw(template, s).shown.items())) for s in range(draws)
+    }
     assert len(seen) <= pool or pool == 1

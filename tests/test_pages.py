@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import pytest
 
@@ -70,7 +71,7 @@ def test_save_answers_downloads_what_was_typed(browser, pages):
     first.fill("৬,৬৭ mm")
     with page.expect_download() as download:
         page.locator("#save").click()
-    saved = json.loads(open(download.value.path(), encoding="utf-8").read())
+    saved = json.loads(Path(download.value.path()).read_text(encoding="utf-8"))
     page.close()
     assert download.value.suggested_filename == "answers.json"
     assert saved["code"] == paper.code
@@ -97,6 +98,8 @@ def test_the_fonts_are_embedded_and_used(browser, pages):
     page = browser.new_page()
     page.goto((pages[0] / "exam.html").as_uri())
     page.evaluate("document.fonts.ready.then(() => true)")
-    loaded = set(page.evaluate("[...document.fonts].filter(f => f.status === 'loaded').map(f => f.family)"))
+    loaded = set(
+        page.evaluate("[...document.fonts].filter(f => f.status === 'loaded').map(f => f.family)")
+    )
     page.close()
     assert {name.strip('"') for name in loaded} == {"QuizMaths", "QuizBangla"}

@@ -52,8 +52,7 @@ def test_every_figure_and_formula_has_an_alternative(files, kind):
 
 def fonts_of(pdf):
     for page in pdf.pages:
-        for font in page.get("/Resources", {}).get("/Font", {}).values():
-            yield font
+        yield from page.get("/Resources", {}).get("/Font", {}).values()
 
 
 def embedded(font):

@@ -15,9 +15,7 @@ FILE = Path(__file__).parent.parent / "pyproject.toml"
 
 def pins() -> list[str]:
     """``name==version`` of every installed package but this one, sorted."""
-    found = {
-        re.sub(r"[-_.]+", "-", d.metadata["Name"]).lower(): d.version for d in distributions()
-    }
+    found = {re.sub(r"[-_.]+", "-", d.metadata["Name"]).lower(): d.version for d in distributions()}
     found.pop("quizgen", None)
     return [f"{name}=={version}" for name, version in sorted(found.items())]
 

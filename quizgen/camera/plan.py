@@ -27,7 +27,7 @@ GREY_LEVELS = 255.0
 
 EXACT, SKIP = "", "skip"
 
-_ROUNDING = 1e-6
+_ROUNDING = 3e-6
 """What single precision adds to a difference in one step, relative to the largest value."""
 
 
@@ -118,7 +118,7 @@ class _Chain:
     def __init__(self, present: tuple[Effect, ...], view: View, facts: Facts) -> None:
         self.present, self.view = present, view
         self.before = _facts_along(present, view, facts)
-        self.lost = [effect.skipped(f, view) for effect, f in zip(present, self.before, strict=True)]
+        self.lost = [_lost(effect, f, view) for effect, f in zip(present, self.before, strict=True)]
         self.rough = [
             {rung.name: rung.error(f, view) for rung in effect.cheaper}
             for effect, f in zip(present, self.before, strict=True)
@@ -147,6 +147,14 @@ class _Chain:
     def dn(self, choice: dict[int, str]) -> float:
         """The same in grey levels."""
         return GREY_LEVELS * self.error(choice).total
+
+
+def _lost(effect: Effect, facts: Facts, view: View) -> Error:
+    """Loss of skipping, rounding included; a limit of the sensor that is never met costs nothing."""
+    lost = effect.skipped(facts, view)
+    if lost == NO_ERROR and effect.stage == "sensor":
+        return lost
+    return lost.plus(Error(_ROUNDING * max(1.0, facts.size)))
 
 
 def _facts_along(present: tuple[Effect, ...], view: View, facts: Facts) -> list[Facts]:

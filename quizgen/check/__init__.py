@@ -14,9 +14,12 @@ from quizgen.check.kinds import KINDS, kind_module
 from quizgen.check.messages import say
 from quizgen.check.options import DECIMALS, Context, Options
 from quizgen.check.specs import Spec, decode
-from quizgen.check.verdict import Verdict, unreadable
+from quizgen.check.verdict import Verdict, ambiguous, unreadable
 from quizgen.errors import KeyFileError
 from quizgen.reader import ReadError
+
+TWO_READINGS = frozenset({"comma-twice", "two-readings"})
+"""Reasons for asking back that are not the learner's slip: the text can be read in two ways."""
 
 
 def load_spec(spec: Mapping[str, Any]) -> Spec:
@@ -85,7 +88,8 @@ def _asked_back(error: ReadError) -> Verdict:
     if error.code == "unknown-unit" and error.expected:
         note = "unknown-unit-case"
     fields = {"column": error.column or 1, "found": error.found, "expected": error.expected}
-    return unreadable(note, **fields)
+    asked = ambiguous if note in TWO_READINGS else unreadable
+    return asked(note, **fields)
 
 
 def explained(spec: Spec, verdict: Verdict, lang: str) -> Verdict:

@@ -19,6 +19,8 @@ from matplotlib.figure import Figure
 
 _SETTINGS: dict[Any, Any] = {
     # Everything a user's matplotlibrc could change in these drawings.
+    "figure.autolayout": False,
+    "figure.constrained_layout.use": False,
     "figure.dpi": 72,
     "lines.scale_dashes": False,
     "path.effects": [],
@@ -59,7 +61,7 @@ def body(draw: Callable[[Figure], None]) -> tuple[str, float, float]:
     """
     out = StringIO()
     with _LOCK, mpl.rc_context(_SETTINGS):
-        figure = Figure(layout="none")
+        figure = Figure()
         draw(figure)
         figure.savefig(out, format="svg", metadata=_NO_METADATA)
     width, height = figure.get_size_inches() * 72

@@ -85,7 +85,11 @@ def _environment() -> jinja2.Environment:
         undefined=jinja2.StrictUndefined,
     )
     environment.globals.update(
-        inline=inline, blocks=blocks, display=display, word=word, svg=lambda figure: Markup(figure.svg.decode())
+        inline=inline,
+        blocks=blocks,
+        display=display,
+        word=word,
+        svg=lambda figure: Markup(figure.svg.decode()),
     )
     return environment
 
@@ -104,14 +108,18 @@ def render(paper: Paper, kind: str) -> bytes:
     kind : str
         ``exam`` or ``solutions``.
     """
-    page = _environment().get_template("paper.html.j2").render(
-        paper=paper,
-        kind=kind,
-        main=paper.langs[0],
-        style=Markup(_style()),
-        maths_font=fonts.maths_uri(),
-        bangla_fonts={400: fonts.bangla_uri(), 700: fonts.bangla_uri("Bold")}
-        if "bn" in paper.langs
-        else {},
+    page = (
+        _environment()
+        .get_template("paper.html.j2")
+        .render(
+            paper=paper,
+            kind=kind,
+            main=paper.langs[0],
+            style=Markup(_style()),
+            maths_font=fonts.maths_uri(),
+            bangla_fonts={400: fonts.bangla_uri(), 700: fonts.bangla_uri("Bold")}
+            if "bn" in paper.langs
+            else {},
+        )
     )
     return page.encode()

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from datetime import UTC, datetime
 from functools import cache
 from importlib.resources import files
-from typing import Any
+from typing import Any, Final
 
 from quizgen import formula
 from quizgen.errors import RenderError
@@ -18,12 +18,11 @@ from quizgen.render import fonts
 from quizgen.solution import Line, Maths, PartSolution
 from quizgen.text import Code, CodeBlock, Items, Paragraph, Styled, Table, Words
 
-STANDARD = "ua-1"
+STANDARD: Final = "ua-1"
 MOMENT = datetime(2000, 1, 1, tzinfo=UTC)
 """The date written into every file: the same paper is the same bytes on any day."""
-ANSWER_LINES = {"number": 1, "angle": 1, "quantity": 1, "point": 1, "choice": 0, "multi": 0, "tf": 1,
-                "text": 4, "order": 1, "match": 1, "table": 1, "witness": 2, "gap": 1,
-                "expression": 1, "code": 3, "interval": 1, "set": 1}  # fmt: skip
+MORE_LINES = {"choice": 0, "multi": 0, "text": 4, "witness": 2, "code": 3}
+"""Ruled lines for an answer where it is not one."""
 
 
 def string(text: str) -> str:
@@ -148,9 +147,7 @@ class _Sheet:
             f"#write-line([{_words(self.langs, f'paper.{name}')}])"
             for name in ("name", "matriculation")
         ]
-        rules = _each(
-            self.langs, [f"#{string(word(lang, 'paper.rules'))};" for lang in self.langs]
-        )
+        rules = _each(self.langs, [f"#{string(word(lang, 'paper.rules'))};" for lang in self.langs])
         gap = "#v(1.1em)"
         return "\n".join(
             [head, *others, gap, facts, gap, *(f"{line}\n#v(0.5em)" for line in lines), gap,
@@ -160,8 +157,7 @@ class _Sheet:
     def _overview(self) -> str:
         """Table of questions and marks, with room for the marks given."""
         rows = [
-            f"[{item.number}], [{_joined(self.langs, [f'#{string(q.title)};' for q in item.questions])}],"
-            f" [{_plain(item.points)}], []"
+            f"[{item.number}], [{self._titles(item)}], [{_plain(item.points)}], []"
             for item in self.paper.items
         ]
         head = (
@@ -170,11 +166,13 @@ class _Sheet:
         )
         return (
             "#{set text(9pt); table(columns: (auto, 1fr, auto, 4em), inset: 3.5pt, "
-            f"stroke: 0.4pt + rgb(\"#b5bac2\"), {head}, {', '.join(rows)})}}"
+            f'stroke: 0.4pt + rgb("#b5bac2"), {head}, {", ".join(rows)})}}'
         )
 
+    def _titles(self, item: Item) -> str:
+        return _joined(self.langs, [f"#{string(q.title)};" for q in item.questions])
+
     def _item(self, item: Item) -> str:
-        titles = _joined(self.langs, [f"#{string(q.title)};" for q in item.questions])
         stem = _each(self.langs, [blocks(q.stem, q.lang) for q in item.questions])
         if self.kind == "exam":
             picture = self._picture(item, [q.figure for q in item.questions])
@@ -188,7 +186,7 @@ class _Sheet:
         if self.kind == "solutions":
             body += self._remarks(item)
         worth = _points(item.points, self.main)
-        return f"#question({string(item.number)}, [{titles}], {string(worth)})[{body}]"
+        return f"#question({string(item.number)}, [{self._titles(item)}], {string(worth)})[{body}]"
 
     def _picture(self, item: Item, figures: list[Any]) -> str:
         if figures[0] is None:
@@ -215,14 +213,12 @@ class _Sheet:
         fields = [q.parts[index].field for q in questions]
         hints = [f"#{string(' '.join(f.hints))};" if f.hints else "" for f in fields]
         shown = f"#hint[{_each(self.langs, hints)}]" if any(hints) else ""
-        lines = ANSWER_LINES[fields[0].kind]
+        lines = MORE_LINES.get(fields[0].kind, 1)
         return f"{self._options(questions, index)}\n{shown}\n#space({lines})"
 
     def _options(self, questions: tuple[Question, ...], index: int) -> str:
         fields = [q.parts[index].field for q in questions]
-        return "\n".join(
-            [*self._rows(fields, "options"), *self._rows(fields, "targets")]
-        )
+        return "\n".join([*self._rows(fields, "options"), *self._rows(fields, "targets")])
 
     def _rows(self, fields: list[Field], side: str) -> list[str]:
         rows = []
@@ -260,9 +256,7 @@ class _Sheet:
         if not part.mistakes:
             return ""
         title = f"#heading(level: 3)[#{string(word(lang, 'solution.mistakes'))};]"
-        rows = [
-            f"#mistake({string(m.value)}, [{inline(m.sentence, lang)}])" for m in part.mistakes
-        ]
+        rows = [f"#mistake({string(m.value)}, [{inline(m.sentence, lang)}])" for m in part.mistakes]
         return _in(lang, "\n".join([title, *rows]))
 
     def _remarks(self, item: Item) -> str:
@@ -319,7 +313,7 @@ def render(paper: Paper, kind: str) -> bytes:
     import typst
 
     text, pictures = source(paper, kind)
-    world = {"main.typ": text.encode(), **pictures}
+    world: Any = {"main.typ": text.encode(), **pictures}  # the stub knows one file only
     try:
         data, warnings = typst.compile_with_warnings(
             world, format="pdf", pdf_standards=STANDARD, font_paths=_fonts(), timestamp=MOMENT
@@ -331,4 +325,4 @@ def render(paper: Paper, kind: str) -> bytes:
     return bytes(data)
 
 
-__all__ = ["ANSWER_LINES", "Part", "render", "source"]
+__all__ = ["Part", "render", "source"]

@@ -96,6 +96,14 @@ def test_pinhole_stays_similar_when_not_to_scale(values):
     assert got["physical-ray"][0][1] - origin == pytest.approx(-virtual, abs=0.02)
 
 
+def test_shaded_triangles_have_the_legs_and_the_ray_as_sides():
+    got = parts("pinhole", f=2, p_z=4, p_y=9)
+    for part, leg in (("outer", "leg-point"), ("inner", "leg-image")):
+        origin, foot, tip = got[part][0]
+        assert origin == pytest.approx(got["ray"][0][0])
+        assert np.array([foot, tip]) == pytest.approx(got[leg][0])
+
+
 def test_y_down_turns_the_picture_over():
     up, down = (parts("pinhole", f=2, p_z=4, p_y=9, y_down=d) for d in (0, 1))
     assert up["leg-point"][0][1][1] > up["leg-point"][0][0][1]
