@@ -58,6 +58,7 @@ ACCENTS = ("bar", "hat", "tilde")
 GREEK_LETTERS = frozenset(GREEK.values())
 _AXES = frozenset("xyzuvij")
 _SIGNS = {"plus": "+", "minus": "neg"}
+_MIXED = re.compile(r"(?P<stem>[^\W\d_][^\W_]*)(?P<digits>)(?P<primes>['′]*)")
 _PART = re.compile(r"(?P<stem>[^\W\d_]+)(?P<digits>\d*)(?P<primes>['′]*)")
 
 
@@ -76,9 +77,9 @@ def name(symbol: str) -> Node:
         If the name is empty or holds anything but letters, digits, primes and underscores.
     """
     first, *rest = symbol.replace("µ", "μ").split("_")
-    match = _PART.fullmatch(first)
+    match = _PART.fullmatch(first) or _MIXED.fullmatch(first)
     if match is None:
-        raise RenderError(f"cannot write the name {symbol!r}: expected a letter, then letters")
+        raise RenderError(f"cannot write the name {symbol!r}: it must begin with a letter")
     base, accent = _stem(match["stem"])
     primes = len(match["primes"])
     subs: list[Node] = [Number(match["digits"])] if match["digits"] else []
@@ -115,7 +116,9 @@ def _subscript(part: str, symbol: str) -> Node:
         return Op(_SIGNS[part])
     if len(part) > 1 and _AXES.issuperset(part):
         return Row(tuple(Ident(letter) for letter in part))
-    match = _PART.fullmatch(part)
+    match = _PART.fullmatch(part) or _MIXED.fullmatch("x" + part)
+    if match is not None and match.re is _MIXED:
+        return Word(part)
     if match is None:
         raise RenderError(f"cannot write the name {symbol!r}: subscript {part!r}")
     base, accent = _stem(match["stem"])

@@ -27,7 +27,7 @@ from quizgen.formula import nodes as n
 from quizgen.formula.to_mathml import bold
 from quizgen.formula.to_spoken import unit_words
 from quizgen.reader import parse
-from quizgen.units import SIMPLE
+from quizgen.units import SIMPLE, shown
 
 WRITERS = (latex, mathml, typst, spoken)
 
@@ -159,6 +159,11 @@ def test_layout_rules(text, expected):
         ("µ", r"\mu"),
         ("Delta_z", r"\Delta_{z}"),
         ("Deltaz", r"\Delta z"),
+        ("sRGB2lin", r"\mathrm{sRGB2lin}"),
+        ("I_8bit", r"I_{\mathrm{8bit} }"),
+        ("p_x'", "p'_{x}"),
+        ("z_prime", "z'"),
+        ("zbar_1", r"\bar{z}_{1}"),
     ],
 )
 def test_names(symbol, expected):
@@ -217,9 +222,10 @@ def test_relations_count_their_sides():
 
 @pytest.mark.parametrize("unit", sorted(set(SIMPLE) - {"", "1"}))
 def test_every_unit_is_printed_and_said(unit):
-    node = quantity("2", unit)
-    for write in WRITERS:
-        assert write(node)
+    for written in (unit, shown(unit), f"{unit}/s", f"{unit}^2"):
+        node = quantity("2", written)
+        for write in WRITERS:
+            assert write(node) == write(quantity("2", written.replace("µ", "u")))
     assert unit_words(unit, "en").isascii()
     assert not any(char.isascii() and char.isalpha() for char in unit_words(unit, "bn"))
 
