@@ -7,17 +7,16 @@ sentence of why per step.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from flint import fmpq
-
 from quizgen import formula as printing
 from quizgen.chain import ChainStep
-from quizgen.draw import Draw, factor, plan_of
+from quizgen.draw import Draw, plan_of
 from quizgen.errors import BankError
-from quizgen.expr import PRECISION, Call, Expr, Num, Sym, exact, names, taken_branch
+from quizgen.expr import PRECISION, Expr, Sym, exact, names, taken_branch
 from quizgen.numbers import exact_text, rounded_text, short_decimal
 from quizgen.reader import to_text
 from quizgen.text import Block, Inline, Slot, Words, fill, fill_words
@@ -214,17 +213,35 @@ def worked(drawn: Draw, step: ChainStep) -> Maths:
     """One step, printed from formula to rounded value."""
     with _precision():
         expr = taken_branch(step.expr, drawn.values, exact())
-    plain, numbers = printing.layout(expr), printing.layout(expr, leaves=_leaves(drawn, expr))
-    value = drawn.in_unit(step.name)
-    signs, nodes = ["="], [printing.name(step.name), plain]
-    if not isinstance(expr, Num) and names(expr):
-        signs.append(_sign(drawn, expr))
-        nodes.append(numbers)
-    for sign, node in _value_nodes(value, step.unit):
-        if not (isinstance(expr, Sym) and sign == "=" and len(nodes) > len(("name", "formula"))):
-            signs.append(sign)
-            nodes.append(node)
-    return Maths(printing.relation(signs, nodes), f"{step.name} = {to_text(expr)}")
+    ways = [("=", printing.layout(expr), to_text(expr))]
+    if names(expr):
+        numbers = printing.layout(expr, leaves=_leaves(drawn, expr))
+        ways.append((_sign(drawn, expr), numbers, _typed_numbers(drawn, expr)))
+    for sign, node, text in _value_nodes(drawn.in_unit(step.name), step.unit):
+        if text != ways[-1][2]:
+            ways.append((sign, node, text))
+    signs = [sign for sign, _, _ in ways]
+    nodes = [printing.name(step.name), *(node for _, node, _ in ways)]
+    typed = "".join(f" {sign} {text}" for sign, _, text in ways)
+    return Maths(printing.relation(signs, nodes), f"{step.name}{typed}")
+
+
+def _typed_numbers(drawn: Draw, expr: Expr) -> str:
+    """The formula as typed with the numbers in place."""
+    units = drawn.template.units
+
+    def text(match: re.Match[str]) -> str:
+        if match[0] not in names(expr):
+            return match[0]
+        shown = quantity_text(drawn.in_unit(match[0]), units.get(match[0], ""))
+        simple = re.fullmatch(r"[0-9.]+", shown)
+        return shown if simple else f"({shown})"
+
+    return (
+        re.sub(r"[A-Za-z][\w']*", text, to_text(expr))
+        if not isinstance(expr, Sym)
+        else quantity_text(drawn.in_unit(expr.name), units.get(expr.name, ""))
+    )
 
 
 def _precision() -> Any:
@@ -251,20 +268,17 @@ def _leaf(value: Any, unit: str) -> Any:
     return printing.quantity(text, unit_shown(unit) if unit != "1" else "")
 
 
-def _value_nodes(value: Any, unit: str) -> list[tuple[str, Any]]:
-    shown_unit = unit_shown(unit) if unit != "1" else ""
-    text = exact_text(value)
-    if text is not None and short_decimal(value):
-        return [("=", printing.quantity(text, shown_unit))]
-    rounded = printing.quantity(rounded_text(value), shown_unit)
-    if text is None:
-        return [("≈", rounded)]
-    return [("=", printing.quantity(text, shown_unit)), ("≈", rounded)]
+def _value_nodes(value: Any, unit: str) -> list[tuple[str, Any, str]]:
+    """The exact value if it can be shown, and the rounded one if that says more."""
+    exactly = exact_text(value)
+    texts = [("=", exactly)] if exactly is not None else []
+    if not short_decimal(value):
+        texts.append(("≈", rounded_text(value)))
+    shown = unit_shown(unit) if unit != "1" else ""
+    return [
+        (sign, printing.quantity(text, shown), f"{text}{NBSP}{shown}" if shown else text)
+        for sign, text in texts
+    ]
 
 
-def is_rational(value: Any) -> bool:
-    """Whether a value of the chain is exact."""
-    return isinstance(value, fmpq)
-
-
-__all__ = ["Call", "Line", "Maths", "Mistake", "PartSolution", "Solution", "factor", "solve"]
+__all__ = ["Line", "Maths", "Mistake", "PartSolution", "Solution", "solve"]

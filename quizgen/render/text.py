@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from quizgen import formula
 from quizgen.exam import Item
 from quizgen.locale import word
 from quizgen.solution import Maths, PartSolution
@@ -58,7 +57,7 @@ def question_text(item: Item) -> str:
 def _solution(part: PartSolution, lang: str) -> Iterator[str]:
     yield f"{word(lang, 'solution.steps')}:"
     for line in part.lines:
-        yield f"   {formula.spoken(line.maths.node, lang)}"
+        yield f"   {line.maths.typed}"
         yield f"      {inline(line.why)}"
     yield f"{word(lang, 'solution.answer')}: {part.answer}"
     for mistake in part.mistakes:
