@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from decimal import ROUND_HALF_UP, Context, Decimal
 
-_GIVEN = Context(prec=6, rounding=ROUND_HALF_UP)
+_GIVEN = Context(prec=12, rounding=ROUND_HALF_UP)  # hides the noise of floats, nothing else
 _DERIVED = Context(prec=4, rounding=ROUND_HALF_UP)
 
 
@@ -14,18 +14,22 @@ def _plain(number: Decimal) -> str:
 
 
 def given(value: float) -> str:
-    """Print a number that the question states (up to 6 significant digits)."""
+    """Print a number that the question states, in full."""
     return _plain(_GIVEN.create_decimal(repr(value)))
 
 
 def derived(value: float) -> str:
-    """Print a computed number, rounded half away from zero to 4 significant digits."""
-    return _plain(_DERIVED.create_decimal(repr(value)))
+    """Print a computed number: whole or rounded half away from zero to 4 significant digits."""
+    return _plain(_short(value))
+
+
+def _short(value: float) -> Decimal:
+    return Decimal(value) if value.is_integer() else _DERIVED.create_decimal(repr(value))
 
 
 def relation(value: float) -> str:
-    """``=`` if 4 significant digits say it all, else ``≈``."""
-    shown = float(_DERIVED.create_decimal(repr(value)))
+    """``=`` if the printed number is the value, else ``≈``."""
+    shown = float(_short(value))
     return "=" if abs(shown - value) <= 1e-12 * abs(value) else "≈"
 
 

@@ -1,7 +1,7 @@
 """Pinhole geometry in the y-z plane: centre O, image plane, scene point, ray and image point.
 
 The drawing keeps the two similar triangles exact and is to scale along z while the shorter of
-``f`` and ``p_z`` is 0.3 to 0.62 of the longer; otherwise the shorter one is drawn at the nearer end
+``f`` and ``p_z`` is 0.3 to 0.7 of the longer; otherwise the shorter one is drawn at the nearer end
 of that range and the axis carries a break mark. Height and depth have scales of their own.
 """
 
@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from quizgen.figures._numbers import derived, equation, given, relation, spoken, statement
+from quizgen.figures._numbers import derived, equation, relation, spoken, statement
 from quizgen.figures._parameters import Parameter, Values, require
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ PARAMETERS = {
 }
 
 _UNITS = {0: ("", ""), 1: ("mm", "m"), 2: ("mm", "mm")}
-_LEAST, _MOST = 0.3, 0.62
+_LEAST, _MOST = 0.3, 0.7
 
 
 @dataclass(frozen=True, slots=True)
@@ -243,7 +243,7 @@ def alt(values: Values, lang: str, *, quiz: bool) -> str:
     words = {name: spoken(label) for name, label in _labels(values, quiz=quiz).items()}
     text = _ALT[lang]["figure"].format(**words)
     if values["physical"]:
-        text += _ALT[lang]["physical"].format(f=given(values["f"]))
+        text += _ALT[lang]["physical"]
     height = _image_height(values)
     return text + _ALT[lang]["quiz" if quiz else "answer"].format(
         relation=relation(height), height=derived(height), unit=_UNITS[int(values["metric"])][0]
@@ -258,9 +258,7 @@ _ALT = {
             "p and O and meets the image plane at p'. Two similar right triangles are shaded: "
             "legs p_z and p_y, legs f and p'_y."
         ),
-        "physical": (
-            " The physical image plane at −{f} is dashed; the image there is upside down."
-        ),
+        "physical": (" The physical image plane at −f is dashed; the image there is upside down."),
         "quiz": " The height p'_y is asked for.",
         "answer": " The height is p'_y {relation} {height} {unit}.",
     },
@@ -271,7 +269,7 @@ _ALT = {
             "image plane-কে p' বিন্দুতে ছেদ করে। দুটি সদৃশ সমকোণী ত্রিভুজ ছায়া দিয়ে দেখানো: "
             "একটির বাহু p_z ও p_y, অন্যটির f ও p'_y।"
         ),
-        "physical": " আসল (physical) image plane −{f}-এ, ভাঙা রেখায় আঁকা; সেখানে প্রতিবিম্ব উল্টো।",
+        "physical": " আসল (physical) image plane −f-এ, ভাঙা রেখায় আঁকা; সেখানে প্রতিবিম্ব উল্টো।",
         "quiz": " p'_y উচ্চতাটি বের করতে হবে।",
         "answer": " উচ্চতা p'_y {relation} {height} {unit}।",
     },

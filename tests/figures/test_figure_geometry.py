@@ -413,4 +413,6 @@ def test_equations_say_whether_they_are_exact():
     assert equation("x", 115.0) == "x = 115"
     assert equation("x", 20 / 3, "mm") == "x ≈ 6.667 {mm}"
     assert equation("x", 20 / 3, "mm", hide=True) == "x = ?"
-    assert given(5535.0) == "5535"
+    assert given(1234567.0) == "1234567"
+    assert given(0.1 + 0.2) == "0.3"
+    assert equation("x", 12345.0) == "x = 12345"

@@ -281,3 +281,12 @@ def test_bad_values_get_one_line(name, values, lang, message):
 def test_same_figure_is_drawn_once():
     one = render("pinhole", {"f": 2, "p_z": 3, "p_y": 5}, quiz=True, lang="en")
     assert render("pinhole", {"p_y": 5.0, "f": 2.0, "p_z": 3.0}, quiz=True, lang="en") is one
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_every_parameter_is_documented(name):
+    text = (HERE.parents[1] / "docs/figures.md").read_text(encoding="utf-8")
+    row = next(line for line in text.splitlines() if line.startswith(f"| `{name}`"))
+    for parameter in parameters(name):
+        shown = parameter if not re.fullmatch(r"v\d\d", parameter) else "v00"
+        assert f"`{shown}`" in row, parameter
