@@ -124,7 +124,14 @@ def _complaint(drawn: Draw, lang: str, what: str) -> str:
 def quantity_text(value: Any, unit: str) -> str:
     """A value with its unit as text, exact if that is short."""
     text = exact_text(value) or rounded_text(value, figures=STEP_FIGURES)
-    return f"{text}{NBSP}{unit_shown(unit)}" if unit and unit != "1" else text
+    return with_unit(text, unit)
+
+
+def with_unit(text: str, unit: str) -> str:
+    """A number and its unit; only the degree sign stands close."""
+    if not unit or unit == "1":
+        return text
+    return f"{text}{'' if unit_shown(unit) == '°' else NBSP}{unit_shown(unit)}"
 
 
 def sentence(
@@ -165,15 +172,15 @@ def solve(drawn: Draw, lang: str, built: tuple[Mapping[str, Any], ...]) -> Solut
 
 
 def _part(drawn: Draw, lang: str, index: int, spec: Mapping[str, Any]) -> PartSolution:
-    from quizgen.specs import display, trap_values
+    from quizgen.specs import display
 
     plan = plan_of(drawn.template).parts[index]
     shown_names = drawn.template.rules.part[index].show
     steps = [s for s in plan.steps if shown_names is None or s.name in shown_names]
     lines = tuple(Line(worked(drawn, s), _why(drawn, lang, s.name)) for s in steps)
     mistakes = tuple(
-        Mistake(trap, sentence(drawn, lang, "traps", trap), _wrong_text(spec, values))
-        for trap, values in trap_values(drawn, index).items()
+        Mistake(trap, sentence(drawn, lang, "traps", trap), _wrong_text(spec, value))
+        for trap, value in spec.get("traps", {}).items()
     )
     options, _ = display(drawn, index)
     right = [options[i - 1][1] for i in spec.get("correct", ())] if options else []
@@ -193,20 +200,14 @@ def answer_text(spec: Mapping[str, Any], lang: str) -> str:
     return show(spec, lang)
 
 
-def _wrong_text(spec: Mapping[str, Any], values: list[Any]) -> str:
-    unit = str(spec.get("unit", "")) if spec["kind"] == "quantity" else ""
-    percent = bool(spec.get("percent"))
-    decimals = int(spec["decimals"]) if "decimals" in spec else None
-    texts = [_component(v * 100 if percent else v, decimals) for v in values]
-    body = texts[0] if len(texts) == 1 else f"({'; '.join(texts)})"
-    ending = "%" if percent else unit_shown(unit)
-    return f"{body}{NBSP}{ending}" if ending else body
-
-
-def _component(value: Any, decimals: int | None) -> str:
-    if short_decimal(value):
-        return exact_text(value) or ""
-    return rounded_text(value, decimals=decimals)
+def _wrong_text(spec: Mapping[str, Any], value: Any) -> str:
+    """A wrong answer as it would be written down: like the key, rounded where it is exact."""
+    left_out = {"traps", "notes", "exact", "form", "accept"}
+    wrong = {name: entry for name, entry in spec.items() if name not in left_out}
+    if spec.get("exact"):
+        wrong["sigfigs"] = len("1.234") - 1
+    wrong["value" if isinstance(value, str) else "values"] = value
+    return answer_text(wrong, "en")
 
 
 def worked(drawn: Draw, step: ChainStep) -> Maths:
@@ -275,10 +276,7 @@ def _value_nodes(value: Any, unit: str) -> list[tuple[str, Any, str]]:
     if not short_decimal(value):
         texts.append(("≈", rounded_text(value)))
     shown = unit_shown(unit) if unit != "1" else ""
-    return [
-        (sign, printing.quantity(text, shown), f"{text}{NBSP}{shown}" if shown else text)
-        for sign, text in texts
-    ]
+    return [(sign, printing.quantity(text, shown), with_unit(text, unit)) for sign, text in texts]
 
 
 __all__ = ["Line", "Maths", "Mistake", "PartSolution", "Solution", "solve"]
