@@ -50,7 +50,7 @@ def equation(maths: Maths, lang: str, *, block: bool) -> str:
     """A formula with its spoken alternative."""
     spoken = string(formula.spoken(maths.node, lang))
     space = " " if block else ""
-    body = f"${space}{formula.typst(maths.node)}{space}$"
+    body = f"${space}{formula.typst(maths.node, lang)}{space}$"
     return f"#math.equation(alt: {spoken}, block: {str(block).lower()}, {body});"
 
 
