@@ -39,8 +39,8 @@ class Style:
 
 
 INK = Style()
-SHADE = Style(colour="#dcdcdc")
-DEEP = Style(colour="#b4b4b4")
+SHADE = Style(colour="#d2d2d2")
+DEEP = Style(colour="#aaaaaa")
 LINE = Style(1.0)
 BOLD = Style(1.8)
 THIN = Style(0.7)
