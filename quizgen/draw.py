@@ -314,9 +314,15 @@ class PartPlan:
             twin = next((n for n, v in seen.items() if _close(value, v, widths)), None)
             if twin is None:
                 seen[trap] = value
-            elif not (lenient or (trap in self.may_vanish and _same(value, seen[twin]))):
+            elif not (lenient or self._may_vanish(trap, twin, value, seen[twin])):
                 return f"trap {trap!r} cannot be told from {twin!r}"
         return tuple(name for name in seen if name != "the key")
+
+    def _may_vanish(
+        self, trap: str, twin: str, value: tuple[float, ...], other: tuple[float, ...]
+    ) -> bool:
+        """Left out if it is the key itself, or so near another mistake that one name is enough."""
+        return trap in self.may_vanish and (twin != "the key" or _same(value, other))
 
     def _near_tie(self, key: tuple[float, ...]) -> bool:
         if "decimals" not in self.answer:
