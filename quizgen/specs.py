@@ -37,6 +37,8 @@ def build(drawn: Draw, index: int) -> Spec:
             f"(allowed: {', '.join(sorted(BUILDERS))})"
         )
     common = {name: value for name, value in answer.items() if name not in OWN_KEYS}
+    if "accept" in common:
+        common["accept"] = [key_text(_computed(drawn, bound)) for bound in common["accept"]]
     return {**common, **BUILDERS[kind](drawn, index, answer)}
 
 
@@ -156,8 +158,13 @@ def _plain_text(drawn: Draw, name: str) -> str:
 def _holds(drawn: Draw, condition: Any) -> bool:
     if isinstance(condition, bool):
         return condition
+    return bool(_computed(drawn, condition))
+
+
+def _computed(drawn: Draw, formula: Any) -> Any:
+    """Value of a formula of the answer table over the quantities in shown units."""
     env = plan_of(drawn.template).shown_env(drawn.shown, drawn.values)
-    return bool(compile_expr(drawn.template.formula(str(condition)), exact())(env))
+    return compile_expr(drawn.template.formula(str(formula)), exact())(env)
 
 
 def _option_order(drawn: Draw, index: int) -> list[str]:
