@@ -129,9 +129,8 @@ def quantity_text(value: Any, unit: str) -> str:
 
 def with_unit(text: str, unit: str) -> str:
     """A number and its unit; only the degree sign stands close."""
-    if not unit or unit == "1":
-        return text
-    return f"{text}{'' if unit_shown(unit) == '°' else NBSP}{unit_shown(unit)}"
+    shown = unit_shown(unit)
+    return f"{text}{'' if shown in {'', '°'} else NBSP}{shown}"
 
 
 def sentence(
@@ -266,7 +265,7 @@ def _leaves(drawn: Draw, expr: Expr) -> dict[str, Any]:
 
 def _leaf(value: Any, unit: str) -> Any:
     text = exact_text(value) or rounded_text(value, figures=STEP_FIGURES)
-    return printing.quantity(text, unit_shown(unit) if unit != "1" else "")
+    return printing.quantity(text, unit_shown(unit))
 
 
 def _value_nodes(value: Any, unit: str) -> list[tuple[str, Any, str]]:
@@ -275,7 +274,7 @@ def _value_nodes(value: Any, unit: str) -> list[tuple[str, Any, str]]:
     texts = [("=", exactly)] if exactly is not None else []
     if not short_decimal(value):
         texts.append(("≈", rounded_text(value)))
-    shown = unit_shown(unit) if unit != "1" else ""
+    shown = unit_shown(unit)
     return [(sign, printing.quantity(text, shown), with_unit(text, unit)) for sign, text in texts]
 
 

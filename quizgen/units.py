@@ -118,9 +118,16 @@ def unit(text: str) -> Unit:
     return Unit(text, factor, tuple(sorted((b, p) for b, p in powers.items() if p)))
 
 
-SHOWN = {"um": "µm", "deg": "°", "1": "", "us": "µs", "uW": "µW", "e-": "e⁻"}
+SHOWN = {"um": "µm", "deg": "°", "us": "µs", "uW": "µW", "e-": "e⁻"}
 
 
 def shown(text: str) -> str:
-    """How a unit is printed: ``um/px`` becomes ``µm/px``."""
-    return "/".join(SHOWN.get(part, part) for part in text.split("/")) if text else ""
+    """How a unit is printed: ``um/px`` becomes ``µm/px``, ``1/mm`` becomes ``mm⁻¹``.
+
+    The unit of a pure number prints as nothing.
+    """
+    if text == "1":
+        return ""
+    if text.startswith("1/") and text.count("/") == 1:
+        return f"{shown(text[2:])}⁻¹"
+    return "/".join(SHOWN.get(part, part) for part in text.split("/"))
