@@ -266,9 +266,9 @@ class PartPlan:
         self.one_step = "decimals" in self.answer and "within" in self.answer
         self.apart = 1.0 + 1e-9 if self.one_step else APART
 
-    def _reported(self, values: tuple[float, ...] | None) -> tuple[float, ...] | None:
+    def _reported(self, values: tuple[float, ...]) -> tuple[float, ...]:
         """Round a wrong answer as it would be written down, if that is what is judged."""
-        if values is None or not self.one_step:
+        if not self.one_step:
             return values
         scale = 10.0 ** int(self.answer["decimals"])
         return tuple(math.copysign(math.floor(abs(v) * scale + 0.5) / scale, v) for v in values)
@@ -306,15 +306,16 @@ class PartPlan:
         widths = tuple(self.apart * self.tolerance(k) for k in key)
         if not lenient and self._near_tie(key):
             return "rounding tie"
-        seen: dict[str, tuple[float, ...]] = {"the key": key}
+        exact_values, seen = {"the key": key}, {"the key": key}
         for trap, plan in self.traps.items():
-            value = self._reported(self._trapped(plan, env))
+            value = self._trapped(plan, env)
             if value is None:
                 continue
-            twin = next((n for n, v in seen.items() if _close(value, v, widths)), None)
+            written = self._reported(value)
+            twin = next((n for n, v in seen.items() if _close(written, v, widths)), None)
             if twin is None:
-                seen[trap] = value
-            elif not (lenient or self._may_vanish(trap, twin, value, seen[twin])):
+                exact_values[trap], seen[trap] = value, written
+            elif not (lenient or self._may_vanish(trap, twin, value, exact_values[twin])):
                 return f"trap {trap!r} cannot be told from {twin!r}"
         return tuple(name for name in seen if name != "the key")
 
