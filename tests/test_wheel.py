@@ -1,0 +1,78 @@
+"""A wheel in an empty environment makes the same paper as the checkout."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+ARGUMENTS = ["exam", "--seed", "3", "--blueprint", "trial", "--lang", "both", "--out", "paper"]
+
+
+@pytest.fixture(scope="module")
+def uv():
+    path = shutil.which("uv")
+    if path is None:
+        if os.environ.get("CI"):
+            pytest.fail("uv is not installed")
+        pytest.skip("uv is not installed")
+    return path
+
+
+@pytest.fixture(scope="module")
+def built(uv, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("dist")
+    subprocess.run([uv, "build", "--quiet", "--out-dir", str(folder)], check=True, cwd=ROOT)
+    return folder
+
+
+def test_wheel_and_sdist_hold_the_bank(built):
+    wheel = next(built.glob("*.whl"))
+    names = zipfile.ZipFile(wheel).namelist()
+    assert "quizgen/builtin/templates/projection/A3/template.toml" in names
+    assert "quizgen/builtin/solvers/perspective.py" in names
+    assert not [n for n in names if n.startswith(("templates/", "solvers/", "tests/"))]
+    assert not [n for n in names if n.endswith(".pyc")]
+    assert next(built.glob("*.tar.gz")).stat().st_size > 0
+
+
+def test_a_wheel_in_an_empty_environment_makes_the_same_paper(uv, built, tmp_path):
+    environment = tmp_path / "venv"
+    subprocess.run(
+        [uv, "venv", "--quiet", "--python", sys.executable, str(environment)], check=True
+    )
+    python = next(p for p in (environment / "bin" / "python", environment / "Scripts" / "python.exe")
+                  if p.exists())  # fmt: skip
+    pins = tmp_path / "pins.txt"
+    pins.write_text(_pins())
+    subprocess.run(
+        [uv, "pip", "install", "--quiet", "--python", str(python), "--constraint", str(pins),
+         str(next(built.glob("*.whl")))], check=True,
+    )  # fmt: skip
+    for folder, command in (
+        ("wheel", [str(python), "-m", "quizgen"]),
+        ("checkout", [sys.executable, "-m", "quizgen"]),
+    ):
+        (tmp_path / folder).mkdir()
+        subprocess.run([*command, *ARGUMENTS], check=True, cwd=tmp_path / folder,
+                       capture_output=True)  # fmt: skip
+    made = {
+        folder: {p.name: p.read_bytes() for p in (tmp_path / folder / "paper").iterdir()}
+        for folder in ("wheel", "checkout")
+    }
+    assert made["wheel"].keys() == made["checkout"].keys()
+    for name, data in made["wheel"].items():
+        assert data == made["checkout"][name], name
+
+
+def _pins() -> str:
+    import tomllib
+
+    table = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    return "\n".join(table["tool"]["uv"]["constraint-dependencies"])
