@@ -8,10 +8,15 @@
     [[slot]]
     tier = "A"            # and/or: topic = "optics", templates = ["D17a"]
     count = 5
+
+``reference`` lists the templates that make up the notes' own paper. A topic name (``optics``), a
+topic with minutes (``optics.45``) or ``all.90`` is a blueprint without a file: questions of that
+topic, tiers in turn, as many as the time allows.
 """
 
 from __future__ import annotations
 
+import re
 import tomllib
 from importlib.resources import files
 from pathlib import Path
@@ -19,7 +24,9 @@ from pathlib import Path
 import msgspec
 
 from quizgen.errors import BlueprintError
+from quizgen.locale import table, word
 
+LANGUAGES = ("en", "bn")
 MOST_QUESTIONS = 200
 
 
@@ -38,8 +45,11 @@ class Blueprint(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     title: dict[str, str]
     slot: tuple[SlotRule, ...]
     minutes: int | None = None
+    reference: tuple[str, ...] = ()
     name: str = ""
     source: str = ""
+    topic: str = ""
+    budget: int = 0
 
 
 def shipped() -> list[str]:
@@ -49,8 +59,24 @@ def shipped() -> list[str]:
                   if entry.name.endswith(".toml"))  # fmt: skip
 
 
+EVERYTHING = "all"
+
+
+def of_topic(topic: str, minutes: int = 0) -> Blueprint:
+    """Blueprint without a file: a topic (or ``all``), within a time (0: no limit)."""
+    name = f"{topic}.{minutes}" if minutes else topic
+    key = "paper.chapter" if topic == EVERYTHING else f"topic.{topic}"
+    title = {lang: f"{word(lang, 'paper.exam')}: {word(lang, key)}" for lang in LANGUAGES}
+    return Blueprint(title, (), None, (), name, name, topic, minutes)
+
+
+def topics() -> list[str]:
+    """Topic names, ``all`` last."""
+    return [*table("en")["topic"], EVERYTHING]
+
+
 def load(name_or_file: str) -> Blueprint:
-    """Load a shipped blueprint by name, or a file.
+    """Load a shipped blueprint by name, a topic, or a file.
 
     Raises
     ------
@@ -58,6 +84,9 @@ def load(name_or_file: str) -> Blueprint:
         Naming file, key and what is allowed.
     """
     path = Path(name_or_file)
+    topic = re.fullmatch(r"([a-z]+)(?:\.(\d{1,4}))?", name_or_file)
+    if topic and topic[1] in topics():
+        return of_topic(topic[1], int(topic[2] or 0))
     if name_or_file in shipped():
         source = (files("quizgen") / "blueprints" / f"{name_or_file}.toml").read_text("utf-8")
         return _convert(source, name_or_file, f"blueprint {name_or_file}")
@@ -88,7 +117,7 @@ def _allowed(message: str) -> str:
     if "unknown field" not in message:
         return ""
     kind = SlotRule if "$.slot" in message else Blueprint
-    internal = {"name", "source"}
+    internal = {"name", "source", "topic", "budget"}
     names = sorted({f.encode_name for f in msgspec.structs.fields(kind)} - internal)
     return f" (allowed: {', '.join(names)})"
 

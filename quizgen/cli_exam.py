@@ -22,6 +22,10 @@ KEY, FORM = "key.json", "answers.toml"
 @click.option("--seed", type=click.IntRange(0, 10**9), help="Number that fixes every draw.")
 @click.option("--code", help="Code of a paper: builds exactly that paper again.")
 @click.option("--blueprint", default="mock", show_default=True, help="mock, trial or a TOML file.")
+@click.option("--topic", help="Questions of one topic (or all), instead of a blueprint.")
+@click.option(
+    "--minutes", type=click.IntRange(3, 9999), help="As many questions as this time allows."
+)
 @click.option("--lang", type=click.Choice(["en", "bn", "both"]), help="Language. [default: en]")
 @click.option(
     "--format", "formats", default="html,pdf", show_default=True, help="Outputs, by comma."
@@ -59,11 +63,10 @@ def _formats(text: str) -> list[str]:
 
 
 def _paper(options: dict[str, Any]) -> Paper:
-    from quizgen.blueprint import load
     from quizgen.exam import build, rebuild, reference_paper
 
     bank = open_bank(options)
-    blueprint = load(options["blueprint"])
+    blueprint = _blueprint(options)
     if options["code"]:
         if options["seed"] is not None or options["lang"]:
             raise CodeError("--code already fixes seed and language; leave --seed and --lang out")
@@ -74,6 +77,18 @@ def _paper(options: dict[str, Any]) -> Paper:
         return reference_paper(bank, blueprint, lang)
     seed = secrets.randbelow(10**6) if options["seed"] is None else options["seed"]
     return build(bank, blueprint, seed, lang, progress=_tell)
+
+
+def _blueprint(options: dict[str, Any]) -> Any:
+    from quizgen.blueprint import EVERYTHING, load, of_topic, topics
+
+    topic, minutes = options["topic"], options["minutes"]
+    if topic is None and minutes is None:
+        return load(options["blueprint"])
+    if topic is not None and topic not in topics():
+        raise click.BadParameter(f"{topic!r} (allowed: {', '.join(topics())})",
+                                 param_hint="--topic")  # fmt: skip
+    return of_topic(topic or EVERYTHING, minutes or 0)
 
 
 def _tell(name: str) -> None:
@@ -113,5 +128,7 @@ def _report(folder: Path, paper: Paper, contents: dict[str, bytes], *, kept: boo
     if kept:
         click.echo(f"  {folder / FORM} holds answers and was left as it is")
     click.echo(f"{len(paper.items)} questions, {float(paper.points):g} points, {paper.minutes} min")
+    if paper.variety:
+        click.echo(f"One of {paper.variety_text} papers that this blueprint can make")
     click.echo(f"Code: {paper.code}   (quizgen exam --code {paper.code} makes this paper again)")
     click.echo(f"Next: fill in {folder / FORM}, then: quizgen check {folder / KEY} {folder / FORM}")

@@ -4,23 +4,27 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from decimal import Decimal
 from fractions import Fraction
 from typing import Any
 
 from quizgen.bank import LANGUAGES, Bank
-from quizgen.blueprint import Blueprint, SlotRule, load
+from quizgen.blueprint import EVERYTHING, Blueprint, SlotRule, load
 from quizgen.draw import Draw, draw
 from quizgen.errors import BlueprintError, CodeError, DrawError
 from quizgen.question import Key, Question, identity, instance, put_into_words
-from quizgen.template import Template
+from quizgen.template import Template, minutes_of
 
 FORMAT = "quizgen-key/1"
 ENGINE = "1"
 """Rises when the same code would give another paper; part of every code."""
-LARGEST_SEED = 10**9
+REFERENCE = "reference"
+"""Stands for the seed in the code of a paper with the numbers of the notes."""
+SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 REDRAWS = 50
 """Tries to avoid the same numbers twice in one paper."""
 
@@ -47,11 +51,21 @@ class Paper:
     blueprint: Blueprint
     langs: tuple[str, ...]
     items: tuple[Item, ...]
+    variety: int = 0
+    """How many different papers the blueprint can make; 0 if not counted."""
 
     @property
     def points(self) -> Fraction:
         """Marks of all questions."""
         return sum((item.points for item in self.items), Fraction(0))
+
+    @property
+    def variety_text(self) -> str:
+        """The number of possible papers, short: 40, or 3.1 × 10^27."""
+        if self.variety < 10**6:
+            return str(self.variety)
+        mantissa, _, exponent = f"{Decimal(self.variety):.1e}".partition("e+")
+        return f"{mantissa} × 10{exponent.translate(SUPERSCRIPTS)}"
 
     @property
     def minutes(self) -> int:
@@ -68,7 +82,7 @@ def languages(choice: str) -> tuple[str, ...]:
     return LANGUAGES if choice == "both" else (choice,)
 
 
-def parse_code(code: str) -> tuple[str, int, str, str]:
+def parse_code(code: str) -> tuple[str, str, str, str]:
     """Take a paper's code apart: blueprint, seed, languages, digest.
 
     Raises
@@ -76,10 +90,10 @@ def parse_code(code: str) -> tuple[str, int, str, str]:
     CodeError
         If it is not a code.
     """
-    match = re.fullmatch(r"(.+)-(\d{1,10})-(en|bn|both)-([0-9a-f]{6})", code.strip())
+    match = re.fullmatch(r"(.+)-(\d{1,10}|reference)-(en|bn|both)-([0-9a-f]{6})", code.strip())
     if match is None:
         raise CodeError(f"{code!r} is not a paper's code (like mock-1234-en-0a1b2c)")
-    return match[1], int(match[2]), match[3], match[4]
+    return match[1], match[2], match[3], match[4]
 
 
 def build(
@@ -110,15 +124,18 @@ def build(
     BlueprintError
         If no template fits a slot.
     """
-    langs = languages(choice)
     drawn = list(_draws(bank, blueprint, seed))
+    code = f"{blueprint.name}-{seed}-{choice}-{_digest(blueprint, drawn)}"
     items = []
     for number, one in enumerate(drawn, 1):
-        pairs = [put_into_words(one, lang, number=str(number), figures=figures) for lang in langs]
-        items.append(Item(str(number), tuple(q for q, _ in pairs), tuple(k for _, k in pairs)))
+        items.append(_item(one, languages(choice), str(number), figures=figures))
         progress(one.template.id)
-    code = f"{blueprint.name}-{seed}-{choice}-{_digest(blueprint, drawn)}"
-    return Paper(code, blueprint, langs, tuple(items))
+    return Paper(code, blueprint, languages(choice), tuple(items), variety(bank, blueprint))
+
+
+def _item(one: Draw, langs: tuple[str, ...], number: str, *, figures: bool = True) -> Item:
+    pairs = [put_into_words(one, lang, number=number, figures=figures) for lang in langs]
+    return Item(number, tuple(q for q, _ in pairs), tuple(k for _, k in pairs))
 
 
 def rebuild(bank: Bank, code: str, blueprint: Blueprint | None = None, **options: Any) -> Paper:
@@ -130,7 +147,11 @@ def rebuild(bank: Bank, code: str, blueprint: Blueprint | None = None, **options
         If the templates behind it have changed since.
     """
     name, seed, choice, _ = parse_code(code)
-    paper = build(bank, blueprint or load(name), seed, choice, **options)
+    plan = blueprint or load(name)
+    if seed == REFERENCE:
+        paper = reference_paper(bank, plan, choice)
+    else:
+        paper = build(bank, plan, int(seed), choice, **options)
     if paper.code != code.strip():
         raise CodeError(
             f"{code} was made with other templates or another version: "
@@ -149,15 +170,14 @@ def single(template: Template, seed: str | int, lang: str, *, figures: bool = Tr
 
 def reference_paper(bank: Bank, blueprint: Blueprint, choice: str) -> Paper:
     """The paper with the numbers printed in the notes."""
-    drawn = [instance(t, "reference") for t in _chosen(bank, blueprint, 0)
-             if t.rules.reference is not None]  # fmt: skip
+    if not blueprint.reference:
+        raise BlueprintError(f"blueprint {blueprint.name!r} lists no reference questions")
+    templates = [bank.template(name) for name in blueprint.reference]
+    drawn = [instance(t, REFERENCE if t.rules.reference is not None else 0) for t in templates]
+    code = f"{blueprint.name}-{REFERENCE}-{choice}-{_digest(blueprint, drawn)}"
     langs = languages(choice)
-    items = []
-    for number, one in enumerate(drawn, 1):
-        pairs = [put_into_words(one, lang, number=str(number)) for lang in langs]
-        items.append(Item(str(number), tuple(q for q, _ in pairs), tuple(k for _, k in pairs)))
-    code = f"{blueprint.name}-0-{choice}-{_digest(blueprint, drawn)}"
-    return Paper(code, blueprint, langs, tuple(items))
+    items = tuple(_item(one, langs, str(number)) for number, one in enumerate(drawn, 1))
+    return Paper(code, blueprint, langs, items)
 
 
 def _digest(blueprint: Blueprint, drawn: list[Draw]) -> str:
@@ -180,17 +200,80 @@ def _draws(bank: Bank, blueprint: Blueprint, seed: int) -> Iterator[Draw]:
         yield one
 
 
-def _chosen(bank: Bank, blueprint: Blueprint, seed: int) -> Iterator[Any]:
-    """Templates in order: each used once before any is used again."""
+def _chosen(bank: Bank, blueprint: Blueprint, seed: int) -> Iterator[Template]:
+    """Templates in order of the paper."""
+    chosen = _timed(bank, blueprint, seed) if blueprint.topic else _slotted(bank, blueprint, seed)
+    return (bank.template(name) for name in chosen)
+
+
+def _slotted(bank: Bank, blueprint: Blueprint, seed: int) -> list[str]:
+    """Fill the slots: each template is used once before any is used again."""
     uses: dict[str, int] = {}
+    chosen: list[str] = []
     for index, slot in enumerate(blueprint.slot, 1):
         fitting = _fitting(bank, slot, index)
         for place in range(slot.count):
-            ranked = sorted(
-                fitting, key=lambda name: (uses.get(name, 0), _rank(seed, index, place, name))
+            best = min(
+                fitting,
+                key=lambda name: (
+                    _gives_away(bank, name, chosen),
+                    uses.get(name, 0),
+                    _rank(seed, index, place, name),
+                ),
             )
-            uses[ranked[0]] = uses.get(ranked[0], 0) + 1
-            yield bank.template(ranked[0])
+            uses[best] = uses.get(best, 0) + 1
+            chosen.append(best)
+    return chosen
+
+
+def _gives_away(bank: Bank, name: str, chosen: list[str]) -> bool:
+    """Whether a question and one already in the paper tell each other's answer."""
+    return any(
+        name in bank.rules(other).apart or other in bank.rules(name).apart for other in chosen
+    )
+
+
+def _timed(bank: Bank, blueprint: Blueprint, seed: int) -> list[str]:
+    """Questions of a topic, tiers in turn, as many as the minutes allow; then sorted by tier."""
+    rules = {name: bank.rules(name) for name in bank.paths}
+    open_names = [n for n in rules if blueprint.topic in (EVERYTHING, rules[n].topic)]
+    left = blueprint.budget or sum(minutes_of(rules[n]) for n in open_names)
+    chosen: list[str] = []
+    tiers = sorted({rules[n].tier for n in open_names})
+    while True:
+        before = len(chosen)
+        for turn, tier in enumerate(tiers):
+            fitting = [
+                n for n in open_names
+                if n not in chosen and rules[n].tier == tier and minutes_of(rules[n]) <= left
+                and not _gives_away(bank, n, chosen)
+            ]  # fmt: skip
+            if fitting:
+                best = min(fitting, key=lambda n: _rank(seed, turn, len(chosen), n))
+                chosen.append(best)
+                left -= minutes_of(rules[best])
+        if len(chosen) == before:
+            break
+    if not chosen:
+        raise BlueprintError(f"no question of topic {blueprint.topic!r} fits the time")
+    return sorted(chosen, key=lambda n: rules[n].tier)
+
+
+def variety(bank: Bank, blueprint: Blueprint) -> int:
+    """How many different papers a blueprint of slots can make (0 for a topic without slots).
+
+    Questions count as a set; a template without numbers counts as one question.
+    """
+    total = 1 if blueprint.slot else 0
+    for index, slot in enumerate(blueprint.slot, 1):
+        pools = [bank.rules(name).pool or 1 for name in _fitting(bank, slot, index)]
+        rounds, rest = divmod(slot.count, len(pools))
+        ways = [1] + [0] * rest
+        for pool in pools:
+            even, more = math.comb(pool, rounds), math.comb(pool, rounds + 1)
+            ways = [ways[k] * even + (ways[k - 1] * more if k else 0) for k in range(rest + 1)]
+        total *= ways[rest]
+    return total
 
 
 def _rank(seed: int, index: int, place: int, name: str) -> bytes:

@@ -87,10 +87,16 @@ class Rules(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     figure: FigureRule | None = None
     reference: dict[str, Scalar] | None = None
     pool: int | None = None
+    apart: tuple[str, ...] = ()
 
 
 PART_LABELS = "abcdefghij"
 TIER_MINUTES = {"A": 3, "B": 5, "C": 10, "D": 12}
+
+
+def minutes_of(rules: Rules) -> int:
+    """Suggested working time of a template."""
+    return rules.minutes or TIER_MINUTES[rules.tier]
 
 
 @dataclass(frozen=True)
@@ -126,7 +132,7 @@ class Template:
     @property
     def minutes(self) -> int:
         """Suggested working time."""
-        return self.rules.minutes or TIER_MINUTES[self.rules.tier]
+        return minutes_of(self.rules)
 
     @cached_property
     def units(self) -> dict[str, str]:
