@@ -31,8 +31,9 @@ def load_spec(spec: Mapping[str, Any]) -> Spec:
         Naming the field that is wrong.
     """
     name = spec.get("kind")
-    known = isinstance(name, str) and name in KINDS
-    return decode({str(name): kind_module(str(name)).Spec} if known else dict.fromkeys(KINDS, Spec), spec)
+    if not isinstance(name, str) or name not in KINDS:
+        raise KeyFileError(f"spec.kind: unknown kind {name!r}; known: {', '.join(KINDS)}")
+    return decode(kind_module(name).Spec, spec)
 
 
 def mark(
@@ -42,6 +43,7 @@ def mark(
     lang: str = "en",
     decimal: str = "auto",
     context: Context | None = None,
+    settle: bool = False,
 ) -> Verdict:
     """Mark one typed answer.
 
@@ -57,6 +59,8 @@ def mark(
         The student's decimal sign: ``auto``, ``point`` or ``comma``.
     context : Context, optional
         The question around, for diagnosis and errors carried forward.
+    settle : bool
+        Allow a few seconds of SymPy, in its own process, for a formula that stays undecided.
 
     Returns
     -------
@@ -71,7 +75,7 @@ def mark(
     if decimal not in DECIMALS:
         raise KeyFileError(f"decimal: {decimal!r} is not one of {', '.join(DECIMALS)}")
     table = spec if isinstance(spec, Spec) else load_spec(spec)
-    return explained(table, judge(table, typed, Options(lang, decimal, context)), lang)
+    return explained(table, judge(table, typed, Options(lang, decimal, context, settle)), lang)
 
 
 def judge(spec: Spec, typed: str, options: Options) -> Verdict:
@@ -87,9 +91,9 @@ def _asked_back(error: ReadError) -> Verdict:
     note = "unexpected-end" if error.code == "unfinished" else error.code
     if error.code == "unknown-unit" and error.expected:
         note = "unknown-unit-case"
-    fields = {"column": error.column or 1, "found": error.found, "expected": error.expected}
+    fields: dict[str, Any] = {"found": error.found, "expected": error.expected}
     asked = ambiguous if note in TWO_READINGS else unreadable
-    return asked(note, **fields)
+    return asked(note, column=error.column or 1, **fields)
 
 
 def explained(spec: Spec, verdict: Verdict, lang: str) -> Verdict:

@@ -22,6 +22,7 @@ from quizgen.units import unit
 CARRIED = "carried-forward"
 EARLY = "rounded-too-early"
 
+
 @dataclass(frozen=True, slots=True)
 class Hints:
     """The question around one quantity."""

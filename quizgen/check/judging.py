@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import replace
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 from flint import fmpq
@@ -42,54 +42,54 @@ def settle(first: Verdict, second: Verdict, doubt: Doubt, echoes: tuple[str, str
     return ambiguous("two-readings", " | ".join(echoes), first=echoes[0], second=echoes[1])
 
 
-def judge_value(
-    spec: Tolerance,
-    number: Number,
-    value: Any,
-    key: Any,
-    *,
-    traps: Iterable[tuple[str, Any]] = (),
-    form: str = "",
-    hints: Hints | None = None,
-    read_as: str = "",
-) -> Verdict:
-    """Judge a value that stands in the key's unit.
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """What one number is judged by.
 
     Parameters
     ----------
     spec : Tolerance
         Tolerance and precision asked.
-    number : Number
-        How it was written.
-    value, key : flint.fmpq or flint.arb
-        The answer and the key.
-    traps : pairs of str and value
+    key : flint.fmpq or flint.arb
+        The key, in the unit of the judged values.
+    traps : sequence of (str, value)
         Known mistakes and what they give.
     form : str
         ``fraction``, ``lowest``, ``decimal`` or empty.
     hints : Hints, optional
         The question around: errors carried forward, slips in its chain.
-    read_as : str
-        Echo; the number's own by default.
     """
+
+    spec: Tolerance
+    key: Any
+    traps: Sequence[tuple[str, Any]] = ()
+    form: str = ""
+    hints: Hints | None = None
+
+
+def judge_value(asked: Asked, number: Number, value: Any, read_as: str = "") -> Verdict:
+    """Judge a value that stands in the key's unit; ``number`` says how it was written."""
     read_as = read_as or number.read_as
-    if accepted(spec, value, key):
-        return _form(spec, number, form, read_as)
-    if whole_enough(spec, number, value, key):
+    if accepted(asked.spec, value, asked.key):
+        return _form(asked.spec, number, asked.form, read_as)
+    if whole_enough(asked.spec, number, value, asked.key):
         return correct(read_as, "whole-number")
-    carried = hints.carried(value) if hints else None
+    carried = asked.hints.carried(value) if asked.hints else None
     if carried is not None:
         return replace(carried, read_as=read_as)
-    trap = trapped(spec, number, value, traps)
+    trap = trapped(asked.spec, number, value, asked.traps)
     if trap:
         return wrong(read_as, f"trap:{trap}")
-    coarse = _coarse(spec, number, value, key, read_as)
-    if coarse:
-        return coarse
-    diagnosed = hints.slip(value) if hints else None
+    return _coarse(asked.spec, number, value, asked.key, read_as) or _slipped(
+        asked, number, value, read_as
+    )
+
+
+def _slipped(asked: Asked, number: Number, value: Any, read_as: str) -> Verdict:
+    diagnosed = asked.hints.slip(value) if asked.hints else None
     if diagnosed is not None:
         return replace(diagnosed, read_as=read_as)
-    note, fields = slip(number, value, key)
+    note, fields = slip(number, value, asked.key)
     return wrong(read_as, note, **fields)
 
 
@@ -100,9 +100,7 @@ def whole_enough(spec: Tolerance, number: Number, value: Any, key: Any) -> bool:
     return bool(key.q == 1 and key != 0 and abs(value - key) <= fmpq(1, 100))
 
 
-def trapped(
-    spec: Tolerance, number: Number, value: Any, traps: Iterable[tuple[str, Any]]
-) -> str:
+def trapped(spec: Tolerance, number: Number, value: Any, traps: Iterable[tuple[str, Any]]) -> str:
     """Name of the nearest known mistake that gives the value, or an empty text."""
     hits = [(abs(value - trap), name) for name, trap in traps if gives(spec, number, value, trap)]
     if not hits:
@@ -127,9 +125,9 @@ def _form(spec: Tolerance, number: Number, form: str, read_as: str) -> Verdict:
 def _precision(spec: Tolerance, number: Number, read_as: str) -> Verdict:
     if spec.sigfigs is not None:
         return _figures(spec, number, spec.sigfigs, read_as)
-    if spec.strict and spec.decimals is not None and number.form in {"decimal", "integer"}:
-        if number.places != spec.decimals:
-            return partial(HALF, read_as, "decimals-asked", asked=spec.decimals)
+    plain = number.form in {"decimal", "integer"}
+    if spec.strict and plain and spec.decimals not in {None, number.places}:
+        return partial(HALF, read_as, "decimals-asked", asked=spec.decimals)
     return correct(read_as)
 
 
@@ -142,9 +140,7 @@ def _figures(spec: Tolerance, number: Number, asked: int, read_as: str) -> Verdi
     return correct(read_as, "more-digits" if 99 > least > asked else "")
 
 
-def _coarse(
-    spec: Tolerance, number: Number, value: Any, key: Any, read_as: str
-) -> Verdict | None:
+def _coarse(spec: Tolerance, number: Number, value: Any, key: Any, read_as: str) -> Verdict | None:
     """Right value with too few digits: rounded correctly, but not as far as asked."""
     if not number.places or number.figures[1] < 2 or number.form != "decimal":
         return None

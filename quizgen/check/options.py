@@ -42,11 +42,16 @@ class Context:
 
 @dataclass(frozen=True, slots=True)
 class Options:
-    """Reading options: language of the sentences, decimal sign, and the question around."""
+    """Reading options: language of the sentences, decimal sign, and the question around.
+
+    ``settle`` allows a few seconds of a computer algebra system, in a process of its own, for a
+    formula that sampling cannot decide.
+    """
 
     lang: str = "en"
     decimal: str = "auto"
     context: Context | None = None
+    settle: bool = False
 
 
 PLAIN = Options()

@@ -71,6 +71,8 @@ _SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻", "0123456789+-
 _SUBSCRIPTS = str.maketrans("₀₁₂₃₄₅₆₇₈₉ₓᵢ", "0123456789xi")
 _APPROXIMATE = r"ca\.|approx(?:\.|imately)?|about|circa|etwa|ungefähr|rund|প্রায়|প্রায়"
 
+_ABOUT = re.compile(rf"^ *(?:≈|~|∼|=|(?:{_APPROXIMATE})(?![^\W\d_])) *", re.IGNORECASE)
+
 
 def _table(pairs: dict[str, str]) -> Callable[[re.Match[str]], str]:
     return lambda match: pairs[match[0]]
@@ -103,7 +105,7 @@ REWRITES: dict[str, Rewrite] = {
     ),
     "subscripts": (re.compile(r"[₀-₉ₓᵢ]+"), lambda m: m[0].translate(_SUBSCRIPTS)),
     "vulgar fractions": (re.compile(r"(\d*) ?([¼-¾⅐-⅞])"), _fraction),
-    "about": (re.compile(rf"^ *(?:≈|~|∼|=|(?:{_APPROXIMATE})(?![^\W\d_])) *", re.I), lambda _m: ""),
+    "about": (_ABOUT, lambda _m: ""),
     "x between numbers": (re.compile(r"(?<=[\d)]) *[xXхХ] *(?=10 ?\^|10\*\*|\d)"), lambda _m: "*"),
 }
 """Name to pattern and replacement, in the order they are applied."""

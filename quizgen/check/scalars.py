@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cache, lru_cache
 from typing import Any
@@ -65,7 +66,8 @@ _FAST = re.compile(r"([-−–]?)([0-9]{1,30})(?:([.,])([0-9]{1,30}))?")
 _DIGITS = str.maketrans("০১২৩৪৫৬৭৮৯０１２３４５６７８９", "01234567890123456789")
 _SCIENTIFIC = re.compile(
     r"(?P<sign>[-+]?) ?(?P<whole>\d*)(?:\.(?P<digits>\d*))?"
-    r"(?: ?(?:[eE] ?(?P<e>[-+]?\d{1,5})|\* ?10 ?(?:\^|\*\*) ?(?P<p>[-+]?\d{1,5}|\([-+]?\d{1,5}\))))?",
+    r"(?: ?(?:[eE] ?(?P<e>[-+]?\d{1,5})"
+    r"|\* ?10 ?(?:\^|\*\*) ?(?P<p>[-+]?\d{1,5}|\([-+]?\d{1,5}\))))?",
     re.ASCII,
 )
 _TEN = re.compile(
@@ -243,6 +245,8 @@ def _expression(source: Source, text: str) -> Number:
 
 def moved(error: ReadError, source: Source) -> ReadError:
     """Point a reading error at the column in the typed text."""
+    if error.code == "unknown-name" and not error.expected:
+        error.code = "number-expected"
     column = source.column((error.column or 1) - 1)
     return ReadError(error.code, column, error.found, error.expected)
 
@@ -256,23 +260,27 @@ def _bits(value: Any) -> float:
     return abs(float(abs(value).mid().man_exp()[1])) + PRECISION if value != 0 else 1.0
 
 
+class TooLargeError(MathError):
+    """An intermediate value is beyond what anyone could mean."""
+
+
 def _guarded_power(a: Any, b: Any) -> Any:
     size = abs(b) if isinstance(b, fmpq) else abs(b).mid().fmpq()
     if size > LARGEST_BITS or _bits(a) * float(size) > LARGEST_BITS:
-        raise MathError("too large")
+        raise TooLargeError("too large")
     return exact().ops["pow"](a, b)
 
 
 def _guarded_exp(a: Any) -> Any:
     if abs(a) > LARGEST_BITS:
-        raise MathError("too large")
+        raise TooLargeError("too large")
     return exact().ops["exp"](a)
 
 
 @cache
 def typed_field() -> Field:
     """The exact field with bounds on size, for mathematics typed by learners."""
-    ops = {**exact().ops, "pow": _guarded_power, "exp": _guarded_exp}
+    ops: dict[str, Callable[..., Any]] = {**exact().ops, "pow": _guarded_power, "exp": _guarded_exp}
     return Field("typed", exact().constant, ops)
 
 
@@ -287,6 +295,8 @@ def constant(tree: Expr) -> Any:
     try:
         with flint.ctx.workprec(PRECISION):
             value = compile_expr(tree, typed_field())({})
+    except TooLargeError:
+        raise ReadError("too-large", 1) from None
     except (MathError, ZeroDivisionError, OverflowError, ValueError) as error:
         raise ReadError("no-value", 1, str(error)) from None
     except (KeyError, TypeError, AttributeError):
@@ -304,7 +314,7 @@ def _sharp(ball: Any) -> bool:
 
 @lru_cache(maxsize=8192)
 def exact_text(text: str) -> Any:
-    """Return the value of an author's constant such as ``20/3``, ``6.67``, ``-1e-3``, ``sqrt(2)/2``.
+    """Return the value of an author's constant: ``20/3``, ``6.67``, ``-1e-3``, ``sqrt(2)/2``.
 
     Raises
     ------

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from fractions import Fraction
 from typing import Any, ClassVar
 
 import msgspec
@@ -126,7 +125,7 @@ def gives(spec: Tolerance, number: Number, value: Any, target: Any) -> bool:
     return bool(rounded and distance <= CLOSE * abs(target))
 
 
-def decode(kinds: Mapping[str, type[Spec]], table: Mapping[str, Any]) -> Spec:
+def decode(shape: type[Spec], table: Mapping[str, Any]) -> Spec:
     """Turn a plain table into the spec of its kind.
 
     Raises
@@ -134,23 +133,9 @@ def decode(kinds: Mapping[str, type[Spec]], table: Mapping[str, Any]) -> Spec:
     KeyFileError
         Naming the field that is wrong.
     """
-    name = table.get("kind")
-    if not isinstance(name, str) or name not in kinds:
-        raise KeyFileError(f"spec.kind: unknown kind {name!r}; known: {', '.join(kinds)}")
     try:
-        spec = msgspec.convert(table, kinds[name])
+        spec = msgspec.convert(table, shape)
         spec.validate()
-    except msgspec.ValidationError as error:
-        raise KeyFileError(f"spec ({name}): {error}") from None
-    except (FormulaError, ValueError, TypeError) as error:
-        raise KeyFileError(f"spec ({name}): {error}") from None
+    except (msgspec.ValidationError, FormulaError, ValueError, TypeError) as error:
+        raise KeyFileError(f"spec ({table['kind']}): {error}") from None
     return spec
-
-
-def plain(value: Any) -> Any:
-    """Make a spec table from what compose may hold: fractions become their text."""
-    if isinstance(value, Mapping):
-        return {str(key): plain(item) for key, item in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [plain(item) for item in value]
-    return str(value) if isinstance(value, (Fraction, fmpq)) else value

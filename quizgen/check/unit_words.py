@@ -148,7 +148,9 @@ def plain_unit(listed: str) -> TypedUnit:
     if listed == "rad":
         return TypedUnit("rad", 180 / arb.pi(), (("deg", 1),))
     found: Unit = unit(listed)
-    return TypedUnit(listed, fmpq(found.factor.numerator, found.factor.denominator), found.dimension)
+    return TypedUnit(
+        listed, fmpq(found.factor.numerator, found.factor.denominator), found.dimension
+    )
 
 
 def _word(word: str) -> str:
@@ -190,10 +192,8 @@ def typed_unit(text: str) -> TypedUnit:
 def _compound(text: str) -> str:
     text = re.sub(r"\s+per\s+|\s*প্রতি\s*", "/", text)
     text = re.sub(r" *([*/·]) *", r"\1", text)
-    pieces = []
-    for piece in _PART.findall(text):
-        pieces.append(piece if piece in "*/·" else _product(piece))
-    return "".join(pieces)
+    pieces = _PART.findall(text)
+    return "".join(piece if piece in "*/·" else _product(piece) for piece in pieces)
 
 
 def _product(piece: str) -> str:

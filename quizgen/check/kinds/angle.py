@@ -7,7 +7,7 @@ from typing import Any
 from flint import arb, fmpq
 
 from quizgen.check.diagnosis import hints_for
-from quizgen.check.judging import judge_value, resolve
+from quizgen.check.judging import Asked, judge_value, resolve
 from quizgen.check.kinds.number import shown, trap_values, without_name
 from quizgen.check.options import Options
 from quizgen.check.quantities import TypedQuantity, split_quantity
@@ -15,7 +15,6 @@ from quizgen.check.rewrites import normalise
 from quizgen.check.scalars import Number, exact_value, read_source
 from quizgen.check.slips import close
 from quizgen.check.specs import Scalar, Tolerance
-from quizgen.check.unit_words import plain_unit
 from quizgen.check.verdict import Verdict, with_values, wrong
 from quizgen.units import shown as shown_unit
 
@@ -69,20 +68,12 @@ def _echo(number: Number, quantity: TypedQuantity) -> str:
     return f"{number.read_as}°" if text in {"deg", "°"} else f"{number.read_as} {text}"
 
 
-def _on_circle(
-    spec: Spec, number: Number, value: Any, read_as: str, options: Options
-) -> Verdict:
+def _on_circle(spec: Spec, number: Number, value: Any, read_as: str, options: Options) -> Verdict:
     key = exact_value(spec.value)
     traps = [(name, around(spec, trap, value)) for name, trap in trap_values(spec)]
-    return judge_value(
-        spec,
-        number,
-        value,
-        around(spec, key, value),
-        traps=traps,
-        hints=hints_for(spec, number, fmpq(1), options),
-        read_as=read_as,
-    )
+    hints = hints_for(spec, number, fmpq(1), options)
+    asked = Asked(spec, around(spec, key, value), traps, hints=hints)
+    return judge_value(asked, number, value, read_as)
 
 
 def around(spec: Spec, target: Any, value: Any) -> Any:

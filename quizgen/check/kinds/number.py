@@ -8,7 +8,7 @@ from typing import Any, Literal
 from flint import fmpq
 
 from quizgen.check.diagnosis import hints_for
-from quizgen.check.judging import judge_value, resolve
+from quizgen.check.judging import Asked, judge_value, resolve
 from quizgen.check.options import Options
 from quizgen.check.rewrites import Source, normalise
 from quizgen.check.rounding import exact_or_figures, rounded, with_figures
@@ -21,7 +21,8 @@ class Spec(Tolerance, kw_only=True):
     """Number: ``value``; ``form`` = fraction, lowest, decimal; ``percent``; ``notation``.
 
     With ``percent`` the value is the fraction, tolerances and ``accept`` are in percent, and
-    ``4.55 %``, ``4.55`` and ``0.0455`` are read alike. ``notation = "f-number"`` reads ``1:8`` as 8.
+    ``4.55 %``, ``4.55`` and ``0.0455`` are read alike. ``notation = "f-number"`` reads ``1:8``
+    as 8.
     """
 
     value: Scalar
@@ -65,15 +66,14 @@ def _judge_percent(spec: Spec, number: Number, options: Options) -> Verdict:
 
 def _judge_as(spec: Spec, number: Number, value: Any, options: Options) -> Verdict:
     scale = 100 if spec.percent else 1
-    verdict = judge_value(
+    asked = Asked(
         spec,
-        number,
-        value,
         exact_value(spec.value) * scale,
-        traps=trap_values(spec, scale),
-        form=spec.form,
-        hints=hints_for(spec, number, fmpq(1, scale), options),
+        trap_values(spec, scale),
+        spec.form,
+        hints_for(spec, number, fmpq(1, scale), options),
     )
+    verdict = judge_value(asked, number, value)
     return with_values(verdict, value / scale)
 
 
@@ -106,9 +106,9 @@ def _without_lens(spec: Spec, source: Source) -> Source:
     match = _LENS.match(source.text)
     if match is None:
         return source
-    if match[0].startswith("1") and spec.notation != "f-number":
-        if not re.search(r"[.,]\d", source.text):
-            return source.sub(re.compile(":"), lambda _m: "/")
+    ratio = match[0].startswith("1") and spec.notation != "f-number"
+    if ratio and not re.search(r"[.,]\d", source.text):
+        return source.sub(re.compile(":"), lambda _m: "/")
     return source.cut(match.end())
 
 

@@ -7,7 +7,7 @@ from typing import Any
 from flint import fmpq
 
 from quizgen.check.diagnosis import hints_for
-from quizgen.check.judging import judge_value, resolve
+from quizgen.check.judging import Asked, judge_value, resolve
 from quizgen.check.kinds.number import shown, trap_values, without_name
 from quizgen.check.options import Options
 from quizgen.check.quantities import TypedQuantity, split_quantity
@@ -60,21 +60,19 @@ def judge_unit(
     spec: Spec, number: Number, value: Any, wanted: TypedUnit, options: Options, read_as: str
 ) -> Verdict:
     """Judge a value that stands in the key's unit."""
-    verdict = judge_value(
+    asked = Asked(
         spec,
-        number,
-        value,
         exact_value(spec.value),
-        traps=trap_values(spec),
+        trap_values(spec),
         hints=hints_for(spec, number, fmpq(1), options),
-        read_as=read_as,
     )
+    verdict = judge_value(asked, number, value, read_as)
     return with_values(verdict, value * wanted.factor)
 
 
 def _without_unit(spec: Spec, number: Number, wanted: TypedUnit, options: Options) -> Verdict:
     verdict = judge_unit(spec, number, number.value, wanted, options, number.read_as)
-    if spec.bare or not wanted.dimension and wanted.factor == 1:
+    if spec.bare or (not wanted.dimension and wanted.factor == 1):
         return verdict
     if verdict.credit:
         unit = shown_unit(spec.unit)
@@ -97,7 +95,7 @@ def _prefix(spec: Spec, number: Number, value: Any, typed: TypedUnit, verdict: V
     key = exact_value(spec.value)
     if verdict.note == "factor" and spec.unit == "dB":
         return _decibel(value, key, verdict)
-    if verdict.note != "power-of-ten" and verdict.note != "percent-slip":
+    if verdict.note not in {"power-of-ten", "percent-slip"}:
         return verdict
     asked = shown_unit(spec.unit)
     same = close(number.value, key) and typed.text != spec.unit

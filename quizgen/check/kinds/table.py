@@ -1,0 +1,150 @@
+"""Kind ``table``: several named numbers, each judged as a number, quantity or angle."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from fractions import Fraction
+from typing import Any
+
+import msgspec
+
+from quizgen.check.kinds import angle, number, quantity
+from quizgen.check.lists import read_list
+from quizgen.check.named import find_name, split_name
+from quizgen.check.options import Options
+from quizgen.check.rewrites import Source
+from quizgen.check.scalars import ReadError, exact_value
+from quizgen.check.specs import Scalar, Tolerance, decode
+from quizgen.check.specs import Spec as AnySpec
+from quizgen.check.verdict import Verdict, ambiguous, correct, partial, shared, with_values, wrong
+
+CELLS = {"number": number, "quantity": quantity, "angle": angle}
+
+
+class Spec(Tolerance, kw_only=True):
+    """Table: ``values`` (name to value); ``units`` (name to unit); ``cells`` (name to a table).
+
+    A cell is a number with the table's tolerance unless ``cells`` says otherwise:
+    ``cells = {H = {kind = "angle", abs = "0.5"}}``.
+    """
+
+    values: dict[str, Scalar]
+    units: dict[str, str] = msgspec.field(default_factory=dict)
+    cells: dict[str, dict[str, Any]] = msgspec.field(default_factory=dict)
+
+    def validate(self) -> None:
+        """Check tolerance and every cell."""
+        super().validate()
+        if not self.values:
+            raise ValueError("values must not be empty")
+        for name in (*self.units, *self.cells):
+            if name not in self.values:
+                raise ValueError(f"no value is named {name!r}")
+        for trap, wrong_values in self.traps.items():
+            if not isinstance(wrong_values, Mapping):
+                raise TypeError(f"trap {trap!r} must be a table of names and values")
+        for name in self.values:
+            cell(self, name)
+
+
+_INHERITED = ("decimals", "sigfigs", "rel", "abs", "exact", "within", "strict")
+_TOLERANCES = frozenset({"decimals", "sigfigs", "rel", "abs", "exact"})
+
+
+def cell(spec: Spec, name: str) -> AnySpec:
+    """Return the spec of one cell."""
+    own = spec.cells.get(name, {})
+    table: dict[str, Any] = {"kind": "number", "value": spec.values[name]}
+    if not _TOLERANCES & own.keys():
+        table |= {key: getattr(spec, key) for key in _INHERITED}
+    if spec.units.get(name):
+        table["unit"] = spec.units[name]
+    table["traps"] = {trap: values[name] for trap, values in spec.traps.items() if name in values}
+    if isinstance(spec.of, dict) and name in spec.of:
+        table["of"] = [spec.of[name]]
+    table |= own
+    if table["kind"] == "angle":
+        table.pop("unit", None)
+    if table["kind"] not in CELLS:
+        raise ValueError(f"cells.{name}: kind is one of {', '.join(CELLS)}")
+    return decode(CELLS[table["kind"]].Spec, table)
+
+
+def check(spec: Spec, typed: str, options: Options) -> Verdict:
+    """Judge each cell."""
+    names = list(spec.values)
+    placed = _placed(typed, names, options.decimal)
+    cells = [_one(spec, name, placed.get(name), options) for name in names]
+    stopped = next((c for c in cells if c.verdict == "ambiguous"), None)
+    read_as = "; ".join(
+        f"{name} = {c.read_as}" for name, c in zip(names, cells, strict=True) if c.read_as
+    )
+    if stopped is not None:
+        return ambiguous(stopped.note, stopped.read_as, **stopped.fields)
+    verdict = _together(spec, names, cells, read_as)
+    values = tuple(c.values[0] if c.values else None for c in cells)
+    return with_values(replace(verdict, cells=tuple(cells)), *values)
+
+
+def _placed(typed: str, names: list[str], decimal: str) -> dict[str, Source]:
+    """Name to what was typed for it: by name, or all in order."""
+    count = None if any(mark in typed for mark in "=:") else len(names)
+    items, _ = read_list(typed, count, decimal)
+    pairs = [split_name(item) for item in items]
+    if not any(name for name, _ in pairs):
+        return dict(zip(names, items, strict=True))
+    placed: dict[str, Source] = {}
+    for (label, rest), item in zip(pairs, items, strict=True):
+        name = find_name(label, names)
+        if not name or name in placed:
+            raise ReadError("used-twice" if name else "unknown-name", item.column(0), label, names)
+        placed[name] = rest
+    return placed
+
+
+def _one(spec: Spec, name: str, item: Source | None, options: Options) -> Verdict:
+    if item is None:
+        return wrong("", "missing", names=(name,))
+    sub = cell(spec, name)
+    verdict: Verdict = CELLS[sub.kind].check(sub, item.text, options)
+    if verdict.verdict == "unreadable":
+        raise ReadError(verdict.note, item.column(0), verdict.read_as)
+    return verdict
+
+
+def _together(spec: Spec, names: list[str], cells: list[Verdict], read_as: str) -> Verdict:
+    credit = sum((c.credit for c in cells), Fraction(0)) / len(cells)
+    missed = tuple(n for n, c in zip(names, cells, strict=True) if c.credit < 1)
+    if not missed:
+        notes = {c.note for c in cells if c.verdict == "partial"}
+        return partial(credit, read_as, notes.pop()) if notes else correct(read_as)
+    trap = _trap(spec, names, cells)
+    if trap:
+        return shared(credit, read_as, f"trap:{trap}", names=missed)
+    return shared(credit, read_as, "cells", names=missed)
+
+
+def _trap(spec: Spec, names: list[str], cells: list[Verdict]) -> str:
+    """Return the one known mistake that explains every wrong cell."""
+    wrong_notes = {c.note for c in cells if c.credit < 1}
+    name = wrong_notes.pop() if len(wrong_notes) == 1 else ""
+    if not name.startswith("trap:"):
+        return ""
+    trap = name.removeprefix("trap:")
+    changed = [
+        n
+        for n in names
+        if exact_value(spec.traps[trap].get(n, spec.values[n])) != exact_value(spec.values[n])
+    ]
+    missed = [n for n, c in zip(names, cells, strict=True) if c.credit < 1]
+    return trap if set(changed) <= {*missed} else ""
+
+
+def show(spec: Spec, lang: str) -> str:
+    """Return the key as printed and as it can be typed back."""
+    shown = []
+    for name in spec.values:
+        sub = cell(spec, name)
+        shown.append(f"{name} = {CELLS[sub.kind].show(sub, lang)}")
+    return "; ".join(shown)

@@ -1,0 +1,94 @@
+"""Proof of equality for rational formulas: both sides as quotients of exact polynomials."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from flint import Ordering, fmpq, fmpq_mpoly_ctx
+
+from quizgen.expr import Call, Expr, Field, compile_expr, names, walk
+
+RATIONAL = frozenset({"add", "sub", "mul", "div", "neg", "pow"})
+LARGEST_POWER = 12
+MOST_NODES = 60
+
+Quotient = tuple[Any, Any]
+
+
+def is_rational(tree: Expr) -> bool:
+    """Whether a formula uses arithmetic only, and is small enough to expand."""
+    nodes = list(walk(tree))
+    return len(nodes) <= MOST_NODES and all(
+        not isinstance(node, Call) or node.op in RATIONAL for node in nodes
+    )
+
+
+def proved_equal(first: Expr, second: Expr) -> bool:
+    """Whether two formulas are proved to be the same rational function."""
+    if not (is_rational(first) and is_rational(second)):
+        return False
+    used = sorted(names(first) | names(second))
+    ctx = fmpq_mpoly_ctx.get([f"x{i}" for i in range(len(used))] or ["x0"], Ordering.lex)
+    one = ctx.constant(1)
+    env = {name: (gen, one) for name, gen in zip(used, ctx.gens(), strict=False)}
+    try:
+        field = _quotients(ctx)
+        top1, low1 = compile_expr(first, field)(env)
+        top2, low2 = compile_expr(second, field)(env)
+    except (ValueError, ZeroDivisionError):
+        return False
+    return bool(top1 * low2 == top2 * low1)
+
+
+def _quotients(ctx: Any) -> Field:
+    one = ctx.constant(1)
+    return Field(
+        "quotients",
+        lambda value: (ctx.constant(fmpq(value.numerator, value.denominator)), one),
+        {"add": _add, "sub": _sub, "mul": _mul, "div": _div, "neg": _neg, "pow": _pow},
+    )
+
+
+def _add(*terms: Quotient) -> Quotient:
+    top, low = terms[0]
+    for next_top, next_low in terms[1:]:
+        top, low = top * next_low + next_top * low, low * next_low
+    return top, low
+
+
+def _neg(a: Quotient) -> Quotient:
+    return -a[0], a[1]
+
+
+def _sub(a: Quotient, b: Quotient) -> Quotient:
+    return _add(a, _neg(b))
+
+
+def _mul(*factors: Quotient) -> Quotient:
+    top, low = factors[0]
+    for next_top, next_low in factors[1:]:
+        top, low = top * next_top, low * next_low
+    return top, low
+
+
+def _div(a: Quotient, b: Quotient) -> Quotient:
+    if b[0] == 0:
+        raise ZeroDivisionError
+    return a[0] * b[1], a[1] * b[0]
+
+
+def _pow(a: Quotient, b: Quotient) -> Quotient:
+    exponent = _integer(b)
+    if exponent < 0:
+        return _div((a[1] ** 0, a[1] ** 0), _pow(a, (b[1] * -exponent, b[1])))
+    return a[0] ** exponent, a[1] ** exponent
+
+
+def _integer(value: Quotient) -> int:
+    top, low = value
+    if not (top.is_constant() and low.is_constant()):
+        raise ValueError("exponent is not a number")
+    number = top.leading_coefficient() / low.leading_coefficient() if top != 0 else fmpq(0)
+    if number.q != 1 or abs(number) > LARGEST_POWER:
+        raise ValueError("exponent too large")
+    return int(number.p)

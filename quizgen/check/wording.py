@@ -1,0 +1,66 @@
+"""Comparing words: folding case, hyphens and spelling variants; the nearest of known terms."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Iterable
+from functools import lru_cache
+
+from rapidfuzz.distance import OSA
+
+_BRITISH = (
+    ("colour", "color"),
+    ("grey", "gray"),
+    ("centre", "center"),
+    ("metre", "meter"),
+    ("isation", "ization"),
+    ("ise ", "ize "),
+    ("ising", "izing"),
+    ("fibre", "fiber"),
+    ("behaviour", "behavior"),
+    ("aluminium", "aluminum"),
+)
+_UMLAUTS = (("ä", "ae"), ("ö", "oe"), ("ü", "ue"), ("ß", "ss"))
+_ARTICLES = re.compile(r"^(?:the|an|a|der|die|das|ein|eine|it is|its) (?=\S)")
+_DASHES = re.compile(r"[-‐‑‒–—_/]")
+
+
+@lru_cache(maxsize=4096)
+def fold(text: str) -> str:
+    """Fold what does not matter in a word answer.
+
+    Case, blanks, hyphens, punctuation at the ends, articles, British spelling, umlauts written out
+    and decomposed letters are folded.
+    """
+    text = unicodedata.normalize("NFC", text)
+    text = unicodedata.normalize("NFKC", text).casefold()
+    text = _DASHES.sub(" ", text)
+    text = " ".join(text.split()).strip(" .,;:!?\"'()।")
+    text = _ARTICLES.sub("", text)
+    for old, new in (*_UMLAUTS, *_BRITISH):
+        text = text.replace(old, new)
+    return text.replace(" ", "")
+
+
+def budget(term: str) -> int:
+    """Typing slips allowed: none up to four letters, one up to eight, else two."""
+    return 0 if len(term) <= 4 else 1 if len(term) <= 8 else 2
+
+
+def nearest_terms(typed: str, terms: Iterable[str]) -> tuple[list[str], int]:
+    """Return the known terms nearest to a typed one, within the budget of each, and the distance.
+
+    A term that is near only because *another* known term is as near is not chosen: ties are
+    returned together.
+    """
+    folded = fold(typed)
+    best: list[str] = []
+    least = 3
+    for term in terms:
+        target = fold(term)
+        distance = OSA.distance(folded, target, score_cutoff=2)
+        if distance <= budget(target) and distance <= least:
+            best = [term] if distance < least else [*best, term]
+            least = distance
+    return best, least
