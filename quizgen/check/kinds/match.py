@@ -5,8 +5,6 @@ from __future__ import annotations
 import re
 from fractions import Fraction
 
-import msgspec
-
 from quizgen.check.echo import safe
 from quizgen.check.options import Options
 from quizgen.check.rewrites import normalise
@@ -86,7 +84,7 @@ def _right(second: str, right: dict[str, str]) -> str:
 def _tokens(text: str, left: dict[str, str]) -> list[tuple[str, str]]:
     """Cut into pairs: a left label, then what follows up to the next left label."""
     words = [fold(w) for w in _SEPARATORS.split(_ARROWS.sub(" ", text)) if fold(w)]
-    pieces: list[str] = msgspec.field(default_factory=list)
+    pieces: list[str] = []
     for word in words:
         label = next((name for name in left if word.startswith(name) and word != name), "")
         alone = word in left or not label or not _short(left, label)

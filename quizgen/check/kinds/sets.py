@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-import msgspec
 from flint import fmpq
 
 from quizgen.check.kinds.number import shown
@@ -36,7 +35,7 @@ _EMPTY = frozenset({"{}", "∅", "{ }", "()", "empty", "leer", "শূন্য"
 
 def check(spec: Spec, typed: str, options: Options) -> Verdict:
     """Judge a typed set."""
-    numbers: list[Number] = msgspec.field(default_factory=list)
+    numbers: list[Number] = []
     if typed.strip() not in _EMPTY:
         items, _ = read_list(typed, None, options.decimal)
         numbers, _, _ = read_all(items, spec.unit, None, options.decimal)
