@@ -181,10 +181,13 @@ def _part(drawn: Draw, lang: str, index: int, spec: Mapping[str, Any]) -> PartSo
         Mistake(trap, sentence(drawn, lang, "traps", trap), _wrong_text(spec, value))
         for trap, value in spec.get("traps", {}).items()
     )
+    label = drawn.template.labels[index]
+    if spec["kind"] == "text":
+        points = tuple(sentence(drawn, lang, "points", name) for name in spec["points"])
+        return PartSolution(label, lines, "", mistakes, points)
     options, _ = display(drawn, index)
     right = [options[i - 1][1] for i in spec.get("correct", ())] if options else []
     chosen = tuple(sentence(drawn, lang, "options", name) for name in right)
-    label = drawn.template.labels[index]
     return PartSolution(label, lines, answer_text(spec, lang), mistakes, chosen)
 
 

@@ -220,16 +220,22 @@ def _order(drawn: Draw, index: int, answer: Mapping[str, Any]) -> Spec:
 
 
 def _gap(drawn: Draw, _index: int, answer: Mapping[str, Any]) -> Spec:
-    gaps = []
-    for name in answer["gaps"]:
-        synonyms: list[str] = []
-        for text in drawn.template.texts.values():
-            words = text.sentence("gaps", drawn.words.get(name, name))
-            if words is None:
-                raise BankError(f"template {drawn.template.id!r}: no words for gap {name!r}")
-            synonyms += [w.strip() for w in plain(words).split("|")]
-        gaps.append(list(dict.fromkeys(synonyms)))
-    return {"accept": gaps}
+    return {"accept": [_synonyms(drawn, drawn.words.get(name, name)) for name in answer["gaps"]]}
+
+
+def _text(drawn: Draw, _index: int, answer: Mapping[str, Any]) -> Spec:
+    return {"points": {name: _synonyms(drawn, name) for name in answer["points"]}}
+
+
+def _synonyms(drawn: Draw, name: str) -> list[str]:
+    """Words of a gap or of a key point, from all languages."""
+    synonyms: list[str] = []
+    for text in drawn.template.texts.values():
+        words = text.sentence("gaps", name)
+        if words is None:
+            raise BankError(f"template {drawn.template.id!r}: no words for gap {name!r}")
+        synonyms += [w.strip() for w in plain(words).split("|")]
+    return list(dict.fromkeys(synonyms))
 
 
 def _as_written(_drawn: Draw, _index: int, _answer: Mapping[str, Any]) -> Spec:
@@ -253,5 +259,5 @@ BUILDERS: dict[str, Callable[[Draw, int, Mapping[str, Any]], Spec]] = {
     "expression": _as_written,
     "witness": _as_written,
     "code": _as_written,
-    "text": _as_written,
+    "text": _text,
 }
