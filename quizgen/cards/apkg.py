@@ -1,0 +1,208 @@
+"""Decks for Anki: ``.apkg`` files that are a function of the deck and nothing else.
+
+The file is a zip of an SQLite database in Anki's schema 11, a list of media and the media. Every id
+comes from a hash, every time from the content version; the archive is stored uncompressed with fixed
+times, because compressors differ between machines; and the version of SQLite that wrote the database
+is taken out of its header.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import json
+import re
+import sqlite3
+import zipfile
+from collections.abc import Iterator
+from html import unescape
+from typing import Any
+
+from quizgen.cards.deck import Deck
+from quizgen.cards.looks import FONT, NAMES, identity, note_type
+from quizgen.cards.note import Note
+from quizgen.cards.versions import BASE, modified
+from quizgen.locale import word
+
+ROOT = "Quizgen"
+_ZIP_TIME = (1980, 1, 1, 0, 0, 0)
+_TAGS = re.compile(r"<[^>]*>")
+_HEADER_VERSION = slice(96, 100)
+_SQLITE = (3_040_000).to_bytes(4, "big")
+
+_SCHEMA = """
+CREATE TABLE col (id integer primary key, crt integer not null, mod integer not null,
+  scm integer not null, ver integer not null, dty integer not null, usn integer not null,
+  ls integer not null, conf text not null, models text not null, decks text not null,
+  dconf text not null, tags text not null);
+CREATE TABLE notes (id integer primary key, guid text not null, mid integer not null,
+  mod integer not null, usn integer not null, tags text not null, flds text not null,
+  sfld integer not null, csum integer not null, flags integer not null, data text not null);
+CREATE TABLE cards (id integer primary key, nid integer not null, did integer not null,
+  ord integer not null, mod integer not null, usn integer not null, type integer not null,
+  queue integer not null, due integer not null, ivl integer not null, factor integer not null,
+  reps integer not null, lapses integer not null, left integer not null, odue integer not null,
+  odid integer not null, flags integer not null, data text not null);
+CREATE TABLE revlog (id integer primary key, cid integer not null, usn integer not null,
+  ease integer not null, ivl integer not null, lastIvl integer not null, factor integer not null,
+  time integer not null, type integer not null);
+CREATE TABLE graves (usn integer not null, oid integer not null, type integer not null);
+CREATE INDEX ix_notes_usn ON notes (usn);
+CREATE INDEX ix_cards_usn ON cards (usn);
+CREATE INDEX ix_revlog_usn ON revlog (usn);
+CREATE INDEX ix_cards_nid ON cards (nid);
+CREATE INDEX ix_cards_sched ON cards (did, queue, due);
+CREATE INDEX ix_revlog_cid ON revlog (cid);
+CREATE INDEX ix_notes_csum ON notes (csum);
+"""
+
+
+def package(deck: Deck) -> bytes:
+    """Write a deck as an ``.apkg`` file.
+
+    Parameters
+    ----------
+    deck : Deck
+
+    Returns
+    -------
+    bytes
+        The same for the same deck, in every process and on every machine.
+    """
+    media = {FONT: _font(), **deck.media}
+    names = sorted(media)
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w", zipfile.ZIP_STORED) as archive:
+        _add(archive, "collection.anki2", database(deck))
+        _add(archive, "media", json.dumps({str(i): n for i, n in enumerate(names)}).encode())
+        for index, name in enumerate(names):
+            _add(archive, str(index), media[name])
+    return out.getvalue()
+
+
+def _font() -> bytes:
+    from base64 import b64decode
+
+    from quizgen.render import fonts
+
+    return b64decode(fonts.bangla_uri().partition(",")[2])
+
+
+def _add(archive: zipfile.ZipFile, name: str, data: bytes) -> None:
+    entry = zipfile.ZipInfo(name, _ZIP_TIME)
+    entry.external_attr = 0o644 << 16
+    entry.create_system = 3
+    archive.writestr(entry, data)
+
+
+def database(deck: Deck) -> bytes:
+    """The collection as an SQLite file."""
+    connection = sqlite3.connect(":memory:")
+    try:
+        connection.execute("PRAGMA page_size = 4096")
+        connection.executescript(_SCHEMA)
+        _fill(connection, deck)
+        connection.commit()
+        data = bytearray(connection.serialize())
+    finally:
+        connection.close()
+    data[_HEADER_VERSION] = _SQLITE
+    return bytes(data)
+
+
+def _fill(connection: sqlite3.Connection, deck: Deck) -> None:
+    latest = max((modified(note, deck.seed) for note in deck.notes), default=BASE)
+    connection.execute(
+        "INSERT INTO col VALUES (1,?,?,?,11,0,0,0,?,?,?,?,'{}')",
+        (BASE, latest * 1000, BASE * 1000, *map(_json, _settings(deck))),
+    )
+    notes, cards = _numbers(deck)
+    connection.executemany(
+        "INSERT INTO notes VALUES (?,?,?,?,-1,?,?,?,?,0,'')",
+        (_note_row(notes[note.key], note, deck.seed) for note in deck.notes),
+    )
+    connection.executemany(
+        "INSERT INTO cards VALUES (?,?,?,?,?,-1,0,0,?,0,0,0,0,0,0,0,0,'')",
+        _card_rows(deck, notes, cards),
+    )
+
+
+def _json(table: Any) -> str:
+    return json.dumps(table, ensure_ascii=False, sort_keys=True)
+
+
+def _numbers(deck: Deck) -> tuple[dict[str, int], dict[tuple[str, int], int]]:
+    """Ids of notes and cards: from the key, and different for every deck that holds them."""
+    taken: set[int] = set()
+    notes = {note.key: _free(f"note/{note.key}", taken) for note in _by_key(deck)}
+    cards = {
+        (note.key, number): _free(f"card/{note.key}/{number}", taken)
+        for note in _by_key(deck)
+        for number in note.cards()
+    }
+    return notes, cards
+
+
+def _by_key(deck: Deck) -> list[Note]:
+    return sorted(deck.notes, key=lambda note: note.key)
+
+
+def _free(name: str, taken: set[int]) -> int:
+    number = identity(name)
+    while number in taken:
+        number += 1
+    taken.add(number)
+    return number
+
+
+def _note_row(number: int, note: Note, seed: int) -> tuple[Any, ...]:
+    fields = note.fields()
+    tags = f" {' '.join(note.tags)} "
+    checksum = int(hashlib.sha1(fields[0].encode(), usedforsecurity=False).hexdigest()[:8], 16)
+    kind = note_type(note.form)
+    sorted_by = unescape(_TAGS.sub("", fields[kind["sortf"]] or fields[2]))
+    return (number, note.guid, kind["id"], modified(note, seed), tags, "\x1f".join(fields),
+            sorted_by, checksum)  # fmt: skip
+
+
+def _card_rows(
+    deck: Deck, notes: dict[str, int], cards: dict[tuple[str, int], int]
+) -> Iterator[tuple[Any, ...]]:
+    for place, note in enumerate(deck.notes, 1):
+        for number in note.cards():
+            yield (cards[note.key, number], notes[note.key], identity(deck_name(note.topic)),
+                   number, modified(note, deck.seed), place)  # fmt: skip
+
+
+def deck_name(topic: str) -> str:
+    """Name of a topic's sub-deck: English in every language, so that decks meet in one place."""
+    return f"{ROOT}::{word('en', f'topic.{topic}')}"
+
+
+def _settings(deck: Deck) -> tuple[dict[str, Any], ...]:
+    names = [ROOT, *sorted({deck_name(note.topic) for note in deck.notes})]
+    decks = {str(identity(name)): _deck(identity(name), name) for name in names}
+    decks["1"] = _deck(1, "Default")
+    models = {str(note_type(form)["id"]): note_type(form) for form in NAMES}
+    conf = {"curDeck": identity(ROOT), "activeDecks": [identity(ROOT)], "nextPos": 1,
+            "curModel": note_type("basic")["id"], "sortType": "noteFld", "newSpread": 0}  # fmt: skip
+    return conf, models, decks, {"1": _options()}
+
+
+def _deck(number: int, name: str) -> dict[str, Any]:
+    today = {f"{kind}Today": [0, 0] for kind in ("new", "rev", "lrn", "time")}
+    return {"id": number, "name": name, "mod": BASE, "usn": -1, "desc": "", "dyn": 0, "conf": 1,
+            "extendNew": 0, "extendRev": 0, "collapsed": False, "browserCollapsed": True,
+            **today}  # fmt: skip
+
+
+def _options() -> dict[str, Any]:
+    return {
+        "id": 1, "name": "Default", "mod": 0, "usn": 0, "maxTaken": 60, "autoplay": True,
+        "timer": 0, "replayq": True, "dyn": False,
+        "new": {"bury": True, "delays": [1.0, 10.0], "initialFactor": 2500, "ints": [1, 4, 7],
+                "order": 1, "perDay": 20},
+        "rev": {"bury": True, "ease4": 1.3, "fuzz": 0.05, "hardFactor": 1.2, "ivlFct": 1.0,
+                "maxIvl": 36500, "perDay": 200},
+        "lapse": {"delays": [10.0], "leechAction": 1, "leechFails": 8, "minInt": 1, "mult": 0.0},
+    }  # fmt: skip

@@ -1,0 +1,126 @@
+"""From a wish (languages, topics, kinds, seed) to a deck of notes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from importlib import import_module
+from typing import Any
+
+from quizgen.bank import Bank, builtin
+from quizgen.cards.kinds import KINDS
+from quizgen.cards.note import Note
+from quizgen.errors import BankError
+from quizgen.exam import languages
+from quizgen.locale import table
+
+SEED = 0
+
+
+@dataclass(frozen=True)
+class Wish:
+    """What the deck should hold.
+
+    Parameters
+    ----------
+    langs : tuple of str
+        Languages, the leading one first.
+    topics : tuple of str
+        Only these topics; all if empty.
+    seed : int
+        Fixes the numbers of the worked questions.
+    bank : Bank
+        Where the questions come from.
+    """
+
+    langs: tuple[str, ...] = ("en",)
+    topics: tuple[str, ...] = ()
+    seed: int = SEED
+    bank: Bank = field(default_factory=builtin)
+
+    def wants(self, topic: str) -> bool:
+        """Whether a topic is asked for."""
+        return not self.topics or topic in self.topics
+
+
+@dataclass(frozen=True)
+class Deck:
+    """Notes in the order in which they are to be learnt.
+
+    Parameters
+    ----------
+    notes : tuple of Note
+    langs : tuple of str
+    seed : int
+    """
+
+    notes: tuple[Note, ...]
+    langs: tuple[str, ...] = ("en",)
+    seed: int = SEED
+
+    @property
+    def cards(self) -> int:
+        """How many cards the notes give."""
+        return sum(len(note.cards()) for note in self.notes)
+
+    @cached_property
+    def media(self) -> Mapping[str, bytes]:
+        """Media file name to content, each once."""
+        return {
+            picture.file: picture.data for note in self.notes for picture in note.media()
+        }
+
+
+def known_topics() -> tuple[str, ...]:
+    """Topics by which a deck can be narrowed down."""
+    return tuple(table("en")["topic"])
+
+
+def build(
+    lang: str = "en",
+    *,
+    topics: tuple[str, ...] = (),
+    kinds: tuple[str, ...] = (),
+    seed: int = SEED,
+    bank: Bank | None = None,
+) -> Deck:
+    """Make a deck.
+
+    Parameters
+    ----------
+    lang : str
+        ``en``, ``bn`` or ``both``.
+    topics, kinds : tuple of str
+        Only these; all if empty.
+    seed : int
+        Fixes the numbers of the worked questions.
+    bank : Bank, optional
+        Where the questions come from; the built-in bank if left out.
+
+    Raises
+    ------
+    BankError
+        If a topic or a kind is unknown, or content is wrong.
+    """
+    _check(topics, known_topics(), "topic")
+    _check(kinds, tuple(KINDS), "kind")
+    wish = Wish(languages(lang), topics, seed, builtin() if bank is None else bank)
+    return Deck(tuple(_notes(wish, kinds or tuple(KINDS))), wish.langs, seed)
+
+
+def _check(names: tuple[str, ...], allowed: tuple[str, ...], what: str) -> None:
+    for name in names:
+        if name not in allowed:
+            raise BankError(f"unknown {what} {name!r} (there are {', '.join(allowed)})")
+
+
+def _notes(wish: Wish, kinds: tuple[str, ...]) -> Iterator[Note]:
+    from quizgen.cards.versions import version_of
+
+    for kind in KINDS:
+        if kind in kinds:
+            module: Any = import_module(KINDS[kind])
+            for note in module.notes(wish):
+                if wish.wants(note.topic):
+                    yield replace(note, version=version_of(note))

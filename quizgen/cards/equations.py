@@ -1,0 +1,182 @@
+"""Formula lines of the content: a chain of sides, each in the grammar that students type.
+
+The grammar has no integrals, no probability of an event and no vectors. Such a piece gets a letter
+in the line and is described under ``with``::
+
+    lines = ["B = K_m*I"]
+    with.I = { integral = "L*R*V", over = "lambda" }
+
+====================  ==========================================================================
+``integral, over``    integral of a product over a variable; ``low``, ``high`` are its bounds
+``apply, to``         a named function of one or more formulas: ``{ apply = "P", to = ["s*p"] }``
+``tuple``             a point: ``{ tuple = ["C", "X", "0"] }``
+``interval, ends``    ``{ interval = ["0", "360"], ends = "[)" }``
+``bold``              a vector's letter
+``quadratic``         ``{ quadratic = ["v", "Sigma"] }``: v transposed, inverse of Sigma, v
+``accent, on``        ``bar``, ``hat`` or ``tilde`` on a letter that already has an index
+``letter``            another spelling: ``{ letter = "𝒩" }``
+====================  ==========================================================================
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+from quizgen import formula
+from quizgen.errors import BankError, FormulaError, RenderError
+from quizgen.formula.build import RELATIONS
+from quizgen.formula.nodes import PRODUCT, RELATION, Big, Func, Ident, Node, Number, Op, Row, Scripts
+from quizgen.reader import parse
+from quizgen.solution import Maths
+
+Inside = Mapping[str, Mapping[str, Any]]
+
+_BEYOND = "∝≈→∈~≪≫⇒"
+_SIGN = re.compile(r"\s(≠|!=|<=|>=|≤|≥|[=<>" + _BEYOND + r"])\s")
+_SPELLED = {"!=": "≠", "<=": "≤", ">=": "≥"}
+_NAME = re.compile(r"[^\W\d_][^\W_]*'*(?:_[^\W_]+'*)*")
+
+
+def sides(line: str, inside: Inside, where: str) -> tuple[list[str], list[Maths]]:
+    """Take a line apart into relation signs and printed sides.
+
+    Parameters
+    ----------
+    line : str
+        Sides with relation signs between blanks, for example ``E ∝ D^2 ∝ 1/N_f^2``.
+    inside : mapping
+        Pieces that the grammar does not have.
+    where : str
+        For errors.
+
+    Returns
+    -------
+    (list of str, list of Maths)
+        One sign fewer than sides.
+
+    Raises
+    ------
+    BankError
+        Naming the place and the column.
+    """
+    pieces = _SIGN.split(line)
+    signs = [_SPELLED.get(sign, sign) for sign in pieces[1::2]]
+    if not set(signs) <= RELATIONS:
+        raise BankError(f"{where}: {line!r} has an unknown relation sign")
+    return signs, [side(text, inside, where) for text in pieces[::2]]
+
+
+def side(text: str, inside: Inside, where: str) -> Maths:
+    """Print one side.
+
+    Raises
+    ------
+    BankError
+        Naming the place and the column.
+    """
+    try:
+        leaves = {name: piece(table, inside) for name, table in inside.items()}
+        node = formula.layout(parse(text), leaves={name: made.node for name, made in leaves.items()})
+    except (FormulaError, RenderError) as error:
+        raise BankError(f"{where}: {text!r}: {error}") from error
+    typed = _NAME.sub(lambda m: leaves[m[0]].typed if m[0] in leaves else m[0], text)
+    return Maths(node, typed)
+
+
+def piece(table: Mapping[str, Any], inside: Inside) -> Maths:
+    """Print a piece that the grammar does not have.
+
+    Raises
+    ------
+    RenderError
+        If nothing is known by this description.
+    """
+    for name, make in _PIECES.items():
+        if name in table:
+            return make(table, {k: v for k, v in inside.items() if v is not table})
+    raise RenderError(f"unknown piece {dict(table)!r} (there are {', '.join(_PIECES)})")
+
+
+def _part(text: str, inside: Inside) -> Maths:
+    signs, parts = sides(text, inside, "with")
+    if not signs:
+        return parts[0]
+    node = formula.relation(signs, [part.node for part in parts])
+    return Maths(node, " ".join(_woven([part.typed for part in parts], signs)))
+
+
+def _woven(parts: list[str], signs: list[str]) -> Iterator[str]:
+    yield parts[0]
+    for sign, part in zip(signs, parts[1:], strict=True):
+        yield from (sign, part)
+
+
+def _integral(table: Mapping[str, Any], inside: Inside) -> Maths:
+    body, over = _part(table["integral"], inside), table["over"]
+    bounds = [_part(table[end], inside) for end in ("low", "high") if end in table]
+    sign = Big("∫", *[bound.node for bound in bounds])
+    factors = body.node.items if isinstance(body.node, Row) else (body.node,)
+    small = Row((Op(" "), Ident("d"), formula.name(over)))
+    ends = f"[{bounds[0].typed}, {bounds[1].typed}] " if bounds else ""
+    return Maths(Row((sign, *factors, small), PRODUCT), f"∫ {ends}{body.typed} d{over}")
+
+
+def _apply(table: Mapping[str, Any], inside: Inside) -> Maths:
+    given = table["to"] if isinstance(table["to"], list) else [table["to"]]
+    parts = [_part(text, inside) for text in given]
+    head = table["apply"]
+    node = Func(_letter({"letter": head}, inside).node, tuple(part.node for part in parts))
+    return Maths(node, f"{head}({', '.join(part.typed for part in parts)})")
+
+
+def _tuple(table: Mapping[str, Any], inside: Inside) -> Maths:
+    parts = [_part(text, inside) for text in table["tuple"]]
+    typed = ", ".join(part.typed for part in parts)
+    return Maths(formula.fenced([part.node for part in parts]), f"({typed})")
+
+
+def _interval(table: Mapping[str, Any], inside: Inside) -> Maths:
+    parts = [_part(text, inside) for text in table["interval"]]
+    left, right = table["ends"]
+    typed = f"{left}{', '.join(part.typed for part in parts)}{right}"
+    return Maths(formula.fenced([part.node for part in parts], table["ends"]), typed)
+
+
+def _bold(table: Mapping[str, Any], inside: Inside) -> Maths:
+    del inside
+    return Maths(Ident(table["bold"], bold=True), str(table["bold"]))
+
+
+def _quadratic(table: Mapping[str, Any], inside: Inside) -> Maths:
+    vector, matrix = (_part(text, inside) for text in table["quadratic"])
+    held = formula.bracketed(vector.node, RELATION + 8)
+    inverse = Scripts(matrix.node, None, formula.negative(Number("1")))
+    turned = formula.power(held, Op("ᵀ"))
+    node = Row((turned, Op(""), inverse, Op(""), held), PRODUCT)
+    return Maths(node, f"({vector.typed})^T {matrix.typed}^-1 ({vector.typed})")
+
+
+def _accent(table: Mapping[str, Any], inside: Inside) -> Maths:
+    del inside
+    name = f"{table['on']}_{table['accent']}"
+    return Maths(formula.name(name), name)
+
+
+def _letter(table: Mapping[str, Any], inside: Inside) -> Maths:
+    del inside
+    text = table["letter"]
+    return Maths(Ident(text) if len(text) == 1 else formula.name(text), text)
+
+
+_PIECES: dict[str, Callable[[Mapping[str, Any], Inside], Maths]] = {
+    "integral": _integral,
+    "apply": _apply,
+    "tuple": _tuple,
+    "interval": _interval,
+    "bold": _bold,
+    "quadratic": _quadratic,
+    "accent": _accent,
+    "letter": _letter,
+}

@@ -1,0 +1,28 @@
+"""The cheat sheet, entry by entry."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from quizgen.cards.content import entries, passage
+from quizgen.cards.deck import Wish
+from quizgen.cards.note import Note
+
+
+def notes(wish: Wish) -> Iterator[Note]:
+    """One note per entry of the cheat sheet."""
+    for entry in entries("cheat"):
+        yield Note(
+            key=f"cheat/{entry.id}",
+            kind="cheat",
+            form="basic",
+            topic=entry.topic,
+            tier=entry.tier,
+            section=entry.section,
+            refs=entry.refs,
+            langs=wish.langs,
+            words={
+                "Front": {lang: passage(entry, "ask", lang) for lang in wish.langs},
+                "Back": {lang: passage(entry, "answer", lang) for lang in wish.langs},
+            },
+        )

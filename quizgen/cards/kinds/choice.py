@@ -1,0 +1,66 @@
+"""Multiple-choice twins of the vocabulary: which of four related terms is meant?"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator, Sequence
+
+from quizgen.cards.content import Term, entries, passage, sentence, words
+from quizgen.cards.deck import Wish
+from quizgen.cards.note import Blocks, Note
+from quizgen.cards.prose import Label
+from quizgen.text import Paragraph, Styled, Words
+
+LETTERS = "ABCD"
+
+
+def notes(wish: Wish) -> Iterator[Note]:
+    """One note per term; the distractors are its neighbours, in a fixed order."""
+    terms: Sequence[Term] = entries("vocabulary")
+    for entry in terms:
+        options = choices(entry, terms)
+        yield Note(
+            key=f"choice/{entry.id}",
+            kind="choice",
+            form="basic",
+            topic=entry.topic,
+            tier=entry.tier,
+            section=entry.section,
+            refs=(f"V{entry.number:02}",),
+            langs=wish.langs,
+            words={
+                "Front": {lang: _front(entry, options, lang) for lang in wish.langs},
+                "Back": {lang: _back(entry, options, lang) for lang in wish.langs},
+            },
+        )
+
+
+def choices(entry: Term, terms: Sequence[Term]) -> list[Term]:
+    """Four terms in a fixed order: this one, and three of its group, else its neighbours."""
+    others = [other for other in terms if other.id != entry.id]
+    others.sort(key=lambda other: (other.group != entry.group, abs(other.number - entry.number)
+                                   if other.group != entry.group else 0, _rank(entry, other)))  # fmt: skip
+    return sorted([entry, *others[: len(LETTERS) - 1]], key=lambda term: _rank(entry, term))
+
+
+def _rank(entry: Term, other: Term) -> bytes:
+    return hashlib.sha256(f"choice/{entry.id}/{other.id}".encode()).digest()
+
+
+def _front(entry: Term, options: list[Term], lang: str) -> Blocks:
+    lines = [
+        Paragraph((Styled("strong", (Words(f"{letter} "),)), *_name(option, lang)))
+        for letter, option in zip(LETTERS, options, strict=True)
+    ]
+    return (Label(words(lang)["which"]), *passage(entry, "meaning", lang), *lines)
+
+
+def _back(entry: Term, options: list[Term], lang: str) -> Blocks:
+    letter = LETTERS[options.index(entry)]
+    return (Paragraph((Styled("strong", (Words(f"{letter} "),)), *_name(entry, lang))),)
+
+
+def _name(entry: Term, lang: str) -> Blocks:
+    if lang == "en":
+        return sentence(entry, "term", "en")
+    return (*sentence(entry, "term", "en"), Words(" – "), *sentence(entry, "term", "bn"))

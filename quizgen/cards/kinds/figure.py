@@ -1,0 +1,39 @@
+"""Figure to term: what does the picture show, and how can you tell?"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from quizgen.cards import pictures
+from quizgen.cards.content import FigureEntry, entries, passage
+from quizgen.cards.deck import Wish
+from quizgen.cards.note import Note
+from quizgen.cards.prose import Picture
+
+
+def notes(wish: Wish) -> Iterator[Note]:
+    """One note per figure: the quiz version on the front, the full one on the back."""
+    for entry in entries("figures"):
+        yield Note(
+            key=f"figure/{entry.id}",
+            kind="figure",
+            form="basic",
+            topic=entry.topic,
+            tier=entry.tier,
+            section=entry.section,
+            refs=(entry.id, *entry.refs),
+            langs=wish.langs,
+            words={
+                "Front": {lang: passage(entry, "ask", lang) for lang in wish.langs},
+                "Back": {lang: passage(entry, "answer", lang) for lang in wish.langs},
+            },
+            shared={
+                "Figure": (_picture(entry, wish.langs, quiz=True),),
+                "Answer figure": (_picture(entry, wish.langs, quiz=False),),
+            },
+        )
+
+
+def _picture(entry: FigureEntry, langs: tuple[str, ...], *, quiz: bool) -> Picture:
+    drawn = [pictures.draw(entry.figure, entry.values, quiz=quiz, lang=lang) for lang in langs]
+    return Picture(entry.figure, drawn[0], " / ".join(figure.alt for figure in drawn))

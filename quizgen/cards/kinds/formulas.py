@@ -1,0 +1,70 @@
+"""Formulas as cloze cards: the right-hand side is hidden, written once and printed for MathJax."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from quizgen import formula
+from quizgen.cards.content import FormulaEntry, entries, passage, sentence
+from quizgen.cards.deck import Wish
+from quizgen.cards.equations import sides
+from quizgen.cards.note import Note
+from quizgen.cards.prose import Hole
+from quizgen.errors import BankError
+from quizgen.formula.nodes import Row
+from quizgen.solution import Maths
+from quizgen.text import Paragraph
+
+
+def notes(wish: Wish) -> Iterator[Note]:
+    """One note per formula; a formula of several lines hides them together or one by one."""
+    for entry in entries("formulas"):
+        yield Note(
+            key=f"formula/{entry.id}",
+            kind="formula",
+            form="cloze",
+            topic=entry.topic,
+            tier=entry.tier,
+            section=entry.section,
+            refs=(entry.id, *entry.refs),
+            langs=wish.langs,
+            words={
+                "Title": {
+                    lang: (Paragraph(sentence(entry, "title", lang)),) for lang in wish.langs
+                },
+                "Extra": {
+                    lang: (*passage(entry, "about", lang), *passage(entry, "beware", lang))
+                    for lang in wish.langs
+                },
+            },
+            shared={"Text": tuple(_holes(entry))},
+        )
+
+
+def _holes(entry: FormulaEntry) -> Iterator[Hole]:
+    for index, line in enumerate(entry.lines):
+        signs, parts = sides(line, entry.inside, f"formulas.toml: card {entry.id!r}")
+        if not signs:
+            raise BankError(f"formulas.toml: card {entry.id!r}: {line!r} has no sides")
+        yield Hole(
+            _shown(parts[0], signs[0]),
+            _joined(parts[1:], signs[1:]),
+            index + 1 if entry.separate else 1,
+        )
+
+
+def _shown(left: Maths, sign: str) -> Maths:
+    """The left side with the sign after it."""
+    node = formula.relation([sign], [left.node, Row(())])
+    return Maths(node, f"{left.typed} {sign}")
+
+
+def _joined(parts: list[Maths], signs: list[str]) -> Maths:
+    if not signs:
+        return parts[0]
+    typed = parts[0].typed
+    for sign, part in zip(signs, parts[1:], strict=True):
+        typed += f" {sign} {part.typed}"
+    return Maths(formula.relation(signs, [part.node for part in parts]), typed)
+
+

@@ -1,0 +1,166 @@
+"""Worked questions: fresh numbers per seed, the answer with all its steps on the back."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from quizgen.cards.content import entries, words
+from quizgen.cards.deck import Wish
+from quizgen.cards.note import Blocks, Note
+from quizgen.cards.prose import Display, Fold, Label, Picture
+from quizgen.cards.versions import template_version
+from quizgen.locale import word
+from quizgen.question import Key, Part, Question, instance, put_into_words
+from quizgen.solution import Line, PartSolution
+from quizgen.template import Template
+from quizgen.text import Items, Paragraph, Styled, Words
+
+SLOT = "card"
+"""The place of a card in the draw: the same for every template, so only the seed changes it."""
+
+Pair = tuple[Question, Key]
+
+
+def notes(wish: Wish) -> Iterator[Note]:
+    """One note per template of the bank that is written in the languages asked for."""
+    for name in wish.bank.paths:
+        if wish.wants(wish.bank.rules(name).topic):
+            template = wish.bank.template(name)
+            if set(wish.langs) <= set(template.languages):
+                yield note(template, wish)
+
+
+def note(template: Template, wish: Wish) -> Note:
+    """The worked question of one template.
+
+    Parameters
+    ----------
+    template : Template
+    wish : Wish
+        Its seed fixes the numbers; the note's identity does not depend on them.
+    """
+    drawn = instance(template, wish.seed, SLOT)
+    pairs = {lang: put_into_words(drawn, lang, number="") for lang in wish.langs}
+    return Note(
+        key=f"question/{template.id}",
+        kind="question",
+        form="basic",
+        topic=template.rules.topic,
+        tier=template.rules.tier,
+        section=section_of(template.rules.covers, template.rules.topic),
+        refs=tuple(dict.fromkeys((template.id, *template.rules.covers))),
+        langs=wish.langs,
+        words={
+            "Front": {lang: front(question) for lang, (question, _) in pairs.items()},
+            "Back": _once({lang: answers(key) for lang, (_, key) in pairs.items()}),
+            "More": {lang: _more(key) for lang, (_, key) in pairs.items()},
+        },
+        shared=shared(pairs),
+        version=template_version(template),
+    )
+
+
+def section_of(covers: tuple[str, ...], topic: str) -> str:
+    """Section of the notes that a question belongs to: that of its formula, else of its topic."""
+    formulas = {entry.id: entry.section for entry in entries("formulas")}
+    found = [formulas[ref] for ref in covers if ref in formulas]
+    by_topic = [entry.section for entry in entries("vocabulary") if entry.topic == topic]
+    return (found or by_topic or [""])[0]
+
+
+def shared(pairs: dict[str, Pair]) -> dict[str, Blocks]:
+    """What all languages share: figures, and the worked lines with a sentence per language."""
+    asked = {lang: question.figure for lang, (question, _) in pairs.items()}
+    solved = {lang: key.figure for lang, (_, key) in pairs.items()}
+    template = next(iter(pairs.values()))[0].template
+    return {
+        "Figure": _picture(template, asked),
+        "Work": _work([key for _, key in pairs.values()]),
+        "Answer figure": _picture(template, solved),
+    }
+
+
+def _picture(template: str, figures: dict[str, Any]) -> Blocks:
+    drawn = [figure for figure in figures.values() if figure is not None]
+    if not drawn:
+        return ()
+    return (Picture(template, drawn[0], " / ".join(figure.alt for figure in drawn)),)
+
+
+def front(question: Question) -> Blocks:
+    """The question as it is asked, with its lettered options."""
+    asked: list[Any] = [Label(question.title), *question.stem]
+    for part in question.parts:
+        asked += _asked(part)
+    return tuple(asked)
+
+
+def _asked(part: Part) -> Iterator[Any]:
+    body = part.body
+    if part.label:
+        label = Styled("strong", (Words(f"({part.label}) "),))
+        first, *rest = body
+        lead = first.children if isinstance(first, Paragraph) else ()
+        yield Paragraph((label, *lead))
+        yield from rest if lead else body
+    else:
+        yield from body
+    for mark, text in part.field.options:
+        yield Paragraph((Styled("strong", (Words(f"{mark} "),)), *text))
+    if part.field.targets:
+        targets = [(Paragraph(text),) for _, text in part.field.targets]
+        yield Items(tuple(targets), ordered=True)
+
+
+def answers(key: Key) -> Blocks:
+    """The answer of every part."""
+    return tuple(_answer(part) for part in key.solution.parts)
+
+
+def _once(said: dict[str, Blocks]) -> dict[str, Blocks]:
+    """An answer of numbers reads the same in every language: it stands there once."""
+    main, *others = said
+    return {main: said[main]} | {lang: said[lang] for lang in others if said[lang] != said[main]}
+
+
+def _answer(part: PartSolution) -> Paragraph:
+    label = f"({part.label}) " if part.label else ""
+    said: list[Any] = [Styled("strong", (Words(f"{label}{part.answer}"),))]
+    for option in part.options:
+        said += [Words(" – "), *option]
+    return Paragraph(tuple(said))
+
+
+def _work(keys: list[Key]) -> Blocks:
+    lines: list[Any] = []
+    for index, part in enumerate(keys[0].solution.parts):
+        lines += [Label(f"({part.label})")] if part.label and part.lines else []
+        whys = zip(*(key.solution.parts[index].lines for key in keys), strict=True)
+        for same in whys:
+            lines += _step(same)
+    return tuple(lines)
+
+
+def _step(same: tuple[Line, ...]) -> Iterator[Any]:
+    yield Display(same[0].maths)
+    for line in same:
+        yield Paragraph(line.why)
+
+
+def _more(key: Key) -> Blocks:
+    """What is worth a look after the answer: how to check it, and the known mistakes."""
+    lang, solution = key.solution.lang, key.solution
+    found: list[Any] = []
+    if solution.check:
+        found.append(Fold(word(lang, "solution.check"), solution.check))
+    mistakes = [
+        (Paragraph((Words(f"{mistake.value} – "), *mistake.sentence)),)
+        for part in solution.parts
+        for mistake in part.mistakes
+    ]
+    if mistakes:
+        found.append(Fold(word(lang, "solution.mistakes"), (Items(tuple(mistakes)),)))
+    if solution.note:
+        found.append(Fold(words(lang)["notes"], solution.note))
+    return tuple(found)

@@ -1,0 +1,38 @@
+"""True or false, and why."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from quizgen.cards.content import Statement, entries, passage, words
+from quizgen.cards.deck import Wish
+from quizgen.cards.note import Blocks, Note
+from quizgen.cards.prose import Label
+from quizgen.text import Paragraph, Styled, Words
+
+
+def notes(wish: Wish) -> Iterator[Note]:
+    """One note per statement."""
+    for entry in entries("statements"):
+        yield Note(
+            key=f"truth/{entry.id}",
+            kind="truth",
+            form="basic",
+            topic=entry.topic,
+            tier=entry.tier,
+            section=entry.section,
+            refs=entry.refs,
+            langs=wish.langs,
+            words={
+                "Front": {
+                    lang: (Label(words(lang)["truth"]), *passage(entry, "text", lang))
+                    for lang in wish.langs
+                },
+                "Back": {lang: _verdict(entry, lang) for lang in wish.langs},
+            },
+        )
+
+
+def _verdict(entry: Statement, lang: str) -> Blocks:
+    verdict = Words(words(lang)["true" if entry.true else "false"])
+    return Paragraph((Styled("strong", (verdict,)),)), *passage(entry, "why", lang)

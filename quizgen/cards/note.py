@@ -1,0 +1,148 @@
+"""A note: one fact to learn, in the languages asked for, and the cards that ask for it.
+
+A note has a *form*. ``basic`` asks a question and gives the answer; ``term`` asks term to meaning,
+meaning to term and Bangla to English; ``cloze`` hides sides of formulas. What stands in which field
+is decided here, once, for Anki and for tables alike.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from quizgen.cards.prose import Hole, Picture, html, pictures, plain
+
+Blocks = tuple[Any, ...]
+Words = Mapping[str, Blocks]
+"""Language to blocks."""
+
+FIELDS: dict[str, tuple[str, ...]] = {
+    "basic": ("Key", "Front", "Front bn", "Figure", "Back", "Back bn", "Work", "Answer figure",
+              "More", "More bn", "Source"),
+    "term": ("Key", "Term", "Term bn", "Meaning", "Meaning bn", "Source"),
+    "cloze": ("Key", "Title", "Title bn", "Text", "Extra", "Extra bn", "Source"),
+}  # fmt: skip
+"""Form to the fields of its note type. English and Bangla have a field each, the rest is shared."""
+
+BILINGUAL = {"basic": ("Front", "Back", "More"), "term": ("Term", "Meaning"),
+             "cloze": ("Title", "Extra")}  # fmt: skip
+FACES = {"basic": ("Question",), "term": ("Term", "Meaning", "Bangla")}
+
+
+@dataclass(frozen=True)
+class Note:
+    """One note.
+
+    Parameters
+    ----------
+    key : str
+        Stable name, for example ``vocab/pixel``: what makes it the same note on re-import.
+    kind : str
+        ``vocab``, ``formula``, ``cheat``, ``trap``, ``figure``, ``question``, ...
+    form : str
+        A key of ``FIELDS``.
+    topic, tier, section : str
+        Sub-deck and tags.
+    refs : tuple of str
+        Curriculum ids, as tags.
+    words : mapping
+        Field to language to blocks, for the fields in ``BILINGUAL``.
+    shared : mapping
+        Field to blocks that need no translation (formulas, figures).
+    version : int
+        Rises when the content changes.
+    """
+
+    key: str
+    kind: str
+    form: str
+    topic: str
+    tier: str
+    words: Mapping[str, Words]
+    section: str = ""
+    refs: tuple[str, ...] = ()
+    shared: Mapping[str, Blocks] = field(default_factory=dict)
+    version: int = 1
+    langs: tuple[str, ...] = ("en",)
+
+    @property
+    def guid(self) -> str:
+        """Identity of the note in Anki: from the key, never from its text or language."""
+        return hashlib.sha256(f"quizgen/{self.key}".encode()).hexdigest()[:20]
+
+    @property
+    def source(self) -> str:
+        """The small line at the foot: where the note comes from."""
+        place = f"§{self.section}" if self.section else ""
+        return " · ".join(part for part in (*self.refs[:1], place, self.tier) if part)
+
+    @property
+    def tags(self) -> tuple[str, ...]:
+        """Tags of kind, tier, section, language and curriculum id."""
+        named = [f"kind::{self.kind}", f"tier::{self.tier}"]
+        named += [f"section::{self.section}"] if self.section else []
+        named += [f"lang::{lang}" for lang in self.langs]
+        named += [f"ref::{ref}" for ref in self.refs]
+        return tuple(sorted(f"quizgen::{name}" for name in named))
+
+    def fields(self) -> tuple[str, ...]:
+        """HTML of every field of the note type, in order; a language not asked for is empty."""
+        filled = {"Key": self.key, "Source": self.source}
+        main = self.langs[0]
+        filled |= {name: html(blocks, main) for name, blocks in self.shared.items()}
+        for name, words in self.words.items():
+            filled |= {
+                name if lang == "en" else f"{name} {lang}": html(blocks, lang)
+                for lang, blocks in words.items()
+            }
+        return tuple(filled.get(name, "") for name in FIELDS[self.form])
+
+    def media(self) -> tuple[Picture, ...]:
+        """Pictures on the note."""
+        return pictures(tuple(self.shared.values()))
+
+    def cards(self) -> tuple[int, ...]:
+        """Numbers of the cards that the note gives, as Anki counts them (from 0)."""
+        if self.form == "cloze":
+            holes = {part.number for part in self.shared["Text"] if isinstance(part, Hole)}
+            return tuple(sorted(number - 1 for number in holes))
+        if self.form == "term":
+            return (0, 1, 2) if "bn" in self.words["Term"] else (0, 1)
+        return (0,)
+
+    def sides(self) -> Iterator[tuple[str, Blocks, Blocks]]:
+        """Each card as (name, front, back), for programs that know nothing but two sides."""
+        if self.form == "term":
+            yield from self._term_sides()
+        elif self.form == "cloze":
+            text = self.shared["Text"]
+            yield "Formula", (*self.said("Title"), *text), (*text, *self.said("Extra"))
+        else:
+            front = (*self.said("Front"), *self.shared.get("Figure", ()))
+            shared = (*self.shared.get("Work", ()), *self.shared.get("Answer figure", ()))
+            yield "Question", front, (*self.said("Back"), *shared, *self.said("More"))
+
+    def _term_sides(self) -> Iterator[tuple[str, Blocks, Blocks]]:
+        term, meaning = self.words["Term"]["en"], self.said("Meaning")
+        bangla = self.words["Term"].get("bn", ())
+        yield "Term", term, (*meaning, *bangla)
+        yield "Meaning", meaning, (*term, *bangla)
+        if bangla:
+            yield "Bangla", bangla, (*term, *meaning)
+
+    def said(self, name: str) -> Blocks:
+        """A field in every language of the note, one after the other."""
+        words = self.words.get(name, {})
+        return tuple(part for lang in self.langs for part in words.get(lang, ()))
+
+
+def side_html(blocks: Blocks, lang: str, *, ask: bool) -> str:
+    """One side of a card as HTML, without Anki's own marks."""
+    return html(blocks, lang, ask=ask)
+
+
+def side_text(blocks: Blocks, *, ask: bool) -> str:
+    """One side of a card as plain text."""
+    return plain(blocks, ask=ask).strip()

@@ -1,0 +1,31 @@
+"""The figures on cards: those of the questions."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from quizgen import figures
+from quizgen.figures import Figure
+
+
+def draw(name: str, values: Mapping[str, Any], *, quiz: bool, lang: str) -> Figure:
+    """Draw a figure.
+
+    Parameters
+    ----------
+    name : str
+        A figure of ``quizgen.figures``.
+    values : mapping
+        Its parameters.
+    quiz : bool
+        Hide what is asked.
+    lang : str
+        Language of the alt text.
+
+    Raises
+    ------
+    BankError
+        If the figure or a parameter is unknown.
+    """
+    return figures.render(name, values, quiz=quiz, lang=lang)

@@ -1,0 +1,325 @@
+r"""What stands on a card, written as HTML with MathJax or as plain text.
+
+The blocks of ``quizgen.text`` are used as they are; a card adds five of its own: a worked line, a
+picture, a formula with a hidden side, a part that folds, and a label.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from dataclasses import dataclass
+from functools import singledispatch
+from html import escape
+from typing import Any
+
+from quizgen import formula
+from quizgen.figures import Figure
+from quizgen.formula.nodes import RELATION, Node, Op, Row
+from quizgen.solution import Maths
+from quizgen.text import Code, CodeBlock, Items, Paragraph, Styled, Table, Words
+
+_TITLE = re.compile(rb"<title>.*?</title>", re.DOTALL)
+_LANG = re.compile(rb' lang="[a-z]+"')
+
+
+@dataclass(frozen=True, slots=True)
+class Display:
+    """A formula on a line of its own; a chain of equations may wrap at its signs."""
+
+    maths: Maths
+
+
+@dataclass(frozen=True, slots=True)
+class Hole:
+    """A formula of which one side is asked: what is shown, and the hidden rest with its number."""
+
+    shown: Maths
+    hidden: Maths
+    number: int
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """A figure with its alt text."""
+
+    name: str
+    figure: Figure
+    alt: str
+
+    @property
+    def data(self) -> bytes:
+        """The drawing without its title, so that every language shares one file."""
+        return _LANG.sub(b"", _TITLE.sub(b"", self.figure.svg, count=1), count=1)
+
+    @property
+    def file(self) -> str:
+        """Name of the media file: unique for its content."""
+        return f"qg_{self.name}_{hashlib.sha256(self.data).hexdigest()[:12]}.svg"
+
+
+@dataclass(frozen=True, slots=True)
+class Fold:
+    """Blocks that open on a tap."""
+
+    title: str
+    body: tuple[Any, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Label:
+    """A short line that says what is asked, or what follows."""
+
+    text: str
+
+
+def maths(node: Node, lang: str) -> str:
+    r"""An inline formula for MathJax.
+
+    Parameters
+    ----------
+    node : Node
+    lang : str
+
+    Returns
+    -------
+    str
+        HTML, between ``\(`` and ``\)``.
+    """
+    return rf"\({escape(formula.latex(node, lang), quote=False)}\)"
+
+
+def chain(node: Node, lang: str) -> str:
+    """A chain of equations as one formula per side, so that a narrow screen can wrap it."""
+    if not (isinstance(node, Row) and node.level == RELATION and len(node.items) > 1):
+        return _large(formula.latex(node, lang))
+    first, *rest = node.items
+    pieces = [_large(formula.latex(first, lang))]
+    for sign, side in zip(rest[::2], rest[1::2], strict=True):
+        pieces.append(_large("{}" + formula.latex(Row((sign, side), RELATION), lang)))
+    return " ".join(pieces)
+
+
+def _large(text: str) -> str:
+    return rf"\(\displaystyle {escape(text, quote=False)}\)"
+
+
+@singledispatch
+def html(part: Any, lang: str, *, ask: bool | None = None) -> str:
+    """One block, inline or tuple of them as HTML.
+
+    Parameters
+    ----------
+    part : block, inline or tuple
+    lang : str
+    ask : bool, optional
+        For a hidden side: True hides it, False shows it, None writes an Anki cloze.
+
+    Raises
+    ------
+    TypeError
+        If the part has no form on a card.
+    """
+    del lang, ask
+    raise TypeError(type(part).__name__)
+
+
+@html.register
+def _(part: tuple, lang: str, *, ask: bool | None = None) -> str:
+    return "".join(html(item, lang, ask=ask) for item in part)
+
+
+@html.register
+def _(part: Words, lang: str, *, ask: bool | None = None) -> str:
+    del lang, ask
+    return escape(part.text, quote=False)
+
+
+@html.register
+def _(part: Maths, lang: str, *, ask: bool | None = None) -> str:
+    del ask
+    return maths(part.node, lang)
+
+
+@html.register
+def _(part: Code, lang: str, *, ask: bool | None = None) -> str:
+    del lang, ask
+    return f"<code>{escape(part.text, quote=False)}</code>"
+
+
+@html.register
+def _(part: Styled, lang: str, *, ask: bool | None = None) -> str:
+    return f"<{part.style}>{html(part.children, lang, ask=ask)}</{part.style}>"
+
+
+@html.register
+def _(part: Paragraph, lang: str, *, ask: bool | None = None) -> str:
+    return f"<p>{html(part.children, lang, ask=ask)}</p>"
+
+
+@html.register
+def _(part: CodeBlock, lang: str, *, ask: bool | None = None) -> str:
+    del lang, ask
+    lines = escape(part.text, quote=False).replace("\n", "<br>")
+    return f"<pre>{lines}</pre>"
+
+
+@html.register
+def _(part: Items, lang: str, *, ask: bool | None = None) -> str:
+    tag = "ol" if part.ordered else "ul"
+    items = "".join(f"<li>{_tight(item, lang, ask)}</li>" for item in part.items)
+    return f"<{tag}>{items}</{tag}>"
+
+
+def _tight(item: tuple[Any, ...], lang: str, ask: bool | None) -> str:
+    single = len(item) == 1 and isinstance(item[0], Paragraph)
+    return html(item[0].children if single else item, lang, ask=ask)
+
+
+@html.register
+def _(part: Table, lang: str, *, ask: bool | None = None) -> str:
+    def row(cells: Any, tag: str) -> str:
+        return "".join(f"<{tag}>{html(cell, lang, ask=ask)}</{tag}>" for cell in cells)
+
+    head = f"<tr>{row(part.head, 'th')}</tr>"
+    body = "".join(f"<tr>{row(cells, 'td')}</tr>" for cells in part.rows)
+    return f"<table>{head}{body}</table>"
+
+
+@html.register
+def _(part: Display, lang: str, *, ask: bool | None = None) -> str:
+    del ask
+    return f'<div class="qg-line">{chain(part.maths.node, lang)}</div>'
+
+
+@html.register
+def _(part: Hole, lang: str, *, ask: bool | None = None) -> str:
+    shown, hidden = (chain(side.node, lang) for side in (part.shown, part.hidden))
+    if ask is None:
+        hidden = f"{{{{c{part.number}::{hidden}}}}}"
+    elif ask:
+        hidden = "<b>[…]</b>"
+    return f'<div class="qg-line">{shown} {hidden}</div>'
+
+
+@html.register
+def _(part: Picture, lang: str, *, ask: bool | None = None) -> str:
+    del lang, ask
+    alt = escape(part.alt, quote=True)
+    return f'<img class="qg-{part.figure.dark}" src="{part.file}" alt="{alt}">'
+
+
+@html.register
+def _(part: Fold, lang: str, *, ask: bool | None = None) -> str:
+    body = html(part.body, lang, ask=ask)
+    title = escape(part.title, quote=False)
+    return f"<details><summary>{title}</summary>{body}</details>"
+
+
+@html.register
+def _(part: Label, lang: str, *, ask: bool | None = None) -> str:
+    del lang, ask
+    return f'<div class="qg-label">{escape(part.text, quote=False)}</div>'
+
+
+@singledispatch
+def plain(part: Any, *, ask: bool = False) -> str:
+    """One block, inline or tuple of them as text; formulas as they would be typed.
+
+    Parameters
+    ----------
+    part : block, inline or tuple
+    ask : bool
+        Whether to leave hidden sides out.
+
+    Raises
+    ------
+    TypeError
+        If the part has no form as text.
+    """
+    del ask
+    raise TypeError(type(part).__name__)
+
+
+@plain.register
+def _(part: tuple, *, ask: bool = False) -> str:
+    return "".join(plain(item, ask=ask) for item in part)
+
+
+@plain.register(Words)
+@plain.register(Code)
+def _(part: Any, *, ask: bool = False) -> str:
+    del ask
+    return str(part.text)
+
+
+@plain.register
+def _(part: Maths, *, ask: bool = False) -> str:
+    del ask
+    return part.typed
+
+
+@plain.register
+def _(part: Styled, *, ask: bool = False) -> str:
+    return plain(part.children, ask=ask)
+
+
+@plain.register
+def _(part: Paragraph, *, ask: bool = False) -> str:
+    return plain(part.children, ask=ask) + "\n"
+
+
+@plain.register(CodeBlock)
+@plain.register(Label)
+def _(part: Any, *, ask: bool = False) -> str:
+    del ask
+    return f"{part.text}\n"
+
+
+@plain.register
+def _(part: Items, *, ask: bool = False) -> str:
+    return "".join(f"- {plain(item, ask=ask).strip()}\n" for item in part.items)
+
+
+@plain.register
+def _(part: Table, *, ask: bool = False) -> str:
+    rows = (part.head, *part.rows)
+    return "".join(" | ".join(plain(cell, ask=ask) for cell in row) + "\n" for row in rows)
+
+
+@plain.register
+def _(part: Display, *, ask: bool = False) -> str:
+    del ask
+    return f"{part.maths.typed}\n"
+
+
+@plain.register
+def _(part: Hole, *, ask: bool = False) -> str:
+    return f"{part.shown.typed} {'[...]' if ask else part.hidden.typed}\n"
+
+
+@plain.register
+def _(part: Picture, *, ask: bool = False) -> str:
+    del ask
+    return f"[{part.alt}]\n"
+
+
+@plain.register
+def _(part: Fold, *, ask: bool = False) -> str:
+    return f"{part.title}: {plain(part.body, ask=ask)}"
+
+
+def pictures(part: Any) -> tuple[Picture, ...]:
+    """Every picture in blocks."""
+    if isinstance(part, Picture):
+        return (part,)
+    inside = part.body if isinstance(part, Fold) else part
+    if isinstance(inside, tuple):
+        return tuple(found for item in inside for found in pictures(item))
+    return ()
+
+
+__all__ = [
+    "Display", "Fold", "Hole", "Label", "Op", "Picture", "chain", "html", "maths", "pictures",
+    "plain",
+]  # fmt: skip

@@ -1,0 +1,92 @@
+"""``quizgen cards``."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from quizgen.options import bank_options, open_bank
+
+if TYPE_CHECKING:
+    from quizgen.cards import Deck
+
+FORMATS = ("apkg", "tsv", "csv")
+NAME = "quizgen"
+
+
+@click.command()
+@click.option("--lang", type=click.Choice(["en", "bn", "both"]), default="en", show_default=True)
+@click.option("--topic", "topics", help="Only these topics, by comma.")
+@click.option("--kind", "kinds", help="Only these kinds, by comma: vocab, formula, cheat, trap, "
+              "figure, truth, choice, question.")  # fmt: skip
+@click.option("--seed", type=click.IntRange(0, 10**9), default=0, show_default=True,
+              help="Number that fixes the worked questions.")  # fmt: skip
+@click.option("--format", "formats", default="apkg", show_default=True,
+              help="apkg (Anki), tsv, csv; by comma.")  # fmt: skip
+@click.option("--from-marks", "marks", type=click.Path(path_type=Path),
+              help="Cards of what went wrong: a result of `quizgen check --json`.")  # fmt: skip
+@click.option("--out", type=click.Path(path_type=Path), default=Path("cards"), show_default=True,
+              help="Folder to write to.")  # fmt: skip
+@bank_options
+def cards(**options: Any) -> None:
+    """Make flashcards for Anki and other programs."""
+    from quizgen.files import write_all
+
+    formats = _names(options["formats"])
+    _check_formats(formats)
+    deck = _deck(options)
+    folder: Path = options["out"]
+    written = write_all(folder, _contents(deck, formats))
+    if deck.media and set(formats) & {"tsv"}:
+        written += write_all(folder / "media", deck.media)[:1]
+    _report(deck, written)
+
+
+def _names(text: str | None) -> tuple[str, ...]:
+    return tuple(name.strip() for name in (text or "").split(",") if name.strip())
+
+
+def _check_formats(formats: tuple[str, ...]) -> None:
+    for name in formats:
+        if name not in FORMATS:
+            allowed = ", ".join(FORMATS)
+            raise click.BadParameter(f"{name!r} (allowed: {allowed})", param_hint="--format")
+
+
+def _deck(options: dict[str, Any]) -> Deck:
+    from quizgen.cards import build
+
+    bank = open_bank(options)
+    if options["marks"] is not None:
+        from quizgen.cards.mistakes import from_marks
+
+        return from_marks(options["marks"], options["lang"], bank=bank)
+    return build(
+        options["lang"],
+        topics=_names(options["topics"]),
+        kinds=_names(options["kinds"]),
+        seed=options["seed"],
+        bank=bank,
+    )
+
+
+def _contents(deck: Deck, formats: tuple[str, ...]) -> Mapping[str, bytes]:
+    from quizgen.cards.apkg import package
+    from quizgen.cards.tables import as_csv, tsv
+
+    writers = {"apkg": package, "tsv": tsv, "csv": as_csv}
+    return {f"{NAME}.{name}": writers[name](deck) for name in formats}
+
+
+def _report(deck: Deck, written: list[Path]) -> None:
+    counts: dict[str, int] = {}
+    for note in deck.notes:
+        counts[note.kind] = counts.get(note.kind, 0) + len(note.cards())
+    for path in written:
+        click.echo(f"  {path}")
+    total = ", ".join(f"{count} {kind}" for kind, count in counts.items())
+    click.echo(f"{deck.cards} cards ({total})")
+    click.echo("Next: in Anki choose File > Import; import again later, nothing is doubled.")
