@@ -207,7 +207,7 @@ class _Sheet:
         if self.kind == "exam":
             return f"#part[{body}\n{self._field(questions, index)}]"
         options = self._options(questions, index)
-        return f"{body}\n{options}\n{self._solution(item, index)}"
+        return f"#whole[{body}\n{options}]\n{self._solution(item, index)}"
 
     def _field(self, questions: tuple[Question, ...], index: int) -> str:
         fields = [q.parts[index].field for q in questions]
