@@ -60,4 +60,4 @@ def _rounding(spec: Mapping[str, Any], lang: str) -> str:
     if "rel" in spec:
         percent = Fraction(str(spec["rel"])) * 100
         return word(lang, "ask.rel", percent=f"{float(percent):g}")
-    return ""
+    return word(lang, "ask.abs", abs=spec["abs"]) if "abs" in spec else ""

@@ -117,7 +117,7 @@ def _allowed(message: str) -> str:
     if "unknown field" not in message:
         return ""
     kind = SlotRule if "$.slot" in message else Blueprint
-    internal = {"name", "source", "topic", "budget"}
+    internal = {"name", "source", "topic", "budget"} if kind is Blueprint else set()
     names = sorted({f.encode_name for f in msgspec.structs.fields(kind)} - internal)
     return f" (allowed: {', '.join(names)})"
 

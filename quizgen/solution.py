@@ -188,7 +188,7 @@ def _part(drawn: Draw, lang: str, index: int, spec: Mapping[str, Any]) -> PartSo
     options, _ = display(drawn, index)
     right = [options[i - 1][1] for i in spec.get("correct", ())] if options else []
     chosen = tuple(sentence(drawn, lang, "options", name) for name in right)
-    return PartSolution(label, lines, answer_text(spec, lang), mistakes, chosen)
+    return PartSolution(label, lines, printed_answer(spec, lang), mistakes, chosen)
 
 
 def _why(drawn: Draw, lang: str, name: str) -> tuple[Inline, ...]:
@@ -200,6 +200,30 @@ def answer_text(spec: Mapping[str, Any], lang: str) -> str:
     from quizgen.check import show
 
     return show(spec, lang)
+
+
+def printed_answer(spec: Mapping[str, Any], lang: str) -> str:
+    """The answer as the solution states it: exact first where that says more."""
+    rounded = answer_text(spec, lang)
+    values = spec.get("values", spec.get("value"))
+    if not readable_fractions(values) or "decimals" in spec or spec.get("percent"):
+        return rounded
+    exactly = answer_text({**_without_rounding(spec), "exact": True}, lang)
+    return exactly if exactly == rounded else f"{exactly} ≈ {rounded}"
+
+
+def readable_fractions(values: Any) -> bool:
+    """Whether values are whole numbers and short fractions, some fraction among them."""
+    listed = values.values() if isinstance(values, Mapping) else values
+    texts = [listed] if isinstance(listed, str) else list(listed or ())
+    return all(re.fullmatch(r"-?\d{1,6}(/\d{1,3})?", str(t)) for t in texts) and any(
+        "/" in str(t) for t in texts
+    )
+
+
+def _without_rounding(spec: Mapping[str, Any]) -> dict[str, Any]:
+    dropped = {"abs", "rel", "sigfigs", "decimals", "within", "accept"}
+    return {name: value for name, value in spec.items() if name not in dropped}
 
 
 def _wrong_text(spec: Mapping[str, Any], value: Any) -> str:

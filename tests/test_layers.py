@@ -36,9 +36,9 @@ ALLOWED = {
                  "specs", "check"},
     "question": {"errors", "expr", "draw", "numbers", "template", "text", "reader", "figures",
                  "asking", "specs", "solution"},
-    "blueprint": {"errors"},
+    "blueprint": {"errors", "locale"},
     "exam": {"errors", "bank", "blueprint", "draw", "question", "template"},
-    "camera": {"errors", "bank"},
+    "camera": {"errors", "bank", "units"},
 }  # fmt: skip
 """Stage to the stages it may use. Everything else (render, cards, lint, commands) may use all."""
 

@@ -131,7 +131,7 @@ def test_shipped_blueprints_load(name):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("title = {en = 'x'}\n[[slots]]\ncount = 1", "allowed: minutes, slot, title"),
+        ("title = {en = 'x'}\n[[slots]]\ncount = 1", "allowed: minutes, reference, slot, title"),
         ("title = {en = 'x'}\n[[slot]]\nkount = 1", "allowed: count, templates, tier, topic"),
         ("title = {en = 'x'}\n[[slot]]\ntier = 'E'", "allowed: A, B, C, D"),
         ("title = {en = 'x'}\n[[slot]]\ncount = 0", "count must be"),
