@@ -36,7 +36,7 @@ def _power(x: Array, exponent: Exponent) -> Array:
     least = x.min()
     if low == 0 or (least > 0 and abs(low) * max(-math.log(least), math.log(x.max())) < _UNIT):
         return y
-    y += y * (low * np.log(np.maximum(x, _LEAST)))
+    y *= 1 + low * np.log(np.maximum(x, _LEAST))
     return y
 
 

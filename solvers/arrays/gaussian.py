@@ -111,7 +111,7 @@ def _log_tail(k: Array) -> Array:
     moderate = np.minimum(size, _TOP)
     square, lost = two_product(moderate, moderate)
     far = np.where(size > _TOP, -0.5 * size * size, np.log(ratio) - (skew + lost / 2) - square / 2)
-    return np.where(k < 0, np.log1p(-_tail(size)), far) if k.min() < 0 else far
+    return np.where(k < 0, np.log1p(-_refined_tail(size)), far) if k.min() < 0 else far
 
 
 def _pdf(x: Array, mu: Array, sigma: Array) -> Array:
@@ -168,10 +168,7 @@ def _one_sided(a: Array, b: Array) -> Array:
 
 def _narrow(a: Array, width: Array) -> Array:
     total = np.zeros_like(a)
-    for node, weight in zip(_CENTRAL = 0.7
-"""Below this Q is close to 1/2 and better computed as 1/2 minus that polynomial."""
-
-_NODES, _WEIGHTS, strict=True):
+    for node, weight in zip(_NODES, _WEIGHTS, strict=True):
         t = width * (0.5 + 0.5 * node)
         total += 0.5 * weight * np.exp(-t * (a + t / 2))
     one = np.ones(1)

@@ -95,7 +95,8 @@ def _pixels(f: Array, pitch: Array, x: Array, z: Array, o: Array) -> Any:
             return exact, None
     value = _pixel(*pairs(f, pitch, x, z, o)).rounded()
     twice = 2 * value
-    return value, np.abs(twice - np.rint(twice)) < _NEXT_TO_HALF
+    cancelled = np.abs(value) < np.abs(value - o)
+    return value, cancelled | (np.abs(twice - np.rint(twice)) < _NEXT_TO_HALF)
 
 
 @lru_cache(maxsize=64)
@@ -160,8 +161,8 @@ def pixel(f: Numbers, pitch: Numbers, x: Numbers, z: Numbers, o: Numbers) -> Res
     float or array
         Pixels. Arguments are read as decimals (0.1 is one tenth). Scalars are correctly
         rounded. Arrays are correctly rounded when the decimals have at most nine places and
-        their integers stay below 2**53; longer ones are within 2 units in the last place of
-        the largest term, and still settled exactly next to whole and half pixels.
+        their integers stay below 2**53; longer ones are within 4 units in the last place, and
+        settled exactly (10 us each) next to whole and half pixels and where terms cancel.
 
     Raises
     ------

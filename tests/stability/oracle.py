@@ -9,8 +9,6 @@ from __future__ import annotations
 import mpmath as mp
 from mpmath import mpf
 
-GAMMA = mpf(11) / 5
-
 
 def reference(name, args, digits=45):
     """Raise the precision until two results agree to ``digits`` digits."""
@@ -234,11 +232,11 @@ def _regularised(a, x, *, lower):
 
 
 def encode(x):
-    return x ** (1 / GAMMA) if x else mpf(0)
+    return x ** (mpf(5) / 11) if x else mpf(0)
 
 
 def decode(x):
-    return x**GAMMA if x else mpf(0)
+    return x ** (mpf(11) / 5) if x else mpf(0)
 
 
 def gap(a, b):

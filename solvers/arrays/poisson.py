@@ -1,0 +1,212 @@
+"""Poisson probabilities and tails for any mean.
+
+Sources: Loader (2000) for the probabilities (saddle point and the error of Stirling's formula);
+tails by summing terms away from the mean, and by Temme's uniform expansion (SIAM J. Math. Anal.
+10 (1979) 757) where that would take long.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from .domain import NONNEGATIVE, Array, Kernel, Numbers, Result, Rule
+from .gaussian import _horner, _mills
+from .logarithm import ratio_excess
+from .tables import STIRLING, TEMME
+
+_ROOT_TWO_PI = 2.5066282746310007
+_LARGEST = 2.0**900
+_CERTAIN = 800.0
+"""An exponent below minus this gives zero."""
+
+_SERIES = (1 / 12, -1 / 360, 1 / 1260, -1 / 1680, 1 / 1188, -691 / 360360, 1 / 156)
+_TABLE = np.array(STIRLING)
+_UNIFORM_FROM = 60.0
+_NEGLIGIBLE = 2.0**-60
+_UNIFORM_TO = 0.5
+
+
+def _stirling_error(k: Array) -> Array:
+    """ln k! - ln(sqrt(2 pi k) (k/e)**k)."""
+    inverse = 1 / np.maximum(k, 1.0)
+    square = inverse * inverse
+    total = np.full_like(inverse, _SERIES[-1])
+    for c in reversed(_SERIES[:-1]):
+        total = total * square + c
+    table = _TABLE[np.minimum(k, 15.0).astype(np.intp)]
+    return np.where(k < 16, table, total * inverse)
+
+
+def _density(k: Array, lam: Array) -> Array:
+    """exp(-lam) lam**k/k! for k >= 1 and lam > 0, k not necessarily the smaller."""
+    excess = ratio_excess(k, lam)
+    high = np.minimum(excess.high, _CERTAIN)
+    low = np.where(excess.high < _CERTAIN, excess.low, 0.0)
+    value = np.exp(-high) / (np.sqrt(k) * _ROOT_TWO_PI)
+    return value + value * np.expm1(-(low + _stirling_error(k)))
+
+
+def _pmf(k: Array, lam: Array) -> Array:
+    k, lam = np.broadcast_arrays(k, lam)
+    inside = (k > 0) & (lam > 0) & (k < _LARGEST) & (lam < _LARGEST)
+    inside &= lam > k / _LARGEST
+    value = np.where(k == 0, np.exp(-lam), 0.0)
+    where = np.flatnonzero(inside)
+    if where.size:
+        value[where] = _density(k.take(where), lam.take(where))
+    vast = np.flatnonzero((k == lam) & (k >= _LARGEST))
+    value[vast] = 1 / (np.sqrt(k.take(vast)) * _ROOT_TWO_PI)
+    return value
+
+
+def _sum_up(k: Array, lam: Array) -> Array:
+    """P(X >= k)/P(X = k) for k > lam, from the smallest term back to the first."""
+    term, steps = np.ones_like(k), 0
+    while term.max() > _NEGLIGIBLE:
+        steps += 1
+        term *= lam / (k + steps)
+    total = np.ones_like(k)
+    for j in range(steps, 0, -1):
+        total = 1 + total * lam / (k + j)
+    return total
+
+
+def _sum_down(k: Array, lam: Array) -> Array:
+    """P(X <= k)/P(X = k) for k <= lam, from the smallest term back to the first."""
+    term, steps = np.ones_like(k), 0
+    while term.max() > _NEGLIGIBLE:
+        term *= np.maximum(k - steps, 0.0) / lam
+        steps += 1
+    total = np.ones_like(k)
+    for j in range(steps, 0, -1):
+        total = 1 + total * np.maximum(k - j + 1, 0.0) / lam
+    return total
+
+
+def _uniform(a: Array, x: Array, *, upper: bool) -> Array:
+    """Regularised incomplete gamma function of large a, upper or lower, from its smaller side.
+
+    The exponential of the excess stands in front of Mills' ratio, so that its exponent is never
+    squared from a rounded root.
+    """
+    excess = ratio_excess(a, x)
+    root = np.sqrt(2 * excess.high)
+    above = x > a
+    eta = np.where(above, 1.0, -1.0) * root / np.sqrt(a)
+    rest = np.zeros_like(a)
+    for row in reversed(TEMME):
+        rest = rest / a + _horner(row, eta)
+    rest = np.where(above, rest, -rest) / (np.sqrt(a) * _ROOT_TWO_PI)
+    ratio, skew = _mills(root)
+    bell = np.exp(-np.minimum(excess.high, _CERTAIN))
+    total = ratio + rest
+    small = bell * total
+    small -= small * (excess.low + skew * ratio / total)
+    return np.where(above == upper, small, 1 - small)
+
+
+def _tail(k: Array, lam: Array, *, upper: bool) -> Array:
+    """P(X >= k) or P(X <= k), each from its smaller side."""
+    k, lam = np.broadcast_arrays(k, lam)
+    value = np.where(k > lam, 0.0, 1.0) if upper else np.where(k < lam, 0.0, 1.0)
+    inside = (k > 0) & (lam > 0) if upper else lam > 0
+    inside &= (lam < _LARGEST) & (k < _LARGEST) & (lam > k / _LARGEST) & (lam < _LARGEST * (k + 1))
+    a = k if upper else k + 1
+    uniform = inside & (a > _UNIFORM_FROM) & (np.abs(lam - a) < _UNIFORM_TO * a)
+    where = np.flatnonzero(uniform)
+    if where.size:
+        value[where] = _uniform(a.take(where), lam.take(where), upper=not upper)
+    value[(k == lam) & (k >= _LARGEST)] = 0.5
+    where = np.flatnonzero(inside & ~uniform)
+    if where.size:
+        value[where] = _by_sum(k.take(where), lam.take(where), upper=upper)
+    return value
+
+
+def _by_sum(k: Array, lam: Array, *, upper: bool) -> Array:
+    """Sum whichever side is the smaller one; the other is its complement."""
+    above = k > lam if upper else k >= lam
+    first = np.where(above, k + (not upper), k - upper)
+    start = _pmf(first, lam)
+    value = np.empty_like(k)
+    rising, falling = np.flatnonzero(above), np.flatnonzero(~above)
+    if rising.size:
+        value[rising] = start[rising] * _sum_up(first[rising], lam[rising])
+    if falling.size:
+        value[falling] = start[falling] * _sum_down(first[falling], lam[falling])
+    return np.where(above == upper, value, 1 - value)
+
+
+_COUNT = Rule("not-a-count", lambda k, _lam: k != np.floor(k))
+_PMF = Kernel(_pmf, (NONNEGATIVE, NONNEGATIVE), (_COUNT,))
+_UPPER = Kernel(lambda k, lam: _tail(k, lam, upper=True), (NONNEGATIVE, NONNEGATIVE), (_COUNT,))
+_LOWER = Kernel(lambda k, lam: _tail(k, lam, upper=False), (NONNEGATIVE, NONNEGATIVE), (_COUNT,))
+
+
+def pmf(k: Numbers, lam: Numbers) -> Result:
+    """Probability of exactly k photons when lam are expected.
+
+    Parameters
+    ----------
+    k : array_like
+        Count, a whole number >= 0.
+    lam : array_like
+        Mean, >= 0.
+
+    Returns
+    -------
+    float or array
+        Between 0 and 1.
+
+    Raises
+    ------
+    DomainError
+        ``not-a-count``, ``negative``, ``not-finite`` (arrays: masked).
+    """
+    return _PMF(k, lam)
+
+
+def upper(k: Numbers, lam: Numbers) -> Result:
+    """Probability of k photons or more.
+
+    Parameters
+    ----------
+    k, lam : array_like
+        As for ``pmf``.
+
+    Returns
+    -------
+    float or array
+        Between 0 and 1.
+
+    Raises
+    ------
+    DomainError
+        As ``pmf``.
+    """
+    return _UPPER(k, lam)
+
+
+def lower(k: Numbers, lam: Numbers) -> Result:
+    """Probability of k photons or fewer.
+
+    Parameters
+    ----------
+    k, lam : array_like
+        As for ``pmf``.
+
+    Returns
+    -------
+    float or array
+        Between 0 and 1.
+
+    Raises
+    ------
+    DomainError
+        As ``pmf``.
+    """
+    return _LOWER(k, lam)
+
+
