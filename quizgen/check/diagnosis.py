@@ -77,10 +77,14 @@ def hints_for(
 
 def key_factor(spec: Tolerance, context: Context, target: str) -> fmpq:
     """Base units per unit of the key."""
+    return base_factor(spec, context.chain.by_name[target].unit)
+
+
+def base_factor(spec: Tolerance, shown_in: str) -> fmpq:
+    """Base units per unit of the key, for a quantity that the chain shows in a unit."""
     if getattr(spec, "percent", False):
         return fmpq(1)
-    text = getattr(spec, "unit", None) or context.chain.by_name[target].unit
-    factor = unit(text).factor
+    factor = unit(getattr(spec, "unit", None) or shown_in).factor
     return fmpq(factor.numerator, factor.denominator)
 
 

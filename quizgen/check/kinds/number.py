@@ -10,11 +10,14 @@ from flint import fmpq
 from quizgen.check.diagnosis import hints_for
 from quizgen.check.judging import Asked, judge_value, resolve
 from quizgen.check.options import Options
+from quizgen.check.quantities import split_quantity
 from quizgen.check.rewrites import Source, normalise
 from quizgen.check.rounding import exact_or_figures, rounded, with_figures
-from quizgen.check.scalars import Number, Readings, exact_value, fast, read_source
+from quizgen.check.scalars import Number, ReadError, Readings, exact_value, fast, read_source
 from quizgen.check.specs import Scalar, Tolerance
 from quizgen.check.verdict import Verdict, unreadable, with_values
+from quizgen.units import shown as shown_unit
+from quizgen.units import unit
 
 
 class Spec(Tolerance, kw_only=True):
@@ -22,18 +25,20 @@ class Spec(Tolerance, kw_only=True):
 
     With ``percent`` the value is the fraction, tolerances and ``accept`` are in percent, and
     ``4.55 %``, ``4.55`` and ``0.0455`` are read alike. ``notation = "f-number"`` reads ``1:8``
-    as 8.
+    as 8. With ``unit`` (printed beside the field) the unit may be typed or left out.
     """
 
     value: Scalar
     form: Literal["", "fraction", "lowest", "decimal"] = ""
     percent: bool = False
+    unit: str = ""
     notation: Literal["", "f-number"] = ""
 
     def validate(self) -> None:
         """Check tolerance, value and traps."""
         super().validate()
         exact_value(self.value)
+        unit(self.unit)
         for trap in self.traps.values():
             for item in trap if isinstance(trap, list) else [trap]:
                 exact_value(item)
@@ -41,9 +46,21 @@ class Spec(Tolerance, kw_only=True):
 
 def check(spec: Spec, typed: str, options: Options) -> Verdict:
     """Judge a typed number."""
+    if spec.unit:
+        return _with_unit(spec, typed, options)
     number = fast(typed)
     readings = Readings(number) if number else _read(spec, typed, options)
     return resolve(readings, lambda n: _judge(spec, n, options), spec.decimals)
+
+
+def _with_unit(spec: Spec, typed: str, options: Options) -> Verdict:
+    """Judge as a quantity whose unit need not be typed."""
+    from quizgen.check.kinds import quantity
+
+    fields = {
+        name: getattr(spec, name) for name in quantity.Spec.__struct_fields__ if name != "bare"
+    }
+    return quantity.check(quantity.Spec(**fields, bare=True), typed, options)
 
 
 def _judge(spec: Spec, number: Number, options: Options) -> Verdict:
@@ -91,8 +108,22 @@ _NAMED = re.compile(r"[^\W\d_][^\W_]*'*(?:_[^\W_]+'*)* ?(?:=|≈|:|:=) ?")
 
 
 def _read(spec: Spec, typed: str, options: Options) -> Readings:
-    source = without_name(normalise(typed))
-    return read_source(_without_lens(spec, source), options.decimal)
+    source = _without_lens(spec, without_name(normalise(typed)))
+    try:
+        return read_source(source, options.decimal)
+    except ReadError:
+        _refuse_unit(source)
+        raise
+
+
+def _refuse_unit(source: Source) -> None:
+    """Say so when the only trouble is a unit that nobody asked for."""
+    try:
+        quantity = split_quantity(source)
+    except ReadError:
+        return
+    if quantity.unit is not None:
+        raise ReadError("unit-not-asked", source.column(0), quantity.unit.text)
 
 
 def without_name(source: Source) -> Source:
@@ -115,7 +146,8 @@ def _without_lens(spec: Spec, source: Source) -> Source:
 def show(spec: Spec, lang: str) -> str:  # noqa: ARG001 - one notation in all languages
     """Return the key as printed and as it can be typed back."""
     value = exact_value(spec.value) * (100 if spec.percent else 1)
-    return shown(spec, value, spec.form) + (" %" if spec.percent else "")
+    unit_text = "%" if spec.percent else shown_unit(spec.unit)
+    return f"{shown(spec, value, spec.form)} {unit_text}".rstrip()
 
 
 def shown(spec: Tolerance, value: Any, form: str = "") -> str:

@@ -104,9 +104,7 @@ def _judge(spec: Spec, numbers: list[Number], options: Options) -> Verdict:
     keys = [exact_value(value) for value in spec.values]
     if spec.up_to_scale:
         return _up_to_scale(spec, values, keys, read_as)
-    verdict = _coordinates(spec, numbers, keys, read_as, options)
-    factor = plain_unit(spec.unit).factor
-    return with_values(verdict, *[value * factor for value in values])
+    return with_values(_coordinates(spec, numbers, keys, read_as, options), *values)
 
 
 def _up_to_scale(spec: Spec, values: list[Any], keys: list[Any], read_as: str) -> Verdict:

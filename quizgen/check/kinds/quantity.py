@@ -52,13 +52,11 @@ def _judge(spec: Spec, number: Number, quantity: TypedQuantity, options: Options
     if quantity.unit.dimension != wanted.dimension:
         return _clash(spec, number, quantity.unit, read_as)
     value = number.value * quantity.unit.factor / wanted.factor
-    verdict = judge_unit(spec, number, value, wanted, options, read_as)
+    verdict = judge_unit(spec, number, value, options, read_as)
     return _prefix(spec, number, value, quantity.unit, verdict)
 
 
-def judge_unit(
-    spec: Spec, number: Number, value: Any, wanted: TypedUnit, options: Options, read_as: str
-) -> Verdict:
+def judge_unit(spec: Spec, number: Number, value: Any, options: Options, read_as: str) -> Verdict:
     """Judge a value that stands in the key's unit."""
     asked = Asked(
         spec,
@@ -67,18 +65,21 @@ def judge_unit(
         hints=hints_for(spec, number, fmpq(1), options),
     )
     verdict = judge_value(asked, number, value, read_as)
-    return with_values(verdict, value * wanted.factor)
+    return with_values(verdict, value)
 
 
 def _without_unit(spec: Spec, number: Number, wanted: TypedUnit, options: Options) -> Verdict:
-    verdict = judge_unit(spec, number, number.value, wanted, options, number.read_as)
+    verdict = judge_unit(spec, number, number.value, options, number.read_as)
+    if spec.unit == "%" and not verdict.credit:
+        fraction = judge_unit(spec, number, number.value * 100, options, number.read_as)
+        verdict = fraction if fraction.credit else verdict
     if spec.bare or (not wanted.dimension and wanted.factor == 1):
         return verdict
     if verdict.credit:
         unit = shown_unit(spec.unit)
         credit = min(HALF, verdict.credit)
         missing = partial(credit, number.read_as, "unit-missing", unit=unit)
-        return with_values(missing, number.value * wanted.factor)
+        return with_values(missing, number.value)
     return _logarithm(spec, number.value, number.read_as) or verdict
 
 

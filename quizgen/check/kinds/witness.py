@@ -18,6 +18,7 @@ from quizgen.check.rewrites import Source, normalise
 from quizgen.check.rounding import exact_or_figures
 from quizgen.check.sampling import BITS, Domain, compiled
 from quizgen.check.scalars import Number, ReadError, exact_value, read_source
+from quizgen.check.specs import Scalar
 from quizgen.check.specs import Spec as AnySpec
 from quizgen.check.verdict import Verdict, ambiguous, correct, with_values, wrong
 from quizgen.errors import FormulaError
@@ -30,11 +31,13 @@ class Spec(AnySpec, kw_only=True):
 
     ``symbols`` is a list of names, or a table from names to ``real``, ``positive`` or
     ``[low, high]``. Names such as ``a_1 a_2 a_3`` can be typed together: ``a = (1; 0; 0)``.
+    ``example`` is one right answer to show; typed answers are never compared with it.
     """
 
     predicate: str
     symbols: dict[str, Domain] | list[str]
     where: list[str] = msgspec.field(default_factory=list)
+    example: dict[str, Scalar] = msgspec.field(default_factory=dict)
 
     def names(self) -> tuple[str, ...]:
         """Names to give, in order."""
@@ -46,6 +49,8 @@ class Spec(AnySpec, kw_only=True):
             tree = author(text, self.names())
             if not isinstance(tree, Call) or tree.op not in RELATIONS:
                 raise FormulaError(f"{text!r} is not a relation")
+        if self.example and {*self.example} != {*self.names()}:
+            raise ValueError("example must give every symbol")
 
 
 @lru_cache(maxsize=1024)
@@ -193,7 +198,9 @@ def _parts(inner: Source) -> list[Source]:
 
 
 def show(spec: Spec, lang: str) -> str:  # noqa: ARG001 - a relation reads the same everywhere
-    """Return what an example must satisfy (there is no stored one)."""
+    """Return one right example if there is one, else what an example must satisfy."""
+    if spec.example:
+        return "; ".join(f"{name} = {spec.example[name]}" for name in spec.names())
     return "; ".join((spec.predicate, *spec.where))
 
 

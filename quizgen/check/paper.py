@@ -1,0 +1,213 @@
+"""Marking a whole paper: every part, errors carried forward, marks and total."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Any
+
+from quizgen.check import explained, judge, load_spec
+from quizgen.check.diagnosis import base_factor
+from quizgen.check.keyfile import Key, KeyPart, KeyQuestion, load_key
+from quizgen.check.kinds import table as table_kind
+from quizgen.check.options import Context, Options
+from quizgen.check.specs import Spec
+from quizgen.check.verdict import Verdict
+from quizgen.errors import FormulaError, KeyFileError
+
+QUARTER = Fraction(1, 4)
+"""Marks are given in quarters of a point."""
+
+SELF_MARKED = frozenset({"self-mark", "self-mark-none"})
+
+
+@dataclass(frozen=True, slots=True)
+class PartResult:
+    """One part of a marked paper.
+
+    ``marks`` is None where a person has to decide (free text); an answer that could not be read
+    gets no marks yet and is counted in ``PaperResult.asked_back``.
+    """
+
+    id: str
+    number: str
+    template: str
+    typed: str
+    points: Fraction
+    verdict: Verdict
+    marks: Fraction | None
+
+    @property
+    def blank(self) -> bool:
+        """Whether nothing was typed."""
+        return not self.typed.strip()
+
+    @property
+    def status(self) -> str:
+        """``blank``, ``open`` or the verdict."""
+        if self.blank:
+            return "blank"
+        return "open" if self.marks is None else self.verdict.verdict
+
+    def as_json(self) -> dict[str, Any]:
+        """Return plain values for JSON."""
+        return {
+            "id": self.id,
+            "question": self.number,
+            "template": self.template,
+            "typed": self.typed,
+            "status": self.status,
+            "points": float(self.points),
+            "marks": None if self.marks is None else float(self.marks),
+            **self.verdict.as_json(),
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class PaperResult:
+    """A marked paper."""
+
+    code: str
+    parts: tuple[PartResult, ...]
+    unknown: tuple[str, ...] = ()
+
+    @property
+    def marks(self) -> Fraction:
+        """Marks so far."""
+        return sum((part.marks or Fraction(0) for part in self.parts), Fraction(0))
+
+    @property
+    def points(self) -> Fraction:
+        """Marks that can be had."""
+        return sum((part.points for part in self.parts), Fraction(0))
+
+    @property
+    def asked_back(self) -> int:
+        """Answers that could not be read as meant."""
+        return sum(part.status in {"unreadable", "ambiguous"} for part in self.parts)
+
+    @property
+    def to_decide(self) -> int:
+        """Free texts that a person has to mark."""
+        return sum(part.status == "open" for part in self.parts)
+
+    def as_json(self) -> dict[str, Any]:
+        """Return plain values for JSON."""
+        return {
+            "code": self.code,
+            "marks": float(self.marks),
+            "points": float(self.points),
+            "asked_back": self.asked_back,
+            "to_decide": self.to_decide,
+            "unknown_parts": list(self.unknown),
+            "parts": [part.as_json() for part in self.parts],
+        }
+
+
+def check_paper(
+    key: Mapping[str, Any] | Key,
+    answers: Mapping[str, str],
+    lang: str = "en",
+    *,
+    decimal: str = "auto",
+    settle: bool = False,
+) -> PaperResult:
+    """Mark a paper.
+
+    Parameters
+    ----------
+    key : mapping
+        The contents of ``key.json``.
+    answers : mapping of str to str
+        Part to typed text.
+    lang : str
+        Language of the messages.
+    decimal : str
+        The student's decimal sign: ``auto``, ``point`` or ``comma``.
+    settle : bool
+        Allow a few seconds of SymPy for each formula that sampling leaves undecided.
+
+    Raises
+    ------
+    KeyFileError
+        If the key is wrong (never because of what was typed).
+    """
+    found = key if isinstance(key, Key) else load_key(key)
+    options = Options(lang, decimal, settle=settle)
+    parts = [part for question in found.questions for part in _question(question, answers, options)]
+    known = {part.id for part in parts}
+    unknown = tuple(name for name, text in answers.items() if name not in known and text.strip())
+    return PaperResult(found.code, tuple(parts), unknown)
+
+
+def _question(
+    question: KeyQuestion, answers: Mapping[str, str], options: Options
+) -> list[PartResult]:
+    earlier: dict[str, Any] = {}
+    results = []
+    for part in question.parts:
+        typed = answers.get(part.id, "")
+        spec = _spec(part)
+        verdict = _verdict(question, spec, typed, options, earlier)
+        results.append(_result(question, part, typed, explained(spec, verdict, options.lang)))
+        if question.chain is not None:
+            _remember(question, spec, verdict, earlier)
+    return results
+
+
+def _spec(part: KeyPart) -> Spec:
+    try:
+        return load_spec(part.spec)
+    except KeyFileError as error:
+        raise KeyFileError(f"key: part {part.id}: {error}") from None
+
+
+def _verdict(
+    question: KeyQuestion, spec: Spec, typed: str, options: Options, earlier: dict[str, Any]
+) -> Verdict:
+    """Mark without the question around; only what went wrong is looked at again with it."""
+    verdict = judge(spec, typed, options)
+    around = question.chain is not None and spec.of and typed.strip()
+    if not around or not verdict.graded or verdict.verdict == "correct":
+        return verdict
+    context = _context(question, earlier)
+    return judge(spec, typed, replace(options, context=context))
+
+
+def _context(question: KeyQuestion, earlier: dict[str, Any]) -> Context | None:
+    try:
+        return question.chain.context(earlier) if question.chain else None
+    except FormulaError as error:
+        raise KeyFileError(f"key: question {question.number}: chain: {error}") from None
+
+
+def _remember(question: KeyQuestion, spec: Spec, verdict: Verdict, earlier: dict[str, Any]) -> None:
+    """Keep the student's own values, in base units, for the parts that follow."""
+    if question.chain is None or len(spec.quantities()) != len(verdict.values):
+        return
+    units = question.chain.units()
+    cells = _cell_specs(spec)
+    for name, value, cell in zip(spec.quantities(), verdict.values, cells, strict=True):
+        if value is not None and name in units:
+            earlier[name] = value * base_factor(cell, units[name])
+
+
+def _cell_specs(spec: Spec) -> list[Any]:
+    if isinstance(spec, table_kind.Spec):
+        return [table_kind.cell(spec, name) for name in spec.values]
+    return [spec] * len(spec.quantities())
+
+
+def _result(question: KeyQuestion, part: KeyPart, typed: str, verdict: Verdict) -> PartResult:
+    worth = part.worth()
+    marks: Fraction | None = in_quarters(verdict.credit * worth)
+    if verdict.note in SELF_MARKED:
+        marks = None
+    return PartResult(part.id, question.number, question.template, typed, worth, verdict, marks)
+
+
+def in_quarters(marks: Fraction) -> Fraction:
+    """Round marks to the nearest quarter of a point, halves up."""
+    return Fraction(math.floor(marks / QUARTER + Fraction(1, 2))) * QUARTER

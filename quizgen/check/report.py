@@ -1,0 +1,126 @@
+"""Showing marked papers: a table for one student, CSV for a class."""
+
+from __future__ import annotations
+
+import csv
+import io
+import unicodedata
+from collections.abc import Iterable
+from fractions import Fraction
+
+from quizgen.check.echo import safe
+from quizgen.check.messages import words
+from quizgen.check.paper import PaperResult, PartResult
+
+COLOURS = {
+    "correct": "green",
+    "partial": "yellow",
+    "wrong": "red",
+    "unreadable": "magenta",
+    "ambiguous": "magenta",
+    "open": "cyan",
+    "blank": "bright_black",
+}
+
+
+def points_text(value: Fraction | None) -> str:
+    """Write marks: ``2``, ``1.75``; a dash where a person decides."""
+    return "–" if value is None else f"{float(value):g}"
+
+
+def width(text: str) -> int:
+    """Columns that a text takes in a terminal (combining marks take none)."""
+    return sum(
+        0 if unicodedata.category(c) in {"Mn", "Me", "Cf"} else 2 if _wide(c) else 1 for c in text
+    )
+
+
+def _wide(character: str) -> bool:
+    return unicodedata.east_asian_width(character) in {"W", "F"}
+
+
+def rows(result: PaperResult, lang: str) -> list[tuple[str, list[str]]]:
+    """Return the status and the cells of each part's row."""
+    return [(part.status, _row(part, lang)) for part in result.parts]
+
+
+def _row(part: PartResult, lang: str) -> list[str]:
+    shown = words(lang).get(part.status, part.status)
+    marks = f"{points_text(part.marks)} / {points_text(part.points)}"
+    remark = "" if part.blank else part.verdict.message
+    read_as = part.verdict.read_as or safe(part.typed)
+    return [part.id, shown, marks, read_as, remark]
+
+
+def table_lines(result: PaperResult, lang: str, columns: int, paint: bool) -> Iterable[str]:
+    """Lay the table out: remarks go on lines of their own so that nothing is cut off."""
+    import click
+
+    table = words(lang)
+    heads = [table["part"], table["verdict"], table["marks"], table["read"]]
+    body = rows(result, lang)
+    sizes = [max(width(row[i]) for row in [heads, *[r for _, r in body]]) for i in range(3)]
+    yield click.style(_line(heads, sizes), bold=True) if paint else _line(heads, sizes)
+    for status, cells in body:
+        line = _line(cells[:4], sizes)
+        yield click.style(line, fg=COLOURS[status]) if paint else line
+        if cells[4]:
+            yield from _wrapped(cells[4], columns)
+    yield f"{table['total']}: {points_text(result.marks)} / {points_text(result.points)}"
+    if result.asked_back:
+        yield table["asked-back"].format(count=result.asked_back)
+    for part in result.unknown:
+        yield table["unknown-part"].format(part=safe(part))
+
+
+def _line(cells: list[str], sizes: list[int]) -> str:
+    padded = [cell + " " * (size - width(cell)) for cell, size in zip(cells, sizes, strict=False)]
+    return "  ".join([*padded, *cells[len(sizes) :]]).rstrip()
+
+
+def _wrapped(text: str, columns: int) -> Iterable[str]:
+    line = "     "
+    for word in text.split():
+        if width(line) + 1 + width(word) > max(columns, 40) and line.strip():
+            yield line
+            line = "     "
+        line += f" {word}" if line.strip() else word
+    yield line
+
+
+def class_csv(results: list[tuple[str, str, PaperResult]]) -> str:
+    """Write one row per student: marks, then notes, of every part.
+
+    Parameters
+    ----------
+    results : list of (file, name, result)
+        All of one paper.
+    """
+    ids = [part.id for part in results[0][2].parts] if results else []
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(
+        ["file", "name", "marks", "points", "asked_back", "to_decide"]
+        + [f"{name} marks" for name in ids]
+        + [f"{name} note" for name in ids]
+    )
+    for file, name, result in results:
+        writer.writerow(_class_row(file, name, result))
+    return out.getvalue()
+
+
+def _class_row(file: str, name: str, result: PaperResult) -> list[str]:
+    totals = [points_text(result.marks), points_text(result.points)]
+    counts = [str(result.asked_back), str(result.to_decide)]
+    marks = ["" if part.marks is None else points_text(part.marks) for part in result.parts]
+    notes = [_note(part) for part in result.parts]
+    return [_harmless(file), _harmless(name), *totals, *counts, *marks, *notes]
+
+
+def _note(part: PartResult) -> str:
+    return part.status if part.blank else part.verdict.note or part.verdict.verdict
+
+
+def _harmless(text: str) -> str:
+    """Keep a spreadsheet from running a name as a formula."""
+    return f"'{text}" if text[:1] in {"=", "+", "-", "@", "\t", "\r"} else text
