@@ -168,7 +168,7 @@ def composed_problems(one: Draw) -> list[str]:
         shown = " ".join([_text(question.stem), *(_text(p.body) for p in question.parts)])
         if re.search(r"\{\{|\}\}|\bnan\b|\binf\b", shown):
             problems.append(f"{lang}: a placeholder is left in {shown!r}")
-        solved = " ".join([_text(key.solution.check), _text(key.solution.note)])
+        solved = " ".join([_text(getattr(key.solution, name)) for name in ("why", "check", "note")])
         if "{{" in solved:
             problems.append(f"{lang}: a placeholder is left in the solution")
         problems += _marking_problems(one, lang)

@@ -72,6 +72,7 @@ class Solution:
     parts: tuple[PartSolution, ...]
     check: tuple[Block, ...]
     note: tuple[Block, ...]
+    why: tuple[Block, ...] = ()
 
 
 def filled(parts: Any, drawn: Draw, lang: str, *, hidden: bool = False) -> Any:
@@ -167,6 +168,7 @@ def solve(drawn: Draw, lang: str, built: tuple[Mapping[str, Any], ...]) -> Solut
         parts=tuple(_part(drawn, lang, i, spec) for i, spec in enumerate(built)),
         check=filled(text.sections.get("check", ()), drawn, lang),
         note=filled(text.sections.get("note", ()), drawn, lang),
+        why=filled(text.sections.get("why", ()), drawn, lang),
     )
 
 

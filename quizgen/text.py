@@ -8,6 +8,7 @@ A language file has a title, a stem, one section per part and lists of named sen
     **Where does $p$ appear?**
     ## steps          why each step is taken, by quantity
     - x: Similar triangles ...
+    ## why            what makes the answer right, where nothing is computed
     ## check          how to see that the result makes sense
     ## traps          what went wrong, by mistake
     ## options        wording of choices, pairs, ordered steps
@@ -32,7 +33,7 @@ from quizgen.expr import Expr
 from quizgen.reader import parse
 
 NAMED_SECTIONS = frozenset({"steps", "traps", "options", "words", "gaps", "points"})
-PROSE_SECTIONS = frozenset({"check", "note"})
+PROSE_SECTIONS = frozenset({"why", "check", "note"})
 
 
 @dataclass(frozen=True, slots=True)

@@ -261,7 +261,7 @@ class _Sheet:
 
     def _remarks(self, item: Item) -> str:
         texts = []
-        for section in ("check", "note"):
+        for section in ("why", "check", "note"):
             for key in item.keys:
                 body, lang = getattr(key.solution, section), key.solution.lang
                 if body:

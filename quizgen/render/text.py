@@ -48,7 +48,7 @@ def question_text(item: Item) -> str:
             lines.append(f"   {mark}  {inline(text)}")
         lines += [f"   [{hint}]" for hint in part.field.hints]
         lines += _solution(solved, question.lang)
-    for name in ("check", "note"):
+    for name in ("why", "check", "note"):
         found = list(blocks(getattr(key.solution, name)))
         lines += ["", f"{word(question.lang, f'solution.{name}')}:", *found] if found else []
     return "\n".join(lines)
