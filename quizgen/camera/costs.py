@@ -21,39 +21,41 @@ SIZES = (0.3072, 12.0)
 Pair = tuple[float, float]
 
 POINTWISE: dict[str, Pair] = {
-    "vignetting": (0.35, 28.0),
-    "exposure": (0.2, 20.0),
-    "shot noise": (26.0, 1100.0),
-    "shot noise/gaussian": (8.0, 350.0),
-    "dark current": (20.0, 900.0),
-    "blooming": (6.0, 200.0),
-    "streak": (1.0, 60.0),
-    "full well": (0.2, 20.0),
-    "read noise": (7.0, 300.0),
-    "mosaic": (0.5, 40.0),
-    "quantisation": (0.8, 60.0),
-    "demosaicing": (3.0, 200.0),
-    "flat field": (0.6, 60.0),
-    "white balance": (1.0, 60.0),
-    "gamma": (3.5, 190.0),
-    "hsv edit": (40.0, 1700.0),
-    "gaussian noise": (7.0, 300.0),
-    "impulse noise": (3.0, 150.0),
-    "normalisation": (0.8, 60.0),
+    "vignetting": (0.807, 47.8),
+    "exposure": (0.0786, 18),
+    "shot noise": (29, 1154),
+    "shot noise/gaussian": (8.06, 326),
+    "dark current": (8, 900),
+    "blooming": (9.37, 215),
+    "streak": (0.483, 40.2),
+    "full well": (0.338, 25.9),
+    "read noise": (7.16, 292),
+    "mosaic": (0.134, 18.6),
+    "quantisation": (0.39, 38.4),
+    "demosaicing": (1.64, 173),
+    "flat field": (1.34, 88.2),
+    "white balance": (1.55, 76.5),
+    "gamma": (2.89, 139),
+    "gamma/table": (1.1, 55),
+    "hsv edit": (38.3, 2551),
+    "gaussian noise": (7.18, 302),
+    "impulse noise": (4.13, 200),
+    "normalisation": (0.313, 36.7),
     "projection": (0.05, 0.05),
 }
 
-POINTWISE_OPENCV: dict[str, Pair] = {"hsv edit": (1.0, 60.0)}
+POINTWISE_OPENCV: dict[str, Pair] = {"hsv edit": (3.39, 190)}
 
-SAMPLE: Pair = (25.0, 1400.0)
-SAMPLE_OPENCV: Pair = (0.8, 60.0)
-NEAREST: Pair = (8.0, 500.0)
-MAP: Pair = (6.0, 350.0)
-LATERAL: Pair = (6.0, 300.0)
-TAP: Pair = (0.45, 45.0)
-FOURIER: Pair = (60.0, 4000.0)
-TAP_OPENCV: Pair = (0.02, 1.2)
-FOURIER_OPENCV: Pair = (8.0, 400.0)
+SAMPLE: Pair = (41.7, 916)
+SAMPLE_OPENCV: Pair = (1.37, 68.2)
+NEAREST: Pair = (4.15, 238)
+MAP: Pair = (1.25, 234)
+LATERAL: Pair = (2.46, 306)
+TAP: Pair = (0.49, 30.1)
+FOURIER: Pair = (26.1, 2861)
+TAP_OPENCV: Pair = (0.017, 1.74)
+FOURIER_OPENCV: Pair = (11, 599)
+_CALL = 0.01
 FACTS_PER_MEGAPIXEL = 35.0
 """Measuring a picture's steps, ms."""
 
@@ -157,7 +159,7 @@ def cost(effect: str, rung: str, view: View, *, opencv_used: bool | None = None)
     """
     used = opencv() is not None if opencv_used is None else opencv_used
     if effect in SPATIAL:
-        return SPATIAL[effect](rung, view, opencv_used=used)
+        return max(_CALL, SPATIAL[effect](rung, view, opencv_used=used))
     name = f"{effect}/{rung}" if rung else effect
     table = POINTWISE_OPENCV if used and name in POINTWISE_OPENCV else POINTWISE
     return at_size(table[name], view.megapixels)

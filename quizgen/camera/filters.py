@@ -43,6 +43,11 @@ def _opencv_remap_is_exact() -> bool:
     return bool(abs(cv2.remap(ramp, where, where, cv2.INTER_LINEAR)[0, 0] - 0.3) < 1e-6)
 
 
+def warm_up() -> None:
+    """Load OpenCV and try it, so that no effect is timed with its import."""
+    _opencv_remap_is_exact()
+
+
 def convolve(image: Image, kernel: NDArray[np.float64]) -> Image:
     """Convolve with a kernel symmetric about its centre; edges repeat outward.
 

@@ -27,6 +27,9 @@ GREY_LEVELS = 255.0
 
 EXACT, SKIP = "", "skip"
 
+RANDOM = ("shot noise", "dark current", "read noise", "gaussian noise", "impulse noise")
+"""Effects that draw random numbers."""
+
 _ROUNDING = 3e-6
 """What single precision adds to a difference in one step, relative to the largest value."""
 
@@ -120,7 +123,7 @@ class _Chain:
         self.before = _facts_along(present, view, facts)
         self.lost = [_lost(effect, f, view) for effect, f in zip(present, self.before, strict=True)]
         self.rough = [
-            {rung.name: rung.error(f, view) for rung in effect.cheaper}
+            {rung.name: rung.error(f, view).plus(_rounding(f)) for rung in effect.cheaper}
             for effect, f in zip(present, self.before, strict=True)
         ]
 
@@ -142,7 +145,7 @@ class _Chain:
             return error
         facts = self.before[index]
         carried = effect.carried(error, facts, self.view)
-        return carried.plus(Error(_ROUNDING * max(1.0, facts.size)))
+        return carried.plus(_rounding(facts))
 
     def dn(self, choice: dict[int, str]) -> float:
         """The same in grey levels."""
@@ -154,7 +157,11 @@ def _lost(effect: Effect, facts: Facts, view: View) -> Error:
     lost = effect.skipped(facts, view)
     if lost == NO_ERROR and effect.stage == "sensor":
         return lost
-    return lost.plus(Error(_ROUNDING * max(1.0, facts.size)))
+    return lost.plus(_rounding(facts))
+
+
+def _rounding(facts: Facts) -> Error:
+    return Error(_ROUNDING * max(1.0, facts.size))
 
 
 def _facts_along(present: tuple[Effect, ...], view: View, facts: Facts) -> list[Facts]:
@@ -295,16 +302,33 @@ def plan(
     return _report(chain, choice, units, absent, limit)
 
 
-def everything(scene: Scene | Prepared, camera: Camera | None = None) -> Plan:
-    """The plan that runs every present effect exactly."""
+def everything(
+    scene: Scene | Prepared, camera: Camera | None = None, like: Plan | None = None
+) -> Plan:
+    """The plan that runs every present effect exactly.
+
+    Parameters
+    ----------
+    scene, camera
+        As for `plan`.
+    like : Plan, optional
+        Noise keeps the rung it has there: both pictures then share their random draws, and their
+        difference is what was left out, not luck.
+    """
+    drawn = {step.effect: step.rung for step in like.steps} if like else {}
     prepared = scene if isinstance(scene, Prepared) else Prepared(scene, camera or Camera())
     present = tuple(effect for effect in EFFECTS if effect.present(prepared.given))
     absent = tuple(effect.name for effect in EFFECTS if effect not in present)
     steps = tuple(
-        Step(effect.name, EXACT, "everything", math.nan, cost(effect.name, EXACT, prepared.view))
+        _whole_step(effect.name, drawn.get(effect.name, EXACT), prepared.view)
         for effect in present
     )
     return Plan(steps, (), absent, 0.0, sum(step.predicted_ms for step in steps), 0.0)
+
+
+def _whole_step(name: str, rung: str, view: View) -> Step:
+    rung = rung if name in RANDOM else EXACT
+    return Step(name, rung, "everything", math.nan, cost(name, rung, view))
 
 
 def _report(
@@ -327,7 +351,7 @@ def _report(
 
 
 def _why_skipped(bound: float) -> str:
-    return f"changes at most {bound:.2g} DN" if bound else "changes nothing"
+    return f"changes at most {bound:.3g} DN" if bound else "changes nothing"
 
 
 def _why_kept(chain: _Chain, unit: _Unit, index: int, made: str, alone: float) -> str:
@@ -335,7 +359,7 @@ def _why_kept(chain: _Chain, unit: _Unit, index: int, made: str, alone: float) -
         return "lengths in metres"
     if unit.fixed:
         return "asked about"
-    size = "anything" if alone >= GREY_LEVELS else f"up to {alone:.2g} DN"
+    size = "anything" if alone >= GREY_LEVELS else f"up to {alone:.3g} DN"
     if made == EXACT:
         return f"may change {size}"
     return f"may change {size}; this rung is off by {chain.dn({index: made}):.2g} DN at most"

@@ -96,6 +96,27 @@ def encode(values: Image, gamma: str | float) -> Image:
     return power(values, 1.0 / float(gamma))
 
 
+TABLE = 65535
+"""Steps of the tone table over [0, 1]."""
+
+
+@cache
+def _tone_table(gamma: str | float) -> Image:
+    return encode((np.arange(TABLE + 1) / TABLE).astype(np.float32), gamma)
+
+
+def encode_by_table(values: Image, gamma: str | float) -> Image:
+    """`encode` after rounding the linear values to 16 bits: a third of the time."""
+    table, top = _tone_table(gamma), np.float32(TABLE)
+
+    def work(part: Image) -> Image:
+        part *= top
+        part += np.float32(0.5)
+        return table.take(part.astype(np.int32), mode="clip")
+
+    return _in_parts(values, work)
+
+
 def decode(values: NDArray[np.float64]) -> NDArray[np.float64]:
     """Linear light of sRGB values in [0, 1] (double precision, for colours and small pictures)."""
     values = np.asarray(values, np.float64)

@@ -138,7 +138,9 @@ class Scene:
     @cached_property
     def range(self) -> tuple[float, float]:
         """Smallest and largest radiance that can occur, from the colours or the picture."""
-        colours = [level for thing in self.things for level in (*thing.colour, *thing.other)]
+        seen = [thing.other for thing in self.things if thing.texture != "plain"]
+        seen.extend(thing.colour for thing in self.things)
+        colours = [level for colour in seen for level in colour]
         return min((*colours, *self._behind)), max((*colours, *self._behind))
 
     @cached_property

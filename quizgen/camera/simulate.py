@@ -12,7 +12,9 @@ from numpy.typing import NDArray
 from quizgen.camera.draw import composite
 from quizgen.camera.effects import EFFECTS
 from quizgen.camera.effects.isp import rounded
-from quizgen.camera.plan import GREY_LEVELS, Plan, Prepared, everything, plan
+from quizgen.camera.facts import EXCEEDED
+from quizgen.camera.filters import warm_up
+from quizgen.camera.plan import GREY_LEVELS, RANDOM, Plan, Prepared, everything, plan
 from quizgen.camera.scene import Camera, Image, Scene
 
 _BY_NAME = {effect.name: effect for effect in EFFECTS}
@@ -51,6 +53,8 @@ class Photo:
 
 def run(prepared: Prepared, what: Plan) -> Photo:
     """Run the steps of a plan on a scene."""
+    if what.steps:
+        warm_up()
     started = perf_counter()
     state: Any = prepared.stack
     drawn = (perf_counter() - started) * 1e3
@@ -99,8 +103,23 @@ def simulate_everything(scene: Scene, camera: Camera) -> Photo:
     return run(prepared, everything(prepared))
 
 
-def difference_dn(one: Photo, other: Photo) -> float:
-    """Largest difference of two pictures in 8-bit grey levels, before rounding."""
-    if one.values is other.values:
+def difference_dn(planned: Photo, whole: Photo) -> float:
+    """Difference of two pictures in 8-bit grey levels, before rounding.
+
+    The largest one; where noise was skipped, the largest but for the share `EXCEEDED` of the
+    values, which is what the plan's bound is about.
+    """
+    if planned.values is whole.values:
         return 0.0
-    return float(np.abs(one.values - other.values).max() * GREY_LEVELS)
+    apart = np.abs(planned.values - whole.values).reshape(-1) * GREY_LEVELS
+    if not _random_differs(planned.plan):
+        return float(apart.max())
+    allowed = int(EXCEEDED * apart.size)
+    return float(np.partition(apart, apart.size - 1 - allowed)[apart.size - 1 - allowed])
+
+
+def _random_differs(what: Plan) -> bool:
+    """Whether noise was skipped, or runs on a signal that is not exactly the same."""
+    names = {item.effect for item in what.skipped} | {s.effect for s in what.steps if s.rung}
+    noisy = {step.effect for step in what.steps} | names
+    return bool(names) and bool(noisy.intersection(RANDOM))

@@ -147,6 +147,7 @@ EFFECTS: tuple[Effect, ...] = (
         "gamma", "processing", ("gamma",),
         lambda view: view.camera.gamma not in ("linear", 1.0), isp.gamma,
         isp_bounds.gamma_skipped, isp_bounds.gamma_carried, isp_bounds.gamma_after,
+        (Rung("table", isp_bounds.gamma_table),),
     ),
     Effect(
         "hsv edit", "edit", ("hsv", "hue", "saturation edit"), _edits_hsv, isp.hsv_edit,

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from quizgen.camera.effects.base import stream
 from quizgen.camera.effects.sensor import CHANNELS, colour_at, fall_off_map
 from quizgen.camera.filters import opencv
-from quizgen.camera.power import encode
+from quizgen.camera.power import encode, encode_by_table
 from quizgen.camera.scene import Image, View
 
 _PART = 1 << 13
@@ -117,7 +117,9 @@ def white_balance(image: Image, view: View, rung: str = "") -> Image:
 
 
 def gamma(image: Image, view: View, rung: str = "") -> Image:
-    """Encode linear light for display; clips to [0, 1]."""
+    """Encode linear light for display; clips to [0, 1]. The rung ``table`` rounds to 16 bits."""
+    if rung == "table":
+        return encode_by_table(image, view.camera.gamma)
     return encode(image, view.camera.gamma)
 
 

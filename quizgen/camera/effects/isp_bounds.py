@@ -9,7 +9,7 @@ import numpy as np
 
 from quizgen.camera.effects.sensor_bounds import corner_light, steepest_fall_off
 from quizgen.camera.facts import DEVIATIONS, Error, Facts
-from quizgen.camera.power import encode_number
+from quizgen.camera.power import TABLE, encode_number
 from quizgen.camera.scene import View
 
 # Raw development
@@ -78,6 +78,12 @@ def gamma_skipped(facts: Facts, view: View) -> Error:
     # both curves rise, so between two points the gap is at most the later minus the earlier
     gap = float(max((curve[1:] - grid[:-1]).max(), curve[0] - low))
     return Error(gap + max(facts.top - 1.0, -facts.bottom, 0.0))
+
+
+def gamma_table(facts: Facts, view: View) -> Error:
+    """Half a step of the table, spread most at the dark end."""
+    half = 0.5 / TABLE + 1e-7
+    return Error(encoded_gap(half, facts.bottom - half, view))
 
 
 def gamma_carried(error: Error, facts: Facts, view: View) -> Error:

@@ -85,8 +85,10 @@ def shot_skipped(facts: Facts, view: View) -> Error:
 
 
 def shot_carried(error: Error, facts: Facts, view: View) -> Error:
-    """Another signal has another noise: sqrt(a) and sqrt(b) differ by at most sqrt(|a - b|)."""
-    return Error(error.sure, error.sigma + math.sqrt(error.total / _well(view)))
+    """Another signal has another noise; the root is steepest at the darkest place."""
+    start = max(0.0, facts.bottom - error.total)
+    apart = math.sqrt(start + error.total) - math.sqrt(start)
+    return Error(error.sure, error.sigma + apart / math.sqrt(_well(view)))
 
 
 def shot_gaussian(facts: Facts, view: View) -> Error:

@@ -1,0 +1,216 @@
+"""Eager against planned photographs, and every effect beside the copy bandwidth of the same run.
+
+``python benchmarks/camera.py [--quick] [--calibrate]``; times are the best of several runs, ms.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from dataclasses import replace
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from quizgen.camera import Camera, Scene, costs, filters
+from quizgen.camera.effects import isp, optics, sensor
+from quizgen.camera.kernels import disc
+from quizgen.camera.plan import Plan, Prepared, everything, plan
+from quizgen.camera.scene import View
+from quizgen.camera.simulate import run
+
+SIZES = {"640x480": (640, 480), "12 MP": (4000, 3000)}
+
+# The six effects are all in this camera, but too weak to be seen.
+WEAK = Camera(
+    focal_length=0.05,
+    pixel_pitch=2e-7,
+    f_number=16.0,
+    focus_distance=10.00001,
+    k1=1e-9,
+    natural_vignetting=True,
+    full_well=1e12,
+    bit_depth=16,
+)
+
+# A long lens: the corner is 0.01 of the focal length away, so that only what is asked for shows.
+STRONG = {
+    "barrel": {"k1": -900.0},
+    "defocus": {"f_number": 8.0, "focus_distance": 9.9999},
+    "noise": {"full_well": 20000.0},
+    "vignetting": {"mechanical_vignetting": 0.6},
+    "none": {},
+}
+
+
+def best(work: Callable[[], Any], repeats: int) -> float:
+    """Shortest time of several runs, ms."""
+    times = []
+    for _ in range(repeats):
+        started = perf_counter()
+        work()
+        times.append(perf_counter() - started)
+    return min(times) * 1e3
+
+
+def picture(width: int, height: int) -> np.ndarray:
+    """Full contrast: a checker board on a gradient."""
+    rows, columns = np.mgrid[0:height, 0:width]
+    board = ((rows // 16 + columns // 16) % 2).astype(np.float32)
+    image = np.empty((height, width, 3), np.float32)
+    image[...] = (0.05 + 0.9 * board * columns / width)[..., None]
+    return image
+
+
+def view(width: int, height: int, **changes: Any) -> View:
+    camera = replace(Camera(0.01, 1e-5 * 640 / width), **changes)
+    return View(Scene(width, height, image=picture(width, height), depth=10.0), camera)
+
+
+def primitives(size: tuple[int, int], repeats: int) -> dict[str, float]:
+    """Time of every building block of the cost table."""
+    look = view(
+        *size, k1=-0.05, lateral_colour=2.0, natural_vignetting=True, full_well=20000.0,
+        exposure=1.0, dark_current=100.0, shutter=0.1, read_noise=5.0, smear=0.01, bit_depth=12,
+        mosaic="RGGB", white_balance=(1.5, 1.0, 1.4), gamma="srgb", hue=1.0,
+        gaussian_noise=0.05, impulse_noise=0.05, normalise=(0.1, 0.9, 0.0, 1.0), blooming=True,
+    )  # fmt: skip
+    image = look.scene.image
+    raw = sensor.mosaic(image, look)
+    x, y = optics._source(*size, look.focal, look.camera.k1, 0.0)
+    x, y = x + np.float32(0.25), y + np.float32(0.25)
+    small, large = disc(2.5), disc(21.0)
+    point = {
+        "vignetting": lambda: sensor.vignetting(image, look),
+        "exposure": lambda: sensor.exposure(image, look),
+        "shot noise": lambda: sensor.shot_noise(image, look),
+        "shot noise/gaussian": lambda: sensor.shot_noise(image, look, "gaussian"),
+        "dark current": lambda: sensor.dark_current(image, look),
+        "blooming": lambda: sensor.blooming(image, look),
+        "streak": lambda: sensor.smear(image, look),
+        "full well": lambda: sensor.full_well(image, look),
+        "read noise": lambda: sensor.read_noise(image, look),
+        "mosaic": lambda: sensor.mosaic(image, look),
+        "quantisation": lambda: sensor.quantise(image, look),
+        "demosaicing": lambda: isp.demosaic(raw, look),
+        "flat field": lambda: isp.flat_field(image, look),
+        "white balance": lambda: isp.white_balance(image, look),
+        "gamma": lambda: isp.gamma(image, look),
+        "gamma/table": lambda: isp.gamma(image, look, "table"),
+        "hsv edit": lambda: isp.hsv_edit(image, look),
+        "gaussian noise": lambda: isp.gaussian_noise(image, look),
+        "impulse noise": lambda: isp.impulse_noise(image, look),
+        "normalisation": lambda: isp.normalise(image, look),
+        "(rgb to hsv)": lambda: isp.rgb_to_hsv(image),
+        "(copy)": image.copy,
+        "SAMPLE": lambda: filters.sample(image, x, y),
+        "NEAREST": lambda: filters.sample_nearest(image, x, y),
+        "LATERAL": lambda: optics.lateral_colour(optics_stack(image), look),
+        "SMALL": lambda: filters.convolve(image, small),
+        "LARGE": lambda: filters.convolve(image, large),
+    }
+    times = {name: best(work, repeats) for name, work in point.items()}
+    times["MAP"] = best(lambda: fresh_map(look), repeats)
+    return times
+
+
+def optics_stack(image: np.ndarray) -> tuple[Any, ...]:
+    from quizgen.camera.draw import Layer
+
+    return (Layer(image),)
+
+
+def fresh_map(look: View) -> None:
+    optics._source.cache_clear()
+    optics._source(look.width, look.height, look.focal, look.camera.k1, look.camera.k2)
+
+
+def calibrate() -> None:
+    """Print the cost table of `quizgen.camera.costs`."""
+    real = filters.opencv
+    for name, stand_in in (("OpenCV", real), ("NumPy", lambda: None)):
+        filters.opencv = isp.opencv = stand_in
+        filters._opencv_remap_is_exact.cache_clear()
+        columns = [primitives(size, repeats) for size, repeats in zip(SIZES.values(), (9, 2), strict=True)]
+        print(f"# {name}")
+        for key in columns[0]:
+            print(f'    "{key}": ({columns[0][key]:.3g}, {columns[1][key]:.4g}),')
+    filters.opencv = isp.opencv = real
+    filters._opencv_remap_is_exact.cache_clear()
+
+
+def points(repeats: int) -> None:
+    """Point operations in units of one copy of the same picture."""
+    for name, size in SIZES.items():
+        times = primitives(size, repeats)
+        print(f"\n{name}: copy {times['(copy)']:.2f} ms")
+        for effect, time in times.items():
+            print(f"  {effect:22}{time:10.2f} ms{time / times['(copy)']:8.1f} copies")
+
+
+def chains(repeats: int) -> None:
+    """Eager against planned for scenes that call for one effect."""
+    for name, (width, height) in SIZES.items():
+        print(f"\n{name}: six effects, eager against planned")
+        scene = Scene(width, height, image=picture(width, height), depth=10.0)
+        scene.range  # noqa: B018 - known before, as for drawn scenes
+        for wish, changes in STRONG.items():
+            camera = replace(WEAK, pixel_pitch=2e-7 * 4000 / width, **changes)
+            if wish == "defocus":
+                camera = replace(camera, focus_distance=focus_for(15.0, camera))
+            prepared = Prepared(scene, camera)
+            whole = everything(prepared)
+            eager = best(lambda: run(prepared, whole), repeats)  # noqa: B023
+            planned = best(lambda: plan_and_run(scene, camera), repeats)  # noqa: B023
+            chosen = plan(prepared)
+            measured = min(timed(prepared, chosen) for _ in range(repeats))
+            ran = ", ".join(step.effect + (f" ({step.rung})" if step.rung else "") for step in chosen.steps)
+            print(
+                f"  {wish:11} eager {eager:8.1f}  planned {planned:8.2f} ms  x{eager / planned:7.1f}"
+                f"  predicted {chosen.predicted_ms:7.1f} measured {measured:7.1f}  ran: {ran}"
+            )
+
+
+def timed(prepared: Prepared, chosen: Plan) -> float:
+    """Measured time of all effects with nothing left over from an earlier run."""
+    optics._source.cache_clear()
+    sensor._fall_off_map.cache_clear()
+    return run(prepared, chosen).measured_ms
+
+
+def focus_for(diameter: float, camera: Camera) -> float:
+    """Focus distance at which a subject at 10 m is blurred to a diameter, px (bisection)."""
+    low, high = 5.0, 10.0
+    for _ in range(80):
+        middle = (low + high) / 2
+        blur = View(Scene(), replace(camera, focus_distance=middle)).blur_diameter(10.0)
+        low, high = (middle, high) if blur > diameter else (low, middle)
+    return low
+
+
+def plan_and_run(scene: Scene, camera: Camera) -> None:
+    prepared = Prepared(scene, camera)
+    run(prepared, plan(prepared))
+
+
+def ideal(repeats: int) -> None:
+    """A question that needs no effect: planning only."""
+    scene = Scene(image=picture(640, 480))
+    time = best(lambda: plan_and_run(scene, Camera()), repeats)
+    print(f"\nideal camera, 640x480: {time:.4f} ms for planning and running")
+
+
+def main() -> None:
+    filters.warm_up()
+    if "--calibrate" in sys.argv:
+        calibrate()
+        return
+    repeats = 1 if "--quick" in sys.argv else 3
+    ideal(20)
+    points(repeats)
+    chains(repeats)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,139 @@
+"""``quizgen simulate``: photograph a scene and say what was left out."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+if TYPE_CHECKING:
+    from quizgen.camera.simulate import Photo
+
+SCENES = Path(__file__).parent / "camera" / "scenes"
+
+
+@click.command()
+@click.argument("scene", required=False)
+@click.option(
+    "--budget",
+    default="0.5",
+    show_default=True,
+    metavar="LEVELS",
+    help="Largest tolerated change in 8-bit grey levels, or same (0.5), visible (2), sketch (8).",
+)
+@click.option("--question", multiple=True, metavar="KIND", help="Keep what decides this question.")
+@click.option("--all", "compare", is_flag=True, help="Also run everything; show the difference.")
+@click.option("--out", type=click.Path(path_type=Path, dir_okay=False), help="Write a PNG here.")
+@click.option("--json", "as_json", is_flag=True, help="Print the plan as JSON.")
+def simulate(scene: str | None, **options: Any) -> None:
+    """Photograph SCENE (a TOML file, or the name of a shipped scene).
+
+    Only effects that can be seen or are asked about are run. Without SCENE, the shipped scenes are
+    listed.
+    """
+    if scene is None:
+        _list_scenes()
+        return
+    from quizgen.camera.plan import Prepared, everything, plan
+    from quizgen.camera.reading import load
+    from quizgen.camera.simulate import run
+
+    prepared = Prepared(*load(_find(scene)))
+    question = options["question"] or None
+    photo = run(prepared, plan(prepared, question=question, budget=options["budget"]))
+    whole = run(prepared, everything(prepared, like=photo.plan)) if options["compare"] else None
+    _write(photo, options["out"])
+    report = summary(photo, whole)
+    if options["as_json"]:
+        click.echo(json.dumps(report, ensure_ascii=False, indent=1))
+    else:
+        _print(prepared.given.scene.title or scene, photo, whole, report)
+
+
+def _find(scene: str) -> Path:
+    path, shipped = Path(scene), SCENES / f"{scene}.toml"
+    plain = path.name == scene
+    return shipped if plain and not path.exists() and shipped.exists() else path
+
+
+def _list_scenes() -> None:
+    import tomllib
+
+    for path in sorted(SCENES.glob("*.toml")):
+        title = tomllib.loads(path.read_text("utf-8")).get("scene", {}).get("title", "")
+        click.echo(f"{path.stem:14} {title}")
+
+
+def _write(photo: Photo, target: Path | None) -> None:
+    if target is None:
+        return
+    from quizgen.camera import png
+    from quizgen.files import write_all
+
+    write_all(target.parent, {target.name: png.encode(photo.pixels())})
+
+
+def summary(photo: Photo, whole: Photo | None = None) -> dict[str, Any]:
+    """The plan as plain data; ``difference_dn`` only when everything was run for comparison."""
+    from quizgen.camera.simulate import difference_dn
+
+    what = photo.plan
+    report: dict[str, Any] = {
+        "ran": [step.effect for step in what.steps],
+        "rungs": {step.effect: step.rung for step in what.steps if step.rung},
+        "skipped": [
+            {
+                "effect": item.effect,
+                "reason": item.reason,
+                "bound_dn": item.bound_dn,
+                "saved_ms": item.saved_ms,
+            }
+            for item in what.skipped
+        ],
+        "absent": list(what.absent),
+        "budget_dn": what.budget,
+        "predicted_error_dn": what.predicted_error_dn,
+        "predicted_ms": what.predicted_ms,
+        "measured_ms": photo.measured_ms,
+    }
+    if whole is not None:
+        report["difference_dn"] = difference_dn(photo, whole)
+        report["everything_ms"] = whole.measured_ms
+    return report
+
+
+def _print(title: str, photo: Photo, whole: Photo | None, report: dict[str, Any]) -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table("effect", "", "why", "bound DN", "predicted ms", "measured ms", title=title)
+    for column in table.columns[3:]:
+        column.justify = "right"
+    for step in photo.plan.steps:
+        times = f"{step.predicted_ms:.2f}", f"{photo.times[step.effect]:.2f}"
+        rung = f"ran ({step.rung})" if step.rung else "ran"
+        table.add_row(step.effect, rung, step.reason, f"{step.bound_dn:.3g}", *times)
+    for item in photo.plan.skipped:
+        row = item.effect, "skipped", item.reason, f"{item.bound_dn:.3g}"
+        table.add_row(*row, f"saves {item.saved_ms:.2f}", "")
+    console = Console()
+    console.print(table)
+    _print_totals(photo, whole, report)
+
+
+def _print_totals(photo: Photo, whole: Photo | None, report: dict[str, Any]) -> None:
+    if not photo.plan.steps and not photo.plan.skipped:
+        click.echo("nothing is called for: the picture is the scene")
+    click.echo(
+        f"error at most {report['predicted_error_dn']:.3g} DN of {report['budget_dn']:g} allowed; "
+        f"{report['predicted_ms']:.1f} ms predicted, {report['measured_ms']:.1f} ms measured"
+    )
+    if photo.plan.absent:
+        click.echo(f"not in this camera: {', '.join(photo.plan.absent)}")
+    if whole is not None:
+        click.echo(
+            f"everything: {report['everything_ms']:.1f} ms, "
+            f"difference {report['difference_dn']:.3g} DN"
+        )

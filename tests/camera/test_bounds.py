@@ -1,0 +1,189 @@
+"""The reported bound holds at every pixel of hundreds of random scenes."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import scenes_at_random as at_random
+
+from quizgen.camera import Camera, Scene, SceneError
+from quizgen.camera.effects import EFFECTS, QUESTIONS
+from quizgen.camera.facts import DEVIATIONS, EXCEEDED, Error, coarse, glimpsed, measured
+from quizgen.camera.plan import SKIP, Plan, Prepared, Step, _Chain, _units, everything, plan
+from quizgen.camera.simulate import difference_dn, run
+
+ROUNDING = 1e-4
+SCENES = 600
+BATCHES = 6
+
+
+def photographs(first, last, *, noise):
+    """Random scenes that the camera can take at all (no fold inside the picture)."""
+    for seed in range(first, last):
+        source = np.random.default_rng([seed, noise])
+        prepared = Prepared(at_random.scene(source), at_random.camera(source, noise=noise))
+        try:
+            yield seed, source, prepared, run(prepared, everything(prepared))
+        except SceneError as error:
+            assert "folds" in str(error)
+
+
+def apart(one, other):
+    return float(np.abs(one.values.astype(np.float64) - other.values).max() * 255)
+
+
+def batch(number):
+    size = SCENES // BATCHES
+    return number * size, (number + 1) * size
+
+
+@pytest.mark.parametrize("number", range(BATCHES))
+def test_planned_and_everything_differ_by_at_most_the_reported_bound(number):
+    for seed, _, prepared, whole in photographs(*batch(number), noise=False):
+        for budget in (0.5, 2.0, 8.0, 60.0):
+            photo = run(prepared, plan(prepared, budget=budget))
+            bound = photo.plan.predicted_error_dn
+            assert bound <= budget + 1e-9, seed
+            assert apart(photo, whole) <= bound + ROUNDING * bool(bound), (seed, budget)
+            codes = np.abs(photo.pixels().astype(int) - whole.pixels())
+            assert codes.max() <= np.ceil(bound + ROUNDING), (seed, budget)
+
+
+def _chosen(units, source):
+    each = [{index: made for index in unit.members} for unit in units for made in unit.choices[1:]]
+    mixed = []
+    for _ in range(2):
+        made = [str(source.choice(list(unit.choices))) for unit in units]
+        mixed.append({i: way for unit, way in zip(units, made, strict=True) for i in unit.members})
+    return each + mixed
+
+
+@pytest.mark.parametrize("number", range(BATCHES))
+def test_every_single_choice_keeps_its_bound(number):
+    """Also choices no budget would allow: each effect skipped alone, each rung, random mixtures."""
+    for seed, source, prepared, whole in photographs(*batch(number), noise=False):
+        present = tuple(effect for effect in EFFECTS if effect.present(prepared.given))
+        units = _units(present, frozenset())
+        facts = [coarse(prepared.view), measured(prepared.stack, prepared.view)]
+        chains = [_Chain(present, prepared.view, known) for known in facts]
+        for choice in _chosen(units, source):
+            made = [(e.name, choice.get(i, "")) for i, e in enumerate(present)]
+            steps = tuple(Step(name, way, "", 0, 0) for name, way in made if way != SKIP)
+            difference = apart(run(prepared, Plan(steps, (), (), 0, 0, 0)), whole)
+            for chain in chains:
+                bound = chain.dn(choice)
+                assert difference <= bound * (1 + 1e-6) + 1e-9, (seed, made)
+
+
+def test_bounds_are_not_merely_large():
+    """Where theory is exact the bound is met: gain, gamma, quantisation, an edge out of focus."""
+    edge = np.zeros((16, 32, 3), np.float32)
+    edge[:, 16:] = 1
+    ramp = np.repeat(np.linspace(0, 1, 256 * 256, dtype=np.float32).reshape(256, 256, 1), 3, 2)
+    cases = [
+        (edge, Camera(exposure=-1.0)),
+        (edge, Camera(natural_vignetting=True, focal_length=0.05, pixel_pitch=1e-3)),
+        (edge, Camera(0.05, 5e-6, 2.8, 2.0001)),
+        (ramp, Camera(bit_depth=4)),
+        (ramp, Camera(gamma="srgb")),
+    ]
+    for image, camera in cases:
+        scene = Scene(image.shape[1], image.shape[0], image=image, depth=2.0)
+        prepared = Prepared(scene, camera)
+        present = tuple(effect for effect in EFFECTS if effect.present(prepared.given))
+        chain = _Chain(present, prepared.view, measured(prepared.stack, prepared.view))
+        without = tuple(Step(effect.name, "", "", 0, 0) for effect in present[:-1])
+        photo = run(prepared, Plan(without, (), (), 0, 0, 0))
+        whole = run(prepared, everything(prepared))
+        assert apart(photo, whole) > 0.9 * chain.dn({len(present) - 1: SKIP}), camera
+
+
+def test_a_glimpse_never_exceeds_the_facts():
+    for _, _, prepared, _ in photographs(0, 40, noise=False):
+        for every, whole in zip(
+            glimpsed(prepared.stack, prepared.view).layers,
+            measured(prepared.stack, prepared.view).layers,
+            strict=True,
+        ):
+            assert max(every.jump[0] - whole.jump[0], every.jump[1] - whole.jump[1]) <= 1e-7
+            assert max(every.bend[0] - whole.bend[0], every.bend[1] - whole.bend[1]) <= 1e-7
+
+
+def test_what_is_asked_about_is_never_skipped():
+    for seed in range(120):
+        source = np.random.default_rng([seed, 9])
+        prepared = Prepared(at_random.scene(source), at_random.camera(source, noise=True))
+        kind = str(source.choice(QUESTIONS))
+        try:
+            chosen = plan(prepared, question=kind, budget=1e6)
+        except SceneError as error:
+            assert "folds" in str(error)
+            continue
+        exact = {step.effect for step in chosen.steps if not step.rung}
+        for effect in EFFECTS:
+            if kind in effect.decides and effect.present(prepared.given):
+                assert effect.name in exact, (seed, kind)
+
+
+def test_an_ideal_camera_plans_nothing_and_changes_no_bit():
+    source = np.random.default_rng(5)
+    image = source.normal(0.5, 2, (40, 60, 3)).astype(np.float32)
+    prepared = Prepared(Scene(60, 40, image=image), Camera())
+    photo = run(prepared, plan(prepared))
+    assert photo.plan.steps == photo.plan.skipped == ()
+    assert photo.values.tobytes() == image.tobytes()
+    assert photo.plan.predicted_ms == photo.plan.predicted_error_dn == 0
+
+
+def test_plans_are_pure():
+    for _, _, prepared, _ in photographs(0, 20, noise=True):
+        again = Prepared(prepared.given.scene, prepared.given.camera)
+        assert plan(prepared, budget=2) == plan(again, budget=2)
+
+
+def _share_below(values, limits):
+    return np.searchsorted(np.sort(values.reshape(-1)), limits) / values.size
+
+
+def test_noise_agrees_in_distribution():
+    """The two distribution functions stay within the bound sideways and the sampling error."""
+    checked = 0
+    for seed, source, prepared, _ in photographs(0, 110, noise=True):
+        level, size = source.uniform(0, 1, 3).astype(np.float32), 112
+        scene = Scene(size, size, image=np.broadcast_to(level, (size, size, 3)).copy(), seed=seed)
+        camera = prepared.given.camera
+        try:
+            chosen = run(Prepared(scene, camera), plan(scene, camera, budget=3.0))
+            whole = run(Prepared(replace(scene, seed=seed + 10**6), camera), everything(scene, camera))
+        except SceneError:
+            continue
+        changed = chosen.plan.predicted_error_dn
+        if not changed:
+            continue
+        shift, slack = changed / 255 + 1e-6, 4.0 / size + EXCEEDED
+        for channel in range(3):
+            one, other = chosen.values[..., channel], whole.values[..., channel]
+            limits = np.quantile(other, np.linspace(0.02, 0.98, 49))
+            there = _share_below(other, limits)
+            assert (_share_below(one, limits - shift) <= there + slack).all(), seed
+            assert (_share_below(one, np.nextafter(limits + shift, 9)) >= there - slack).all(), seed
+        checked += 1
+    assert checked > 30
+
+
+def test_skipped_noise_stays_within_its_share():
+    """Values that noise would have carried beyond the bound: at most 1 in 10 000."""
+    scene = Scene(400, 300, background=(0.4, 0.5, 0.6), seed=3)
+    camera = Camera(full_well=4e6, read_noise=300.0)
+    photo = run(Prepared(scene, camera), plan(scene, camera, budget=1.0))
+    whole = run(Prepared(scene, camera), everything(scene, camera))
+    assert not photo.plan.steps
+    beyond = np.abs(photo.values - whole.values) * 255 > photo.plan.predicted_error_dn
+    assert 0 < beyond.sum() < EXCEEDED * beyond.size + 5 * (EXCEEDED * beyond.size) ** 0.5
+    assert difference_dn(photo, whole) <= photo.plan.predicted_error_dn * 1.05
+
+
+def test_errors_add_as_stated():
+    total = Error(1.0, 3.0).plus(Error(2.0, 4.0))
+    assert (total.sure, total.sigma) == (3.0, 5.0)
+    assert total.total == pytest.approx(3 + 5 * DEVIATIONS)
