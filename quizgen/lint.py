@@ -22,12 +22,15 @@ from quizgen.draw import Draw, answer_names, draw, plan_of, reference
 from quizgen.errors import QuizgenError
 from quizgen.numbers import to_float
 from quizgen.question import identity, put_into_words
+from quizgen.solution import key_field
 from quizgen.specs import build, plain
 from quizgen.template import Template
 from quizgen.text import CodeBlock, Items, Paragraph, Table, slots
 
 COMPOSED = 20
-"""Instances that are put into words in every language and marked."""
+"""Instances that are put into words in every language."""
+MARKED = 200
+"""Instances whose answers and mistakes are typed back in every language."""
 
 
 @dataclass
@@ -71,8 +74,11 @@ def lint(template: Template, seeds: int = 200) -> Report:
         _examine_draws(template, seeds, report)
         for seed in range(min(seeds, COMPOSED)):
             report.problems += composed_problems(draw(template, seed))
+        for seed in range(min(seeds, MARKED)):
+            report.problems += marking_problems(draw(template, seed))
         if template.rules.reference is not None:
             report.problems += composed_problems(reference(template))
+            report.problems += marking_problems(reference(template))
     except QuizgenError as error:
         report.problems.append(str(error))
     report.problems = list(dict.fromkeys(report.problems))
@@ -129,7 +135,9 @@ def _missing(template: Template, lang: str) -> Iterator[str]:
         "steps": {step.name for part in parts for step in part.steps},
         "traps": {trap for part in parts for trap in part.traps},
     }
-    known = {"steps": set(chain.by_name), "traps": set(chain.traps)}
+    listed = {trap for part in template.rules.part for trap in part.answer.get("traps", ())}
+    wanted["traps"] |= listed
+    known = {"steps": set(chain.by_name), "traps": set(chain.traps) | listed}
     for section, names in wanted.items():
         said = set(text.named.get(section, {}))
         yield from (f"section {section!r} lacks {name!r}" for name in sorted(names - said))
@@ -171,13 +179,17 @@ def composed_problems(one: Draw) -> list[str]:
         solved = " ".join([_text(getattr(key.solution, name)) for name in ("why", "check", "note")])
         if "{{" in solved:
             problems.append(f"{lang}: a placeholder is left in the solution")
-        problems += _marking_problems(one, lang)
     return problems
 
 
-def _marking_problems(one: Draw, lang: str) -> Iterator[str]:
-    for index, label in enumerate(one.template.labels):
-        spec = build(one, index)
+def marking_problems(one: Draw) -> list[str]:
+    """Problems with typing the printed answer and each mistake back."""
+    specs = [build(one, index) for index in range(len(one.template.labels))]
+    return [p for lang in one.template.languages for p in _marked(one, specs, lang)]
+
+
+def _marked(one: Draw, specs: list[dict[str, Any]], lang: str) -> Iterator[str]:
+    for spec, label in zip(specs, one.template.labels, strict=True):
         where = f"seed {one.seed}, {lang}, part {label or '1'}"
         typed = show(spec, lang)
         verdict = mark(spec, typed, lang=lang)
@@ -191,7 +203,7 @@ def _trap_problems(
     spec: dict[str, Any], trap: str, value: Any, where: str, lang: str
 ) -> Iterator[str]:
     wrong = {k: v for k, v in spec.items() if k not in {"traps", "notes"}}
-    wrong["value" if isinstance(value, str) else "values"] = value
+    wrong[key_field(spec, value)] = value
     typed = show(wrong, lang)
     verdict = mark(spec, typed, lang=lang)
     if verdict.note != f"trap:{trap}":

@@ -53,7 +53,8 @@ def _table(part: Table, lang: str) -> Markup:
     def row(cells: Any, tag: str) -> Markup:
         return Markup("<tr>{}</tr>").format(
             Markup("").join(
-                Markup("<{0}>{1}</{0}>").format(Markup(tag), inline(c, lang)) for c in cells
+                Markup("<{0}>{1}</{0}>").format(Markup(tag if c else "td"), inline(c, lang))
+                for c in cells
             )
         )
 
