@@ -19,7 +19,16 @@ from quizgen.errors import BankError
 from quizgen.expr import PRECISION, Expr, Sym, exact, names, taken_branch
 from quizgen.numbers import exact_text, rounded_text, short_decimal
 from quizgen.reader import to_text
-from quizgen.text import Block, Inline, Slot, Words, fill, fill_words
+from quizgen.text import (
+    Block,
+    Inline,
+    Slot,
+    Words,
+    fill,
+    fill_program,
+    fill_text,
+    fill_words,
+)
 from quizgen.units import shown as unit_shown
 
 NBSP = "\u00a0"
@@ -97,7 +106,28 @@ def filled(parts: Any, drawn: Draw, lang: str, *, hidden: bool = False) -> Any:
             return _slot(part.name, drawn, lang, hidden=hidden)
         return Maths(printing.layout(part.expr, inline=True), to_text(part.expr))
 
-    return _tied(fill(parts, value))
+    filled_in = _tied(fill(parts, value))
+    return fill_program(filled_in, lambda text: in_program(text, drawn, hidden=hidden))
+
+
+def in_program(text: str, drawn: Draw, *, hidden: bool = False) -> str:
+    """Program text or its output with the drawn values in place, as a program writes them.
+
+    Raises
+    ------
+    BankError
+        If a blank names a quantity that may not stand there or is not a short decimal.
+    """
+
+    def value(name: str) -> str:
+        known = drawn.shown if hidden else {**drawn.values, **drawn.shown}
+        text = exact_text(drawn.in_unit(name), minus="-") if name in known else None
+        if text is None:
+            what = f"{{{{ {name} }}}} cannot stand in a program"
+            raise BankError(f"template {drawn.template.id!r}: {what}")
+        return text
+
+    return fill_text(text, value)
 
 
 def _tied(parts: Any) -> Any:
@@ -234,8 +264,15 @@ def _wrong_text(spec: Mapping[str, Any], value: Any) -> str:
     wrong = {name: entry for name, entry in spec.items() if name not in left_out}
     if spec.get("exact"):
         wrong["sigfigs"] = len("1.234") - 1
-    wrong["value" if isinstance(value, str) else "values"] = value
+    wrong[key_field(spec, value)] = value
     return answer_text(wrong, "en")
+
+
+def key_field(spec: Mapping[str, Any], value: Any) -> str:
+    """Name of the field of a specification that holds the key."""
+    if spec["kind"] == "code":
+        return "output"
+    return "value" if isinstance(value, str) else "values"
 
 
 def worked(drawn: Draw, step: ChainStep) -> Maths:

@@ -7,11 +7,12 @@ per shape of answer; kinds that share a shape share a builder.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from fractions import Fraction
 from typing import Any
 
 from quizgen.draw import Draw, answer_names, factor, plan_of, shuffled
 from quizgen.errors import BankError
-from quizgen.expr import compile_expr, exact
+from quizgen.expr import Num, compile_expr, exact, substitute
 from quizgen.numbers import key_text
 from quizgen.text import Code, Formula, Slot, Styled, Words
 
@@ -238,6 +239,36 @@ def _synonyms(drawn: Draw, name: str) -> list[str]:
     return list(dict.fromkeys(synonyms))
 
 
+def _code(drawn: Draw, _index: int, answer: Mapping[str, Any]) -> Spec:
+    """Printed output and wrong outputs, with the drawn values in place."""
+    from quizgen.solution import in_program, sentence
+
+    wrong = {t: in_program(str(text), drawn) for t, text in answer.get("traps", {}).items()}
+    spec: Spec = {"output": in_program(str(answer["output"]), drawn)}
+    usable = {trap: text for trap, text in wrong.items() if text != spec["output"]}
+    notes = {
+        lang: {trap: plain(sentence(drawn, lang, "traps", trap)) for trap in usable}
+        for lang in drawn.template.texts
+    }
+    return {**spec, "traps": usable, "notes": notes}
+
+
+def _witness(drawn: Draw, _index: int, answer: Mapping[str, Any]) -> Spec:
+    """Conditions with the drawn values in place."""
+    from quizgen.reader import parse, to_text
+
+    known = {n: Num(Fraction(key_text(v)), decimal=v.q != 1) for n, v in drawn.shown.items()}
+
+    def stated(text: str) -> str:
+        tree = parse(text, symbols=(*answer["symbols"], *known))
+        return to_text(substitute(tree, known))
+
+    return {
+        "predicate": stated(answer["predicate"]),
+        "where": [stated(text) for text in answer.get("where", ())],
+    }
+
+
 def _as_written(_drawn: Draw, _index: int, _answer: Mapping[str, Any]) -> Spec:
     return {}
 
@@ -257,7 +288,7 @@ BUILDERS: dict[str, Callable[[Draw, int, Mapping[str, Any]], Spec]] = {
     "gap": _gap,
     "interval": _as_written,
     "expression": _as_written,
-    "witness": _as_written,
-    "code": _as_written,
+    "witness": _witness,
+    "code": _code,
     "text": _text,
 }

@@ -305,6 +305,8 @@ def slots(parts: Any) -> Iterator[str]:
     """Names of all slots in blocks or inlines."""
     if isinstance(parts, Slot):
         yield parts.name
+    elif isinstance(parts, CodeBlock):
+        yield from _SLOT.findall(parts.text)
     elif isinstance(parts, tuple):
         for part in parts:
             yield from slots(part)
@@ -319,6 +321,18 @@ def slots(parts: Any) -> Iterator[str]:
 def fill(parts: Any, value: Callable[[Inline], Inline]) -> Any:
     """Replace slots and formulas in blocks or inlines by what ``value`` gives for them."""
     return _rebuilt(parts, lambda leaf: value(leaf) if isinstance(leaf, Slot | Formula) else leaf)
+
+
+def fill_program(parts: Any, change: Callable[[str], str]) -> Any:
+    """Change the text of every program in blocks."""
+    return _rebuilt(
+        parts, lambda leaf: CodeBlock(change(leaf.text)) if isinstance(leaf, CodeBlock) else leaf
+    )
+
+
+def fill_text(text: str, value: Callable[[str], str]) -> str:
+    """Replace ``{{ name }}`` in program text by what ``value`` gives for the name."""
+    return _SLOT.sub(lambda found: value(found[1]), text)
 
 
 def fill_words(parts: Any, change: Callable[[str], str]) -> Any:
