@@ -192,7 +192,7 @@ def _marked(one: Draw, specs: list[dict[str, Any]], lang: str) -> Iterator[str]:
     for spec, label in zip(specs, one.template.labels, strict=True):
         where = f"seed {one.seed}, {lang}, part {label or '1'}"
         typed = show(spec, lang)
-        verdict = mark(spec, typed, lang=lang)
+        verdict = mark(spec, typed, lang=lang, decimal="point")
         if spec["kind"] != "text" and verdict.verdict != "correct":
             yield f"{where}: printed answer {typed!r} is marked {verdict.verdict} ({verdict.note})"
         for trap, value in spec.get("traps", {}).items():
@@ -205,7 +205,7 @@ def _trap_problems(
     wrong = {k: v for k, v in spec.items() if k not in {"traps", "notes"}}
     wrong[key_field(spec, value)] = value
     typed = show(wrong, lang)
-    verdict = mark(spec, typed, lang=lang)
+    verdict = mark(spec, typed, lang=lang, decimal="point")
     if verdict.note != f"trap:{trap}":
         yield f"{where}: trap {trap!r} typed as {typed!r} is {verdict.verdict} ({verdict.note})"
 

@@ -14,7 +14,7 @@ from quizgen.check.lists import read_list
 from quizgen.check.named import find_name, split_name
 from quizgen.check.options import Options
 from quizgen.check.rewrites import Source
-from quizgen.check.scalars import ReadError, exact_value
+from quizgen.check.scalars import ReadError
 from quizgen.check.specs import Scalar, Tolerance, decode
 from quizgen.check.specs import Spec as AnySpec
 from quizgen.check.verdict import Verdict, ambiguous, correct, partial, shared, with_values, wrong
@@ -82,7 +82,8 @@ def check(spec: Spec, typed: str, options: Options) -> Verdict:
     )
     if stopped is not None:
         return ambiguous(stopped.note, stopped.read_as, **stopped.fields)
-    verdict = _together(spec, names, cells, read_as)
+    trap = _trap(spec, placed, options) if any(c.credit < 1 for c in cells) else ""
+    verdict = _together(names, cells, read_as, trap)
     values = tuple(c.values[0] if c.values else None for c in cells)
     return with_values(replace(verdict, cells=tuple(cells)), *values)
 
@@ -113,32 +114,36 @@ def _one(spec: Spec, name: str, item: Source | None, options: Options) -> Verdic
     return verdict
 
 
-def _together(spec: Spec, names: list[str], cells: list[Verdict], read_as: str) -> Verdict:
+def _together(names: list[str], cells: list[Verdict], read_as: str, trap: str) -> Verdict:
     credit = sum((c.credit for c in cells), Fraction(0)) / len(cells)
     missed = tuple(n for n, c in zip(names, cells, strict=True) if c.credit < 1)
     if not missed:
         notes = {c.note for c in cells if c.verdict == "partial"}
         return partial(credit, read_as, notes.pop()) if notes else correct(read_as)
-    trap = _trap(spec, names, cells)
-    if trap:
-        return shared(credit, read_as, f"trap:{trap}", names=missed)
-    return shared(credit, read_as, "cells", names=missed)
+    return shared(credit, read_as, f"trap:{trap}" if trap else "cells", names=missed)
 
 
-def _trap(spec: Spec, names: list[str], cells: list[Verdict]) -> str:
-    """Return the one known mistake that explains every wrong cell."""
-    wrong_notes = {c.note for c in cells if c.credit < 1}
-    name = wrong_notes.pop() if len(wrong_notes) == 1 else ""
-    if not name.startswith("trap:"):
-        return ""
-    trap = name.removeprefix("trap:")
-    changed = [
-        n
-        for n in names
-        if exact_value(spec.traps[trap].get(n, spec.values[n])) != exact_value(spec.values[n])
-    ]
-    missed = [n for n, c in zip(names, cells, strict=True) if c.credit < 1]
-    return trap if set(changed) <= {*missed} else ""
+def _trap(spec: Spec, placed: Mapping[str, Source], options: Options) -> str:
+    """Return the one known mistake that gives every cell as it was typed."""
+    fitting = [trap for trap in spec.traps if _gives(spec, trap, placed, options)]
+    return fitting[0] if len(fitting) == 1 else ""
+
+
+def _gives(spec: Spec, trap: str, placed: Mapping[str, Source], options: Options) -> bool:
+    """Whether a mistake explains all cells: whoever made it typed its values throughout."""
+    values = spec.traps[trap]
+    for name in spec.values:
+        if name not in placed:
+            return False
+        wrong_cell = cell(replace_values(spec, name, values.get(name, spec.values[name])), name)
+        if CELLS[wrong_cell.kind].check(wrong_cell, placed[name].text, options).credit < 1:
+            return False
+    return True
+
+
+def replace_values(spec: Spec, name: str, value: Scalar) -> Spec:
+    """The same table with another value in one cell and no known mistakes."""
+    return msgspec.structs.replace(spec, values={**spec.values, name: value}, traps={})
 
 
 def show(spec: Spec, lang: str) -> str:
