@@ -18,7 +18,7 @@ with evaluate(False):
             Step(D_2, f / N_2, "mm"),
             Step(q, Piecewise((D_1 / D_2, D_1 > D_2), (D_2 / D_1, True))),
             Step(e, q**2),
-            Step(k, log(e, 2), "stop"),
+            Step(k, log(e, 2)),
             Step(t_1, 1 / r, "s"),
             Step(t_2, Piecewise((t_1 * q**2, D_1 > D_2), (t_1 / q**2, True)), "s"),
         ),
