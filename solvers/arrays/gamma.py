@@ -114,6 +114,7 @@ _DECODE = _halves(Fraction(12, 5))
 _KNEE_LINEAR = 0.0031308
 _KNEE_ENCODED = 0.04045
 _TOE = 2.0**-900
+_OVERFLOWS = 2.0**600
 
 
 def _srgb_encode(x: Array) -> Array:
@@ -122,7 +123,7 @@ def _srgb_encode(x: Array) -> Array:
 
 
 def _srgb_decode(x: Array) -> Array:
-    base = (pairs(np.maximum(x, _KNEE_ENCODED))[0] + _OFFSET) / _STRETCH
+    base = (pairs(np.clip(x, _KNEE_ENCODED, _OVERFLOWS))[0] + _OFFSET) / _STRETCH
     bright = _power(base.high, _DECODE) * (1 + 2.4 * (base.low / base.high))
     return _with_toe(bright, x, x <= _KNEE_ENCODED, lambda toe: toe / _SLOPE, 1 / 12.92)
 

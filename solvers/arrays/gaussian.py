@@ -87,14 +87,14 @@ def _two_sided(k: Array) -> Array:
 def _expected(M: Array, k: Array) -> Array:
     """M times the two-sided tail; the exponential is split where it would be subnormal."""
     k = np.abs(k)
-    value = 2 * M * _tail(k) if k.max() < 37 else np.where(k < 37, 2 * M * _tail(k), 0.0)
+    value: Array = M * (2 * _refined_tail(k))
     if k.max() < 37:
         return value
     far = np.minimum(k, 80.0)
     square, lost = two_product(far, far)
     ratio, skew = _mills(far)
     half = np.exp(square * -0.25)
-    whole = (2 * M * half) * half * ratio
+    whole = (M * half) * half * (2 * ratio)
     return np.where(k < 37, value, whole - whole * (lost / 2 + skew))
 
 
@@ -135,14 +135,16 @@ def _bell(distance: Array, lost: Array, sigma: Array, shift: Any) -> Array:
         z, low = np.where(beyond, 60.0, z), np.where(beyond, 0.0, low)
     square, skew = two_product(z, z)
     skew += 2 * z * low
+    correction = _PEAK_LOST - skew / 2
     if shift is None and square.max() < 1380:
         value = np.exp(square * -0.5) * _PEAK / sigma
-    else:  # in two halves, because exp would be subnormal before the division by sigma
-        half = np.exp(square * -0.25)
-        value = half * _PEAK / sigma
-        value = (np.ldexp(value, -shift) if shift is not None else value) * half
-    value += value * (_PEAK_LOST - skew / 2)
-    return value
+        value += value * correction
+        return value
+    # In two halves, because exp would be subnormal before the division by sigma.
+    half = np.exp(square * -0.25)
+    value = half * _PEAK / sigma
+    value += value * correction
+    return (value if shift is None else np.ldexp(value, -shift)) * half
 
 
 def _interval(a: Array, b: Array) -> Array:

@@ -19,7 +19,7 @@ from .gaussian import interval, pdf
 KM = 683.0
 """Lumens per watt at the peak."""
 
-_HC_EV_NM = 1239.8419843320026
+_HC_EV_NM = 1239.8419843320025
 _HC = 1.9864458571489286e-25
 _TABLE = np.array(V)
 _EDGES = FIRST_NM + STEP_NM * np.arange(_TABLE.size)
@@ -171,7 +171,7 @@ def _scaled(power: Numbers, kernel: Callable[..., Any], *args: Numbers) -> Resul
     return _FLUX(power, kernel(*args))
 
 
-_FLUX = Kernel(lambda power, share: KM * power * share, (NONNEGATIVE, NONNEGATIVE))
+_FLUX = Kernel(lambda power, share: power * (KM * share), (NONNEGATIVE, NONNEGATIVE))
 
 
 def photon_energy(wavelength: Numbers) -> Result:

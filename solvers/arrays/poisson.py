@@ -53,6 +53,7 @@ def _pmf(k: Array, lam: Array) -> Array:
     inside = (k > 0) & (lam > 0) & (k < _LARGEST) & (lam < _LARGEST)
     inside &= lam > k / _LARGEST
     value = np.where(k == 0, np.exp(-lam), 0.0)
+    value = np.where((k == 1) & (lam <= 1 / _LARGEST), lam, value)
     where = np.flatnonzero(inside)
     if where.size:
         value[where] = _density(k.take(where), lam.take(where))

@@ -6,6 +6,8 @@ binary numbers they are, and returns an ``mpf`` with at least 45 correct digits.
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import mpmath as mp
 from mpmath import mpf
 
@@ -172,14 +174,11 @@ def normalise(I, low, high, new_low, new_high):
     return new_low + (I - low) / (high - low) * (new_high - new_low)
 
 
-def decimal(x):
-    """The shortest decimal that reads as this double."""
-    return mpf(repr(float(x)))
-
-
-def pixel(f, pitch, x, z, o):
-    f, pitch, x, z, o = map(decimal, (f, pitch, x, z, o))
-    return o + f * x / (pitch * z)
+def pixel(*args):
+    """On the shortest decimals that read as these doubles, with fractions."""
+    f, pitch, x, z, o = (Fraction(repr(float(arg))) for arg in args)
+    u = o + f * x / (pitch * z)
+    return mpf(u.numerator) / u.denominator
 
 
 def snr(N, sigma):

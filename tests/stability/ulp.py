@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 import mpmath as mp
-import numpy as np
 
 
 def ulps(value: float, truth: mp.mpf) -> float:
@@ -20,5 +19,5 @@ def ulps(value: float, truth: mp.mpf) -> float:
     if math.isnan(value) or math.isinf(value):
         return math.inf
     with mp.workdps(60):
-        spacing = float(np.spacing(abs(float(truth))))
+        spacing = math.ulp(float(truth))
         return float(abs(mp.mpf(value) - truth) / mp.mpf(spacing))

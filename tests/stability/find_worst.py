@@ -1,0 +1,148 @@
+"""Search for inputs with large errors: random starts near a singularity, then local moves.
+
+Run: ``python tests/stability/find_worst.py [seed]``. Writes ``worst_inputs.tsv``; the functions
+under test only choose the inputs, the expected values come from ``oracle``.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import numpy as np
+from functions import function
+from oracle import reference
+from ulp import ulps
+
+STARTS, MOVES, KEPT = 60, 60, 3
+
+
+def near(x, rng, nearest=-15, farthest=0):
+    """A double at a log-uniform relative distance from x."""
+    return x * (1 + rng.choice((-1, 1)) * 10 ** rng.uniform(nearest, farthest) * 0.9)
+
+
+def positive(rng):
+    return 10 ** rng.uniform(-3, 3)
+
+
+def lens(rng):
+    f = positive(rng)
+    return f, abs(near(f, rng))
+
+
+def focused(rng):
+    f = positive(rng)
+    return f, positive(rng), f * (1 + positive(rng))
+
+
+def blur(rng):
+    f, N, s = focused(rng)
+    return f, N, s, near(s, rng)
+
+
+def field(rng):
+    f, N = positive(rng), 10 ** rng.uniform(0, 1.5)
+    c = f * 10 ** rng.uniform(-5, -3)
+    H = f + f * f / (N * c)
+    return f, N, c, max(f, min(near(H, rng), H * 0.999999999999))
+
+
+def barrel(rng):
+    k1 = -positive(rng)
+    return 2 / 3 / np.sqrt(-3 * k1) * (1 - 10 ** rng.uniform(-14, -0.1)), k1, 0.0
+
+
+def two_coefficients(rng):
+    return rng.uniform(0, 0.5), rng.uniform(-0.3, 0.3), rng.uniform(-0.1, 0.1)
+
+
+def pair_near(rng):
+    a = positive(rng)
+    return a, abs(near(a, rng))
+
+
+def colour(rng):
+    base = rng.uniform(0, 1)
+    return base, near(base, rng), near(base, rng)
+
+
+SPACES = {
+    "gaussian.upper_tail": lambda rng: (rng.uniform(-5, 38),),
+    "gaussian.two_sided_tail": lambda rng: (rng.uniform(0, 38),),
+    "gaussian.log_tail": lambda rng: (rng.uniform(-8, 40),),
+    "gaussian.inverse_tail": lambda rng: (10 ** rng.uniform(-300, -0.001),),
+    "gaussian.pdf": lambda rng: (rng.uniform(-38, 38), rng.uniform(-1, 1), positive(rng)),
+    "gaussian.interval": lambda rng: (lambda a: (a, a + 10 ** rng.uniform(-12, 1)))(rng.uniform(-3, 36)),
+    "gaussian.peak_2d": lambda rng: (positive(rng), positive(rng), 1 - 10 ** rng.uniform(-15, 0)),
+    "gaussian.determinant": lambda rng: (positive(rng), positive(rng), 1 - 10 ** rng.uniform(-15, 0)),
+    "thin_lens.image_distance": lens,
+    "thin_lens.focus_shift": lens,
+    "thin_lens.magnification": lens,
+    "blur.blur_disc": blur,
+    "depth_of_field.near_limit": field,
+    "depth_of_field.far_limit": field,
+    "depth_of_field.total_depth": field,
+    "stops.stops": pair_near,
+    "stops.light_ratio": pair_near,
+    "distortion.inverse_radius": barrel,
+    "distortion.correction": two_coefficients,
+    "hsv.hue": colour,
+    "hsv.saturation": colour,
+    "hsv.red": lambda rng: (rng.uniform(-720, 720), 1 - 10 ** rng.uniform(-9, 0), rng.uniform(0, 1)),
+    "normalise.normalise": lambda rng: (127.5 + 10 ** rng.uniform(-13, 2), 0.0, 255.0, -1.0, 1.0),
+    "projection.project_x": lambda rng: (positive(rng), positive(rng), positive(rng)),
+    "weak_perspective.scale_error": pair_near,
+    "snr.snr": lambda rng: (positive(rng), positive(rng)),
+    "snr.snr_loss": lambda rng: (10 ** rng.uniform(0, 18), positive(rng)),
+    "snr.photons_for": lambda rng: (positive(rng), positive(rng)),
+    "poisson.pmf": lambda rng: (lambda m: (float(rng.poisson(m)), m))(10 ** rng.uniform(0, 6)),
+    "poisson.upper": lambda rng: (lambda m: (float(rng.poisson(m)), m))(10 ** rng.uniform(0, 4)),
+    "gamma.encode": lambda rng: (10 ** rng.uniform(-300, 3),),
+    "gamma.decode": lambda rng: (10 ** rng.uniform(-100, 3),),
+    "gamma.srgb_encode": lambda rng: (10 ** rng.uniform(-3, 0),),
+    "gamma.srgb_decode": lambda rng: (10 ** rng.uniform(-2, 0),),
+    "gamma.gap": lambda rng: (rng.uniform(0, 1), 10 ** rng.uniform(-3, 0)),
+    "vignetting.cos4": lambda rng: (positive(rng), positive(rng)),
+    "vignetting.falloff": lambda rng: (positive(rng), positive(rng)),
+}
+WHOLE = {"poisson.pmf", "poisson.upper"}
+
+
+def error(name, args):
+    """Error in ulp, or -1 where there is no answer."""
+    try:
+        return ulps(function(name)(*args), reference(name, args))
+    except (ValueError, ArithmeticError):
+        return -1.0
+
+
+def search(name, rng):
+    """Best inputs of random starts followed by moves of a few ulp to per mille."""
+    best = sorted(((error(name, a), a) for a in (SPACES[name](rng) for _ in range(STARTS))), reverse=True)[:KEPT]
+    found = []
+    for value, args in best:
+        for _ in range(MOVES):
+            moved = [a * (1 + rng.normal() * 10 ** rng.uniform(-15, -3)) for a in args]
+            if name in WHOLE:
+                moved[0] = round(moved[0])
+            trial = tuple(map(float, moved))
+            score = error(name, trial)
+            if score > value:
+                value, args = score, trial
+        found.append((value, args))
+    return found
+
+
+def main(seed):
+    rng = np.random.default_rng(seed)
+    lines = []
+    for name in SPACES:
+        for value, args in search(name, rng):
+            print(name, round(value, 2), args)
+            lines.append("\t".join((name, " ".join(float(a).hex() for a in args), f"local search, seed {seed}")))
+    (Path(__file__).parent / "worst_inputs.tsv").write_text("\n".join(lines) + "\n")
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else 1)

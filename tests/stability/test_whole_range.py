@@ -1,0 +1,87 @@
+"""No warning, no NaN, no hang for any finite input: the full range of doubles, hypothesis."""
+
+from __future__ import annotations
+
+import math
+import warnings
+
+import numpy as np
+import pytest
+from functions import function
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from oracle import FORMULAS
+
+from solvers.arrays import bayer, luminosity, statistics, stops
+from solvers.arrays.domain import DomainError, answered
+
+ANY = st.floats(allow_nan=False, allow_infinity=False)
+EDGES = st.sampled_from([0.0, -0.0, 5e-324, 2.2250738585072014e-308, 1.7976931348623157e308, 1.0])
+NEAR_ONE = st.integers(-4, 4).map(lambda n: 1 + n * 2**-52)
+UNIT = st.floats(0, 1)
+NUMBER = st.one_of(ANY, ANY.map(abs), EDGES, NEAR_ONE, UNIT)
+ARGUMENTS = {name: formula.__code__.co_argcount for name, formula in FORMULAS.items()}
+ARGUMENTS |= {"projection.pixel": 5, "hsv.red": 3, "hsv.green": 3, "hsv.blue": 3}
+OTHERS = {
+    "luminosity.photopic": (luminosity.photopic, 1),
+    "luminosity.band_flux": (luminosity.band_flux, 3),
+    "luminosity.line_flux": (luminosity.line_flux, 3),
+    "luminosity.photon_energy": (luminosity.photon_energy, 1),
+    "luminosity.photon_energy_ev": (luminosity.photon_energy_ev, 1),
+    "stops.nominal": (stops.nominal, 1),
+}
+CASES = {name: (function(name), count) for name, count in ARGUMENTS.items()} | OTHERS
+
+
+def columns(values):
+    return list(values) if isinstance(values, tuple) else [values]
+
+
+@pytest.mark.parametrize("name", CASES)
+@settings(max_examples=60, deadline=2000, suppress_health_check=[HealthCheck.too_slow])
+@given(data=st.data())
+def test_any_finite_input(name, data):
+    call, count = CASES[name]
+    args = data.draw(st.tuples(*[NUMBER] * count))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        values = columns(call(*[np.array([arg, 1.0]) for arg in args]))
+        try:
+            scalars = columns(call(*args))
+        except DomainError as error:
+            assert error.reason not in {"", "not-finite"}
+            assert not all(answered(value)[0] for value in values)
+            return
+    for value, scalar in zip(values, scalars, strict=True):
+        assert answered(value)[0]
+        assert not math.isnan(scalar)
+        assert float(value[0]) == scalar or abs(float(value[0]) - scalar) <= 2 * math.ulp(scalar)
+
+
+@settings(max_examples=100, deadline=2000)
+@given(st.lists(ANY, min_size=1, max_size=30))
+def test_statistics_of_anything(values):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        centre = statistics.mean(values)
+        spread = statistics.variance(values, ddof=0)
+    assert min(values) - math.ulp(min(values)) <= centre <= max(values) + math.ulp(max(values))
+    assert spread >= 0
+
+
+@given(st.lists(st.integers(0, 255), min_size=1, max_size=4))
+def test_bayer_mean_of_bytes(values):
+    sites = [np.array([value], dtype=np.uint8) for value in values]
+    exact = sum(values) / len(values)
+    assert bayer.neighbour_mean(*sites)[0] == exact
+    assert bayer.neighbour_mean(*sites, rule="half-up")[0] == math.floor(exact + 0.5)
+    assert bayer.neighbour_mean(*sites, rule="half-even")[0] == round(exact)
+    assert bayer.neighbour_mean(*sites, rule="down")[0] == int(exact)
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+@pytest.mark.parametrize("name", ["thin_lens.image_distance", "gaussian.upper_tail", "snr.snr"])
+def test_not_finite_is_named(name, value):
+    call, count = CASES[name]
+    with pytest.raises(DomainError, match="not-finite"):
+        call(*[value] * count)
