@@ -26,15 +26,13 @@ from typing import Any
 
 from quizgen import formula
 from quizgen.errors import BankError, FormulaError, RenderError
-from quizgen.formula.build import RELATIONS
-from quizgen.formula.nodes import PRODUCT, RELATION, Big, Func, Ident, Node, Number, Op, Row, Scripts
+from quizgen.formula.nodes import ATOM, PRODUCT, Big, Func, Ident, Number, Op, Row, Scripts
 from quizgen.reader import parse
 from quizgen.solution import Maths
 
 Inside = Mapping[str, Mapping[str, Any]]
 
-_BEYOND = "∝≈→∈~≪≫⇒"
-_SIGN = re.compile(r"\s(≠|!=|<=|>=|≤|≥|[=<>" + _BEYOND + r"])\s")
+_SIGN = re.compile(r"\s(!=|<=|>=|[=<>≠≤≥∝≈→∈~≪≫⇒])\s")
 _SPELLED = {"!=": "≠", "<=": "≤", ">=": "≥"}
 _NAME = re.compile(r"[^\W\d_][^\W_]*'*(?:_[^\W_]+'*)*")
 
@@ -61,11 +59,16 @@ def sides(line: str, inside: Inside, where: str) -> tuple[list[str], list[Maths]
     BankError
         Naming the place and the column.
     """
-    pieces = _SIGN.split(line)
-    signs = [_SPELLED.get(sign, sign) for sign in pieces[1::2]]
-    if not set(signs) <= RELATIONS:
-        raise BankError(f"{where}: {line!r} has an unknown relation sign")
-    return signs, [side(text, inside, where) for text in pieces[::2]]
+    cuts = [found for found in _SIGN.finditer(line) if _outside(line[: found.start()])]
+    signs = [_SPELLED.get(found[1], found[1]) for found in cuts]
+    starts, ends = [0, *(cut.end() for cut in cuts)], [*(cut.start() for cut in cuts), len(line)]
+    texts = [line[start:end] for start, end in zip(starts, ends, strict=True)]
+    return signs, [side(text, inside, where) for text in texts]
+
+
+def _outside(before: str) -> bool:
+    """Whether a place is outside all brackets."""
+    return before.count("(") == before.count(")")
 
 
 def side(text: str, inside: Inside, where: str) -> Maths:
@@ -151,7 +154,7 @@ def _bold(table: Mapping[str, Any], inside: Inside) -> Maths:
 
 def _quadratic(table: Mapping[str, Any], inside: Inside) -> Maths:
     vector, matrix = (_part(text, inside) for text in table["quadratic"])
-    held = formula.bracketed(vector.node, RELATION + 8)
+    held = formula.bracketed(vector.node, ATOM)
     inverse = Scripts(matrix.node, None, formula.negative(Number("1")))
     turned = formula.power(held, Op("ᵀ"))
     node = Row((turned, Op(""), inverse, Op(""), held), PRODUCT)

@@ -45,26 +45,25 @@ def _holes(entry: FormulaEntry) -> Iterator[Hole]:
     for index, line in enumerate(entry.lines):
         signs, parts = sides(line, entry.inside, f"formulas.toml: card {entry.id!r}")
         if not signs:
-            raise BankError(f"formulas.toml: card {entry.id!r}: {line!r} has no sides")
+            raise BankError(f"formulas.toml: card {entry.id!r}: {line!r} has only one side")
+        cut = signs.index("⇒") + 1 if "⇒" in signs else 1
         yield Hole(
-            _shown(parts[0], signs[0]),
-            _joined(parts[1:], signs[1:]),
+            _shown(parts[:cut], signs[:cut]),
+            _joined(parts[cut:], signs[cut:]),
             index + 1 if entry.separate else 1,
         )
 
 
-def _shown(left: Maths, sign: str) -> Maths:
-    """The left side with the sign after it."""
-    node = formula.relation([sign], [left.node, Row(())])
-    return Maths(node, f"{left.typed} {sign}")
+def _shown(parts: list[Maths], signs: list[str]) -> Maths:
+    """The sides before the hidden one, with the sign after each."""
+    node = formula.relation(signs, [*(part.node for part in parts), Row(())])
+    typed = " ".join(f"{part.typed} {sign}" for part, sign in zip(parts, signs, strict=True))
+    return Maths(node, typed)
 
 
 def _joined(parts: list[Maths], signs: list[str]) -> Maths:
     if not signs:
         return parts[0]
-    typed = parts[0].typed
-    for sign, part in zip(signs, parts[1:], strict=True):
-        typed += f" {sign} {part.typed}"
+    pairs = zip(signs, parts[1:], strict=True)
+    typed = " ".join([parts[0].typed, *(f"{sign} {part.typed}" for sign, part in pairs)])
     return Maths(formula.relation(signs, [part.node for part in parts]), typed)
-
-
