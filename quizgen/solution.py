@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 from quizgen import formula as printing
@@ -19,16 +20,7 @@ from quizgen.errors import BankError
 from quizgen.expr import PRECISION, Expr, Sym, exact, names, taken_branch
 from quizgen.numbers import exact_text, rounded_text, short_decimal
 from quizgen.reader import to_text
-from quizgen.text import (
-    Block,
-    Inline,
-    Slot,
-    Words,
-    fill,
-    fill_program,
-    fill_text,
-    fill_words,
-)
+from quizgen.text import Block, CodeBlock, Inline, Slot, Words, fill, fill_text
 from quizgen.units import shown as unit_shown
 
 NBSP = "\u00a0"
@@ -104,10 +96,16 @@ def filled(parts: Any, drawn: Draw, lang: str, *, hidden: bool = False) -> Any:
     def value(part: Inline) -> Inline:
         if isinstance(part, Slot):
             return _slot(part.name, drawn, lang, hidden=hidden)
-        return Maths(printing.layout(part.expr, inline=True), to_text(part.expr))
+        if isinstance(part, CodeBlock):
+            return CodeBlock(in_program(part.text, drawn, hidden=hidden))
+        return _inline_maths(part.expr)
 
-    filled_in = _tied(fill(parts, value))
-    return fill_program(filled_in, lambda text: in_program(text, drawn, hidden=hidden))
+    return fill(parts, value)
+
+
+@lru_cache(maxsize=4096)
+def _inline_maths(expr: Expr) -> Maths:
+    return Maths(printing.layout(expr, inline=True), to_text(expr))
 
 
 def in_program(text: str, drawn: Draw, *, hidden: bool = False) -> str:
@@ -128,11 +126,6 @@ def in_program(text: str, drawn: Draw, *, hidden: bool = False) -> str:
         return text
 
     return fill_text(text, value)
-
-
-def _tied(parts: Any) -> Any:
-    """Keep ``f = 50 mm`` on one line: the blanks around an equals sign do not break."""
-    return fill_words(parts, lambda text: text.replace(" = ", f"{NBSP}={NBSP}"))
 
 
 def _slot(name: str, drawn: Draw, lang: str, *, hidden: bool) -> Inline:

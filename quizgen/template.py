@@ -148,14 +148,23 @@ class Template:
         count = len(self.rules.part)
         return tuple(PART_LABELS[:count]) if count > 1 else ("",)
 
+    @cached_property
+    def _formulas(self) -> dict[str, Expr]:
+        return {}
+
     def formula(self, text: str) -> Expr:
-        """Read a formula of ``template.toml`` over the template's quantities.
+        """Read a formula of ``template.toml`` over the template's quantities, once.
 
         Raises
         ------
         BankError
             Naming file and column if it cannot be read.
         """
+        if text not in self._formulas:
+            self._formulas[text] = self._parsed(text)
+        return self._formulas[text]
+
+    def _parsed(self, text: str) -> Expr:
         try:
             expr = parse(text, symbols=tuple(self.units))
         except FormulaError as error:

@@ -123,6 +123,8 @@ class Text:
         return self.named.get(section, {}).get(name)
 
 
+TIED = "\u00a0=\u00a0"
+"""``f = 50 mm`` stays on one line: the blanks around an equals sign do not break."""
 _SLOT = re.compile(r"\{\{\s*([A-Za-z_][\w']*)\s*\}\}")
 _MATH = re.compile(r"\$([^$\n]+)\$")
 _BANNED = re.compile(r"\{\{|\}\}|\{%|%\}|\{#|#\}")
@@ -238,7 +240,7 @@ def _inlines(tokens: Iterator[Any], until: str | None) -> Iterator[Inline]:
 def _plain(text: str) -> Words:
     if _BANNED.search(text):
         raise BankError(f"only {{{{ name }}}} may stand in double braces: {text.strip()!r}")
-    return Words(text)
+    return Words(text.replace(" = ", TIED))
 
 
 def _formula(text: str) -> Formula:
@@ -319,39 +321,24 @@ def slots(parts: Any) -> Iterator[str]:
 
 
 def fill(parts: Any, value: Callable[[Inline], Inline]) -> Any:
-    """Replace slots and formulas in blocks or inlines by what ``value`` gives for them."""
-    return _rebuilt(parts, lambda leaf: value(leaf) if isinstance(leaf, Slot | Formula) else leaf)
-
-
-def fill_program(parts: Any, change: Callable[[str], str]) -> Any:
-    """Change the text of every program in blocks."""
-    return _rebuilt(
-        parts, lambda leaf: CodeBlock(change(leaf.text)) if isinstance(leaf, CodeBlock) else leaf
-    )
+    """Replace slots, formulas and programs in blocks or inlines by what ``value`` gives."""
+    if isinstance(parts, tuple):
+        return tuple(fill(part, value) for part in parts)
+    if isinstance(parts, Words):
+        return parts
+    if isinstance(parts, Slot | Formula | CodeBlock):
+        return value(parts)
+    if isinstance(parts, Paragraph):
+        return Paragraph(fill(parts.children, value))
+    if isinstance(parts, Styled):
+        return Styled(parts.style, fill(parts.children, value))
+    if isinstance(parts, Items):
+        return Items(fill(parts.items, value), parts.ordered)
+    if isinstance(parts, Table):
+        return Table(fill(parts.head, value), fill(parts.rows, value))
+    return parts
 
 
 def fill_text(text: str, value: Callable[[str], str]) -> str:
     """Replace ``{{ name }}`` in program text by what ``value`` gives for the name."""
     return _SLOT.sub(lambda found: value(found[1]), text)
-
-
-def fill_words(parts: Any, change: Callable[[str], str]) -> Any:
-    """Change every piece of plain text in blocks or inlines."""
-    return _rebuilt(
-        parts, lambda leaf: Words(change(leaf.text)) if isinstance(leaf, Words) else leaf
-    )
-
-
-def _rebuilt(parts: Any, leaf: Callable[[Inline], Inline]) -> Any:
-    """Copy a tree of blocks and inlines with every leaf replaced."""
-    if isinstance(parts, tuple):
-        return tuple(_rebuilt(part, leaf) for part in parts)
-    if isinstance(parts, Paragraph):
-        return Paragraph(_rebuilt(parts.children, leaf))
-    if isinstance(parts, Styled):
-        return Styled(parts.style, _rebuilt(parts.children, leaf))
-    if isinstance(parts, Items):
-        return Items(_rebuilt(parts.items, leaf), parts.ordered)
-    if isinstance(parts, Table):
-        return Table(_rebuilt(parts.head, leaf), _rebuilt(parts.rows, leaf))
-    return leaf(parts)
