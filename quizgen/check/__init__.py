@@ -88,7 +88,7 @@ def judge(spec: Spec, typed: str, options: Options) -> Verdict:
 
 
 def _asked_back(error: ReadError) -> Verdict:
-    note = "unexpected-end" if error.code == "unfinished" else error.code
+    note = error.code
     if error.code == "unknown-unit" and error.expected:
         note = "unknown-unit-case"
     fields: dict[str, Any] = {"found": error.found, "expected": error.expected}

@@ -10,7 +10,7 @@ from fractions import Fraction
 from quizgen.check.literals import Doubt, pointed
 from quizgen.check.rewrites import Rewrite, Source, normalise
 from quizgen.check.scalars import moved
-from quizgen.expr import Call, Expr, Num
+from quizgen.expr import RELATIONS, Call, Expr, Num
 from quizgen.reader import ReadError, double_reading, parse_pieces, to_text, tokens
 from quizgen.reader.names import FUNCTIONS, folded
 
@@ -145,10 +145,10 @@ def _literals(source: Source, declared: frozenset[str], decimal: str) -> Formula
 def _tree(source: Source, declared: frozenset[str]) -> Expr:
     try:
         pieces = tokens(source.text, declared, loose=True)
-        loose = _exponentials(parse_pieces(pieces, len(source.text), tight=False))
+        loose = _formula(parse_pieces(pieces, len(source.text), tight=False))
         if double_reading(pieces) is None:
             return loose
-        tight = _exponentials(parse_pieces(pieces, len(source.text), tight=True))
+        tight = _formula(parse_pieces(pieces, len(source.text), tight=True))
     except ReadError as error:
         raise _meant(moved(error, source), declared) from None
     if tight == loose:
@@ -157,6 +157,12 @@ def _tree(source: Source, declared: frozenset[str]) -> Expr:
 
 
 _E = Call("exp", (Num(Fraction(1)),))
+
+
+def _formula(tree: Expr) -> Expr:
+    if isinstance(tree, Call) and tree.op in RELATIONS:
+        raise ReadError("not-a-formula", 1)
+    return _exponentials(tree)
 
 
 def _exponentials(tree: Expr) -> Expr:

@@ -8,11 +8,7 @@ from dataclasses import dataclass
 from quizgen.check.rewrites import Source
 from quizgen.reader import ReadError
 
-LITERAL = re.compile(
-    r"(?:\d+(?:[ '](?=\d{3}(?!\d))\d{3})*|)(?:[.,]\d+)+"
-    r"|\d+(?:[ '](?=\d{3}(?!\d))\d{3})+"
-    r"|\d+[.]?"
-)
+LITERAL = re.compile(r"[.,]?\d+(?:(?:[.,]+|[ '](?=\d{3}(?!\d)))\d+)*\.?")
 """A run of digits with marks and groups, as typed."""
 
 _ONE_MARK = re.compile(r"(\d*)([.,])(\d+)")

@@ -44,7 +44,15 @@ def say(lang: str, note: str, fields: Mapping[str, Any]) -> str:
     sentence = sentences(lang).get(note, "")
     if not fields or "{" not in sentence:
         return sentence
-    return sentence.format_map({key: _shown(lang, value) for key, value in fields.items()})
+    return sentence.format_map(_Blanks({key: _shown(lang, v) for key, v in fields.items()}))
+
+
+class _Blanks(dict[str, str]):
+    """A sentence never fails for want of a detail."""
+
+    def __missing__(self, key: str) -> str:
+        del key
+        return "…"
 
 
 def _shown(lang: str, value: Any) -> str:

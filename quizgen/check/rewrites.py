@@ -73,6 +73,8 @@ _APPROXIMATE = r"ca\.|approx(?:\.|imately)?|about|circa|etwa|ungefähr|rund|প�
 
 _ABOUT = re.compile(rf"^ *(?:≈|~|∼|=|(?:{_APPROXIMATE})(?![^\W\d_])) *", re.IGNORECASE)
 
+_X = re.compile(r"(?<=[\d)])(?<!^0)(?<![^\d.,]0) *[xXхХ] *(?=\d)")
+
 
 def _table(pairs: dict[str, str]) -> Callable[[re.Match[str]], str]:
     return lambda match: pairs[match[0]]
@@ -106,7 +108,10 @@ REWRITES: dict[str, Rewrite] = {
     "subscripts": (re.compile(r"[₀-₉ₓᵢ]+"), lambda m: m[0].translate(_SUBSCRIPTS)),
     "vulgar fractions": (re.compile(r"(\d*) ?([¼-¾⅐-⅞])"), _fraction),
     "about": (_ABOUT, lambda _m: ""),
-    "x between numbers": (re.compile(r"(?<=[\d)]) *[xXхХ] *(?=10 ?\^|10\*\*|\d)"), lambda _m: "*"),
+    "x between numbers": (
+        re.compile(r"(?<=[\d)])(?<!^0)(?<![^\d.,]0) *[xXхХ] *(?=\d)"),
+        lambda _m: "*",
+    ),
 }
 """Name to pattern and replacement, in the order they are applied."""
 

@@ -10,6 +10,7 @@ from quizgen.errors import Undecided
 from quizgen.numbers import decimal_text, magnitude, places, round_to
 
 LARGEST_PLAIN = 10**7
+LARGEST_SHOWN = fmpq(10) ** 250
 
 
 def nearest(value: Any, decimals: int) -> fmpq:
@@ -37,6 +38,8 @@ def with_figures(value: Any, figures: int) -> str:
 
 def exact_or_figures(value: Any, figures: int) -> str:
     """Write an integer or short decimal exactly, anything else with so many figures."""
+    if abs(value) > LARGEST_SHOWN:
+        return "-∞" if value < 0 else "∞"
     if not isinstance(value, arb) and abs(value) < LARGEST_PLAIN:
         needed = places(value)
         if needed is not None and needed < figures:

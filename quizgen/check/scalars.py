@@ -21,6 +21,9 @@ from quizgen.reader.lexer import LARGEST_EXPONENT, LONGEST_NUMBER
 LARGEST_BITS = 4000
 """Largest size of an intermediate value in a typed number."""
 
+LARGEST_VALUE = fmpq(10) ** LARGEST_EXPONENT
+"""Largest number read."""
+
 
 @dataclass(frozen=True, slots=True)
 class Number:
@@ -154,6 +157,8 @@ def _written(source: Source) -> Number:
         text = text[:-1].rstrip()
     number = _scientific(text) or _ten(text) or _fraction(text) or _mixed(text)
     number = number or _expression(source, text)
+    if abs(number.value) > LARGEST_VALUE:
+        raise ReadError("too-large", 1)
     if not percent:
         return number
     return Number(

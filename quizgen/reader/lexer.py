@@ -6,13 +6,14 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import pairwise
 
 from quizgen.errors import FormulaError
 from quizgen.expr import Num
 from quizgen.reader.names import CONSTANTS, FUNCTIONS, KEYWORDS, folded, spellings, split
 
-LARGEST_EXPONENT = 400
-"""Largest decimal exponent read: 1e400 is beyond anything measurable and still a small integer."""
+LARGEST_EXPONENT = 250
+"""Largest decimal exponent read: beyond anything measurable, and every unit keeps it a float."""
 
 LONGEST_NUMBER = 60
 """Most digits read in one number."""
@@ -232,11 +233,14 @@ def _allow_join(left: Piece, right: Piece, *, named: bool) -> None:
 
 
 def double_reading(pieces: list[Piece]) -> Piece | None:
-    """Where ``a/b c`` could mean ``(a/b) c`` or ``a/(b c)``, else None."""
+    """Where ``a/b c`` could mean ``(a/b) c`` or ``a/(b c)``, else None.
+
+    A denominator in brackets is complete: ``1/(2 b) c`` is a product.
+    """
     after_slash = [False]
-    for piece in pieces:
+    for piece, following in pairwise([*pieces, Piece("END", "", "", 0)]):
         if piece.kind == "SLASH":
-            after_slash[-1] = True
+            after_slash[-1] = following.kind != "LPAR"
         elif piece.kind in _BREAKS:
             after_slash[-1] = False
         elif piece.kind in {"LPAR", "LBAR"}:

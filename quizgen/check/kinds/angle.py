@@ -60,6 +60,8 @@ def _judge(spec: Spec, number: Number, quantity: TypedQuantity, options: Options
     bare = quantity.unit is None and not verdict.credit
     if bare and not verdict.note.startswith("trap:") and _radians(spec, number.value):
         verdict = wrong(read_as, "radians")
+    elif not verdict.credit and not verdict.note and close(-value, exact_value(spec.value)):
+        verdict = wrong(read_as, "sign")
     return with_values(verdict, value)
 
 

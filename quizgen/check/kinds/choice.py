@@ -85,7 +85,7 @@ def _by_text(spec: Spec, typed: str) -> int:
 def _positions(spec: Spec, typed: str) -> list[int]:
     source = normalise(re.sub(r"[\r\n]+", ",", typed.strip()), keep_x=True, longest=1000)
     text = source.text.translate(_BANGLA)
-    marks = re.findall(r"[A-Za-z]+|\d+|[^\s,;.&+()/|]", _FILLERS.sub(" ", text))
+    marks = re.findall(r"[A-Za-z]+|\d+|[^\s,;.&+()/|:]", _FILLERS.sub(" ", text))
     found = [position for mark in marks for position in _mark(spec, mark)]
     if not found:
         raise ReadError("option-expected", 1, safe(typed), _range(spec))

@@ -13,7 +13,7 @@ from quizgen.check.judging import settle
 from quizgen.check.options import Options
 from quizgen.check.proving import proved_equal
 from quizgen.check.rounding import exact_or_figures
-from quizgen.check.sampling import Comparison, Domain, compare
+from quizgen.check.sampling import Comparison, Domain, agree, compare
 from quizgen.check.scalars import exact_value
 from quizgen.check.settling import settle_equal
 from quizgen.check.specs import Spec as AnySpec
@@ -98,7 +98,7 @@ def _wrong(spec: Spec, tree: Expr, found: Comparison, read_as: str) -> Verdict:
     if found.ground == "domain":
         return wrong(read_as, "domain")
     if found.ratio is not None:
-        note = "sign" if found.ratio == -1 else "constant-factor"
+        note = "sign" if agree(found.ratio, fmpq(-1)) else "constant-factor"
         return wrong(read_as, note, factor=_short(found.ratio))
     if found.difference is not None:
         return wrong(read_as, "constant-offset", offset=_short(found.difference))

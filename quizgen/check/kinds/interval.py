@@ -66,11 +66,10 @@ def read(typed: str, decimal: str) -> tuple[Interval, str]:
 
 def _brackets(source: Source, match: re.Match[str], decimal: str) -> Interval:
     inside = source.cut(match.start(2), match.end(2))
-    cuts = list(re.finditer(r" ?[;|] ?", inside.text))
-    if not cuts:
-        cuts = list(re.finditer(r" ?, ?", inside.text))
+    strong = list(re.finditer(r" ?[;|] ?", inside.text))
+    cuts = strong or list(re.finditer(r" ?, ?", inside.text))
     if len(cuts) != 1:
-        code = "comma-twice" if len(cuts) > 1 else "item-count"
+        code = "comma-twice" if cuts and not strong else "item-count"
         raise ReadError(code, source.column(0), str(len(cuts) + 1), ["2"])
     low = _bound(inside.cut(0, cuts[0].start()), decimal)
     high = _bound(inside.cut(cuts[0].end()), decimal)

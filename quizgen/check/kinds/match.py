@@ -82,21 +82,17 @@ def _right(second: str, right: dict[str, str]) -> str:
 
 
 def _tokens(text: str, left: dict[str, str]) -> list[tuple[str, str]]:
-    """Cut into pairs: a left label, then what follows up to the next left label."""
+    """Cut into pairs: ``A3``, ``A 3``, or several run together, ``A3B1``."""
     words = [fold(w) for w in _SEPARATORS.split(_ARROWS.sub(" ", text)) if fold(w)]
-    pieces: list[str] = []
+    label = "|".join(re.escape(name) for name in sorted(left, key=len, reverse=True))
+    run = re.compile(rf"(?:(?:{label})\d{{1,2}})+")
+    flat: list[str] = []
     for word in words:
-        label = next((name for name in left if word.startswith(name) and word != name), "")
-        alone = word in left or not label or not _short(left, label)
-        pieces += [word] if alone else re.findall(rf"({label})(\d+|[^\W\d]+)", word)[0:1] or [word]
-    flat = [item for piece in pieces for item in (piece if isinstance(piece, tuple) else (piece,))]
+        together = word not in left and run.fullmatch(word)
+        flat += re.findall(rf"{label}|\d{{1,2}}", word) if together else [word]
     if len(flat) % 2:
         raise ReadError("pairs-expected", 1, safe(text))
     return list(zip(flat[::2], flat[1::2], strict=True))
-
-
-def _short(left: dict[str, str], label: str) -> bool:
-    return len(label) <= 2 and label in left
 
 
 def _place(

@@ -104,6 +104,7 @@ def trap_values(spec: Tolerance, scale: Any = 1) -> list[tuple[str, Any]]:
 
 
 _LENS = re.compile(r"[fFƒ] ?/? ?(?=\d)|1 ?: ?(?=\d)")
+_RATIO = re.compile(r"(?<=\d) ?: ?(?=\d)")
 _NAMED = re.compile(r"[^\W\d_][^\W_]*'*(?:_[^\W_]+'*)* ?(?:=|≈|:|:=) ?")
 
 
@@ -133,13 +134,14 @@ def without_name(source: Source) -> Source:
 
 
 def _without_lens(spec: Spec, source: Source) -> Source:
-    """Read ``f/2.8`` and, where it cannot be a ratio, ``1:2.8`` as the f-number 2.8."""
+    """Read ``f/2.8`` and, where it cannot be a ratio, ``1:2.8`` as the f-number 2.8.
+
+    Any other colon between numbers is a division.
+    """
     match = _LENS.match(source.text)
-    if match is None:
-        return source
-    ratio = match[0].startswith("1") and spec.notation != "f-number"
-    if ratio and not re.search(r"[.,]\d", source.text):
-        return source.sub(re.compile(":"), lambda _m: "/")
+    ratio = match is not None and match[0].startswith("1") and spec.notation != "f-number"
+    if match is None or (ratio and not re.search(r"[.,]\d", source.text)):
+        return source.sub(_RATIO, lambda _m: "/")
     return source.cut(match.end())
 
 

@@ -84,7 +84,7 @@ def _scale(unit: TypedUnit | None, asked: str, item: Source) -> Any:
         return fmpq(1)
     wanted = plain_unit(asked)
     if unit.dimension != wanted.dimension:
-        code = "unit-not-asked" if not wanted.dimension else "unit-clash"
+        code = "unit-not-asked" if not wanted.dimension else "unit-other"
         raise ReadError(code, item.column(0), shown_unit(unit.text), [shown_unit(asked)])
     return unit.factor / wanted.factor
 
@@ -157,24 +157,29 @@ def _hint(
     if all(gives(spec, n, n.value, key) for n, key in turned):
         return wrong(read_as, "swapped")
     missed = [i for i, cell in enumerate(cells) if cell.credit < 1]
-    note = "coordinate"
+    note, fields = "coordinate", dict[str, Any]()
     if all(keys[i] != 0 and close(-values[i], keys[i]) for i in missed):
         note = "coordinate-sign"
     elif len(missed) == len(cells):
-        note = _common(cells)
-    return shared(_credit(keys, cells), read_as, note, names=_names(spec, missed))
+        note, fields = _common(cells)
+    return shared(_credit(keys, cells), read_as, note, names=_names(spec, missed), **fields)
 
 
-def _common(cells: tuple[Verdict, ...]) -> str:
-    """Return the note that all coordinates share."""
-    notes = {cell.note for cell in cells}
-    note = notes.pop() if len(notes) == 1 else ""
-    return note if note in {"power-of-ten", "factor", "reciprocal", "percent-slip"} else ""
+_SHARED = frozenset({"power-of-ten", "factor", "reciprocal", "percent-slip"})
+
+
+def _common(cells: tuple[Verdict, ...]) -> tuple[str, dict[str, Any]]:
+    """Return the slip that all coordinates share."""
+    slips = {(cell.note, tuple(cell.fields.items())) for cell in cells}
+    note, fields = slips.pop()
+    return (note, dict(fields)) if not slips and note in _SHARED else ("", {})
 
 
 def _credit(keys: list[Any], cells: tuple[Verdict, ...]) -> Fraction:
     """Share of right coordinates; a zero in the key earns nothing by itself."""
     counted = [cell.credit for key, cell in zip(keys, cells, strict=True) if key != 0]
+    if counted and all(credit == 1 for credit in counted):
+        return Fraction(len(counted), len(cells))
     return sum(counted, Fraction(0)) / len(counted) if counted else Fraction(0)
 
 

@@ -73,14 +73,17 @@ def _without_unit(spec: Spec, number: Number, wanted: TypedUnit, options: Option
     if spec.unit == "%" and not verdict.credit:
         fraction = judge_unit(spec, number, number.value * 100, options, number.read_as)
         verdict = fraction if fraction.credit else verdict
-    if spec.bare or (not wanted.dimension and wanted.factor == 1):
+    if not wanted.dimension and wanted.factor == 1:
         return verdict
+    if spec.bare:
+        return _prefix(spec, number, number.value, wanted, verdict)
     if verdict.credit:
         unit = shown_unit(spec.unit)
         credit = min(HALF, verdict.credit)
         missing = partial(credit, number.read_as, "unit-missing", unit=unit)
         return with_values(missing, number.value)
-    return _logarithm(spec, number.value, number.read_as) or verdict
+    ratio = _logarithm(spec, number.value, number.read_as)
+    return ratio or _prefix(spec, number, number.value, wanted, verdict)
 
 
 def _clash(spec: Spec, number: Number, typed: TypedUnit, read_as: str) -> Verdict:

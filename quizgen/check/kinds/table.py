@@ -94,6 +94,8 @@ def _placed(typed: str, names: list[str], decimal: str) -> dict[str, Source]:
     items, _ = read_list(typed, count, decimal)
     pairs = [split_name(item) for item in items]
     if not any(name for name, _ in pairs):
+        if len(items) != len(names):
+            raise ReadError("item-count", 1, str(len(items)), [str(len(names))])
         return dict(zip(names, items, strict=True))
     placed: dict[str, Source] = {}
     for (label, rest), item in zip(pairs, items, strict=True):

@@ -129,7 +129,10 @@ def _numbers(spec: Spec, typed: str, decimal: str) -> dict[str, Number]:
     """Read the example: by name, in groups, or all in order."""
     source = normalise(re.sub(r"\s*\r?\n\s*", "; ", typed.strip()), longest=400)
     names, placed = list(spec.names()), dict[str, Number]()
-    for label, item in _items(source):
+    items = list(_items(source))
+    if len(items) == 1 and not items[0][0]:
+        items = [("", piece) for piece in _alone(items[0][1], len(names))]
+    for label, item in items:
         targets = _targets(label, item, [n for n in names if n not in placed], names)
         for name, piece in targets:
             placed[name] = _number(piece, decimal)
@@ -137,6 +140,15 @@ def _numbers(spec: Spec, typed: str, decimal: str) -> dict[str, Number]:
         missing = [name for name in names if name not in placed]
         raise ReadError("values-missing", 1, "", missing)
     return {name: placed[name] for name in names}
+
+
+def _alone(item: Source, count: int) -> list[Source]:
+    """Cut values that stand in a row without separators of their own: ``0.2 0.3``."""
+    for separator in (re.compile(r" +"), re.compile(r",")):
+        parts = _cut(item, separator)
+        if len(parts) == count and _depth(item.text, len(item.text)) == 0:
+            return parts
+    return [item]
 
 
 def _number(piece: Source, decimal: str) -> Number:
@@ -174,8 +186,6 @@ def _targets(
         return _group(label, item, parts, free)
     if own:
         free = [own]
-    elif len(parts) == 1 and len(free) > 1:
-        parts = _parts(item)
     if len(parts) > len(free):
         raise ReadError("item-count", item.column(0), str(len(parts)), [str(len(free))])
     return list(zip(free, parts, strict=False))
