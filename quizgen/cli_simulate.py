@@ -43,7 +43,7 @@ def simulate(scene: str | None, **options: Any) -> None:
     prepared = Prepared(*load(_find(scene)))
     question = options["question"] or None
     photo = run(prepared, plan(prepared, question=question, budget=options["budget"]))
-    whole = run(prepared, everything(prepared, like=photo.plan)) if options["compare"] else None
+    whole = run(prepared, everything(prepared)) if options["compare"] else None
     _write(photo, options["out"])
     report = summary(photo, whole)
     if options["as_json"]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 
 from quizgen.camera.draw import sheets
-from quizgen.camera.effects.optics import slice_edges, turns
+from quizgen.camera.effects.optics import slices, turns
 from quizgen.camera.effects.optics_bounds import blur_of, map_range
 from quizgen.camera.filters import opencv
 from quizgen.camera.kernels import disc, line
@@ -70,10 +70,10 @@ def _convolution(height: int, width: int, taps: int, view: View, *, opencv_used:
     if taps == 1:
         return 0.0
     if opencv_used:
-        if height * width <= 11 * 11:  # noqa: PLR2004 - OpenCV's own limit
+        if height * width <= 11 * 11:
             return 0.1 + at_size(TAP_OPENCV, view.megapixels) * (20 + height * width)
         return at_size(FOURIER_OPENCV, view.megapixels)
-    few = taps <= 49  # noqa: PLR2004 - see filters
+    few = taps <= 49
     return at_size(TAP, view.megapixels) * taps if few else at_size(FOURIER, view.megapixels)
 
 
@@ -87,8 +87,7 @@ def _defocus(rung: str, view: View, *, opencv_used: bool) -> float:
     total = 0.0
     for sheet in sheets(view):
         if sheet.depth is None and sheet.opaque:
-            edges = slice_edges(map_range(view), rung)
-            middles = (edges[1:] + edges[:-1]) / 2
+            middles = slices(map_range(view), rung)
             total += sum(_blur(float(c), view, opencv_used=opencv_used) for c in middles) * 1.5
         else:
             share = 1.0 if sheet.opaque else 4.0 / 3.0

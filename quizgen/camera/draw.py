@@ -13,7 +13,7 @@ from itertools import groupby
 import numpy as np
 from numpy.typing import NDArray
 
-from quizgen.camera.scene import Image, Scene, SceneError, Thing, View
+from quizgen.camera.scene import Image, SceneError, Thing, View
 
 Plane = NDArray[np.float64]
 Shape = Callable[[Thing, Plane, Plane], Plane]

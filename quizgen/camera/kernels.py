@@ -68,7 +68,7 @@ def disc(diameter: float) -> Kernel:
     radius = abs(diameter) / 2.0
     if radius == 0.0:
         return np.ones((1, 1))
-    count = max(SAMPLES, 2 * math.ceil(4.0 * radius))
+    count = max(SAMPLES, min(32 * math.ceil(radius), 1024), 2 * math.ceil(2.0 * radius))
     centres = radius * ((np.arange(count) + 0.5) * (2.0 / count) - 1.0)
     tents = _tents(centres)
     kernel = tents @ _disc_cells(count) @ tents.T
@@ -125,6 +125,8 @@ def change(
     span : float
         Largest minus smallest value of x.
     """
+    if kernel.size == 1:
+        return 0.0
     down, across = offsets(kernel)
     over_x = np.minimum(across**2 * bend[0], 2.0 * across * jump[0]) / 2.0
     over_y = np.minimum(down**2 * bend[1], 2.0 * down * jump[1]) / 2.0

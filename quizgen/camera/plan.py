@@ -30,7 +30,7 @@ EXACT, SKIP = "", "skip"
 RANDOM = ("shot noise", "dark current", "read noise", "gaussian noise", "impulse noise")
 """Effects that draw random numbers."""
 
-_ROUNDING = 3e-6
+_ROUNDING = 5e-7
 """What single precision adds to a difference in one step, relative to the largest value."""
 
 
@@ -161,7 +161,7 @@ def _lost(effect: Effect, facts: Facts, view: View) -> Error:
 
 
 def _rounding(facts: Facts) -> Error:
-    return Error(_ROUNDING * max(1.0, facts.size))
+    return Error(_ROUNDING * max(facts.size, facts.top))
 
 
 def _facts_along(present: tuple[Effect, ...], view: View, facts: Facts) -> list[Facts]:
@@ -302,33 +302,16 @@ def plan(
     return _report(chain, choice, units, absent, limit)
 
 
-def everything(
-    scene: Scene | Prepared, camera: Camera | None = None, like: Plan | None = None
-) -> Plan:
-    """The plan that runs every present effect exactly.
-
-    Parameters
-    ----------
-    scene, camera
-        As for `plan`.
-    like : Plan, optional
-        Noise keeps the rung it has there: both pictures then share their random draws, and their
-        difference is what was left out, not luck.
-    """
-    drawn = {step.effect: step.rung for step in like.steps} if like else {}
+def everything(scene: Scene | Prepared, camera: Camera | None = None) -> Plan:
+    """The plan that runs every present effect exactly."""
     prepared = scene if isinstance(scene, Prepared) else Prepared(scene, camera or Camera())
     present = tuple(effect for effect in EFFECTS if effect.present(prepared.given))
     absent = tuple(effect.name for effect in EFFECTS if effect not in present)
     steps = tuple(
-        _whole_step(effect.name, drawn.get(effect.name, EXACT), prepared.view)
+        Step(effect.name, EXACT, "everything", math.nan, cost(effect.name, EXACT, prepared.view))
         for effect in present
     )
     return Plan(steps, (), absent, 0.0, sum(step.predicted_ms for step in steps), 0.0)
-
-
-def _whole_step(name: str, rung: str, view: View) -> Step:
-    rung = rung if name in RANDOM else EXACT
-    return Step(name, rung, "everything", math.nan, cost(name, rung, view))
 
 
 def _report(

@@ -76,7 +76,7 @@ def _decode(data: bytes) -> NDArray[Any]:
     if raw.size != height * (1 + width * pitch):
         raise ValueError("a broken PNG file")
     rows = _unfiltered(raw.reshape(height, 1 + width * pitch), pitch)
-    pixels = rows if bits == 8 else rows.reshape(-1).view(">u2").astype(np.uint16)  # noqa: PLR2004
+    pixels = rows if bits == 8 else rows.reshape(-1).view(">u2").astype(np.uint16)
     return pixels.reshape(height, width, channels)
 
 
@@ -104,9 +104,9 @@ def _unfilter(kind: int, row: Bytes, above: Bytes, pitch: int) -> Bytes:
         return row
     if kind == 1:
         return np.cumsum(row.reshape(-1, pitch), axis=0, dtype=np.uint8).reshape(-1)
-    if kind == 2:  # noqa: PLR2004
+    if kind == 2:
         return row + above
-    if kind > 4:  # noqa: PLR2004
+    if kind > 4:
         raise ValueError("a broken PNG file")
     return _predicted(kind, row, above, pitch)
 
@@ -116,7 +116,7 @@ def _predicted(kind: int, row: Bytes, above: Bytes, pitch: int) -> Bytes:
     upper = [0] * pitch + above.tolist()
     for place in range(pitch, len(result)):
         left, top, corner = result[place - pitch], upper[place], upper[place - pitch]
-        guess = (left + top) // 2 if kind == 3 else _paeth(left, top, corner)  # noqa: PLR2004
+        guess = (left + top) // 2 if kind == 3 else _paeth(left, top, corner)
         result[place] = (result[place] + guess) & 255
     return np.array(result[pitch:], np.uint8)
 

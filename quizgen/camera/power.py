@@ -16,7 +16,7 @@ Image = NDArray[np.float32]
 
 SRGB_KNEE = 0.0031308
 SRGB_LINEAR = 0.04045
-_DEGREE = 5
+_DEGREE = 7
 _PART = 1 << 14
 
 
@@ -31,7 +31,7 @@ def _tables(exponent: float) -> tuple[list[np.float32], Image]:
 
 
 def power(values: Image, exponent: float) -> Image:
-    """Raise values in [0, 1] to a power in (0, 1], within 2e-6 of the true value.
+    """Raise values in [0, 1] to a power in (0, 1], within 3e-7 of the true value.
 
     Parameters
     ----------

@@ -149,7 +149,7 @@ def _depth(value: Any) -> float:
 
 def _side(value: Any) -> int:
     side = whole(value)
-    if not 2 <= side <= 2**15:  # noqa: PLR2004
+    if not 2 <= side <= 2**15:
         raise ValueError("expected 2 to 32768")
     return side
 
@@ -335,4 +335,4 @@ def _picture(file: _File, key: str, name: str) -> Any:
     if pixels.shape[0] * pixels.shape[1] > _MAX_PIXELS:
         raise file.fail("scene", 0, key, f"{name}: more than 50 megapixels")
     values = pixels / float(np.iinfo(pixels.dtype).max)
-    return np.repeat(values[..., :1], 3, axis=2) if values.shape[2] < 3 else values[..., :3]  # noqa: PLR2004
+    return np.repeat(values[..., :1], 3, axis=2) if values.shape[2] < 3 else values[..., :3]

@@ -61,8 +61,8 @@ EFFECTS: tuple[Effect, ...] = (
         lambda view: view.camera.f_number is not None, optics.defocus,
         optics_bounds.defocus_skipped, after=optics_bounds.defocus_after,
         cheaper=(
-            Rung("half", optics_bounds.defocus_fewer_slices),
-            Rung("quarter", optics_bounds.defocus_fewer_slices),
+            Rung("half", optics_bounds.defocus_half),
+            Rung("quarter", optics_bounds.defocus_quarter),
         ),
     ),
     Effect(

@@ -135,7 +135,7 @@ def rgb_to_hsv(image: Image) -> Image:
         Shape (..., 3), in [0, 1]. Greys get hue 0; black gets saturation 0.
     """
     cv2: Any = opencv()
-    if cv2 is not None and image.ndim == 3:  # noqa: PLR2004
+    if cv2 is not None and image.ndim == 3:
         return np.asarray(cv2.cvtColor(np.ascontiguousarray(image), cv2.COLOR_RGB2HSV))
     flat, result = image.reshape(-1, 3), np.empty((image.size // 3, 3), np.float32)
     for start in range(0, len(flat), _PART):
@@ -154,7 +154,7 @@ def _hsv_part(colours: Image) -> Image:
         np.where(value == green, (blue - red) / safe + 2, (red - green) / safe + 4),
     )
     hue = np.where(hue < 0, hue + 6, hue) * np.float32(60.0)
-    hue = np.where((chroma > 0) & (hue < 360), hue, np.float32(0.0))  # noqa: PLR2004
+    hue = np.where((chroma > 0) & (hue < 360), hue, np.float32(0.0))
     saturation = chroma / np.where(value > 0, value, np.float32(1.0))
     return np.stack([hue, saturation, value], axis=1)
 
@@ -162,7 +162,7 @@ def _hsv_part(colours: Image) -> Image:
 def hsv_to_rgb(image: Image) -> Image:
     """Inverse of `rgb_to_hsv`; any finite hue in degrees, taken modulo 360."""
     cv2: Any = opencv()
-    if cv2 is not None and image.ndim == 3:  # noqa: PLR2004
+    if cv2 is not None and image.ndim == 3:
         return np.asarray(cv2.cvtColor(_turned_hue(image), cv2.COLOR_HSV2RGB))
     hue, saturation, value = np.moveaxis(_turned_hue(image), -1, 0)
     sextant = hue / np.float32(60.0)

@@ -15,6 +15,10 @@ from quizgen.camera.scene import View
 # Raw development
 
 
+CURVE_ERROR = 1e-6
+"""Absolute error of computed tone curves and hues."""
+
+
 def flat_gain(view: View) -> tuple[float, float]:
     """Smallest and largest factor of the flat-field correction."""
     corner = corner_light(view)
@@ -77,7 +81,7 @@ def gamma_skipped(facts: Facts, view: View) -> Error:
     curve = np.array([encode_number(float(value), view.camera.gamma) for value in grid])
     # both curves rise, so between two points the gap is at most the later minus the earlier
     gap = float(max((curve[1:] - grid[:-1]).max(), curve[0] - low))
-    return Error(gap + max(facts.top - 1.0, -facts.bottom, 0.0))
+    return Error(gap + CURVE_ERROR + max(facts.top - 1.0, -facts.bottom, 0.0))
 
 
 def gamma_table(facts: Facts, view: View) -> Error:
@@ -114,6 +118,7 @@ def hsv_skipped(facts: Facts, view: View) -> Error:
     turned = chroma if math.fmod(camera.hue, 2 * math.pi) else 0.0
     return Error(
         turned + abs(camera.saturation - 1.0) * chroma + abs(camera.value - 1.0) * top + clip
+        + CURVE_ERROR
     )
 
 

@@ -225,15 +225,15 @@ def _blurred(layer: Layer, view: View, rung: str) -> Stack:
     return (_map_layer(layer, lambda image: convolve(image, kernel)),)
 
 
-def slice_edges(diameters: tuple[float, float], rung: str = "") -> Field:
-    """Borders of the slices, uniform in the signed circle of confusion (linear in 1/z).
+def slices(diameters: tuple[float, float], rung: str = "") -> Field:
+    """Blur diameters of the slices of a depth map, px, ascending.
 
-    Slices are at most 1 px of blur wide, `MAX_SLICES` at most.
+    Multiples of one step, so that what is in focus stays sharp: uniform in the signed circle of
+    confusion (linear in 1/z). The step is 0.5 px, or more where that makes over `MAX_SLICES`.
     """
     least, most = diameters
-    count = min(MAX_SLICES, max(1, math.ceil(most - least)))
-    count = max(1, count // {"half": 2, "quarter": 4}.get(rung, 1))
-    return np.linspace(least, most, count + 1)
+    step = max(0.5, (most - least) / MAX_SLICES) * {"half": 2.0, "quarter": 4.0}.get(rung, 1.0)
+    return step * np.arange(np.rint(least / step), np.rint(most / step) + 1.0)
 
 
 def _blurred_by_depth(layer: Layer, view: View, rung: str) -> Image:
@@ -243,14 +243,15 @@ def _blurred_by_depth(layer: Layer, view: View, rung: str) -> Image:
     front does not leak into the background.
     """
     diameters = np.asarray(view.blur_diameter(layer.depth))
-    edges = slice_edges((float(diameters.min()), float(diameters.max())), rung)
-    index = np.clip(np.searchsorted(edges, diameters, side="right") - 1, 0, len(edges) - 2)
+    middles = slices((float(diameters.min()), float(diameters.max())), rung)
+    step = middles[1] - middles[0] if len(middles) > 1 else math.inf
+    index = np.clip(np.rint((diameters - middles[0]) / step).astype(int), 0, len(middles) - 1)
     picture = layer.colour
-    for number in range(len(edges) - 2, -1, -1):
+    for number in range(len(middles) - 1, -1, -1):
         mask = (index == number)[..., None].astype(np.float32)
         if not mask.any():
             continue
-        kernel = disc(float((edges[number] + edges[number + 1]) / 2))
+        kernel = disc(float(middles[number]))
         colour, cover = convolve(layer.colour * mask, kernel), convolve(mask, kernel)
         if picture is layer.colour:
             seen = cover > np.float32(1e-3)

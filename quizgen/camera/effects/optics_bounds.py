@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from quizgen.camera.draw import Motion, Sheet, sheets
-from quizgen.camera.effects.optics import slice_edges, slope, stretch, turns, undistorted_radius
+from quizgen.camera.effects.optics import slices, slope, stretch, turns, undistorted_radius
 from quizgen.camera.facts import Error, Facts, LayerFacts
 from quizgen.camera.kernels import Kernel, change, disc, line
 from quizgen.camera.scene import View
@@ -61,7 +61,7 @@ def _magnification(view: View) -> float:
 def distortion_skipped(facts: Facts, view: View) -> Error:
     """Largest displacement times the steepest slope; anything where a depth map moves along."""
     distance = largest_displacement(view)
-    if view.camera.f_number is not None and _has_map(view) and distance >= 0.5:  # noqa: PLR2004
+    if view.camera.f_number is not None and _has_map(view) and distance >= 0.5:
         return Error(facts.span)
     return shifted(facts, distance)
 
@@ -117,13 +117,12 @@ def map_range(view: View) -> tuple[float, float]:
     return float(diameters.min()), float(diameters.max())
 
 
-def _map_error(layer: LayerFacts, view: View) -> float:
+def _map_error(layer: LayerFacts, view: View, rung: str = "") -> float:
     """Light comes from within the largest kernel; in a single slice taps pair up as usual."""
-    diameters = map_range(view)
-    edges = slice_edges(diameters)
-    largest = disc(max(abs(diameters[0]), abs(diameters[1])))
-    if len(edges) == 2:  # noqa: PLR2004 - one slice
-        return change(disc(float(edges.mean())), layer.jump, layer.bend, math.inf)
+    middles = slices(map_range(view), rung)
+    largest = disc(float(np.abs(middles).max()))
+    if len(middles) == 1:
+        return change(largest, layer.jump, layer.bend, math.inf)
     reach = largest.shape[0] // 2
     return reach * (layer.jump[0] + layer.jump[1])
 
@@ -139,11 +138,21 @@ def defocus_skipped(facts: Facts, view: View) -> Error:
     return _within(total, facts)
 
 
-def defocus_fewer_slices(facts: Facts, view: View) -> Error:
-    """Both ways average inside the largest kernel."""
+def _fewer_slices(facts: Facts, view: View, rung: str) -> Error:
     if not _has_map(view):
         return Error()
-    return _within(2.0 * _map_error(facts.layers[0], view), facts)
+    exact, rough = (_map_error(facts.layers[0], view, way) for way in ("", rung))
+    return _within(exact + rough, facts)
+
+
+def defocus_half(facts: Facts, view: View) -> Error:
+    """Both ways average inside their largest kernel."""
+    return _fewer_slices(facts, view, "half")
+
+
+def defocus_quarter(facts: Facts, view: View) -> Error:
+    """As `defocus_half`."""
+    return _fewer_slices(facts, view, "quarter")
 
 
 def defocus_after(facts: Facts, view: View) -> Facts:

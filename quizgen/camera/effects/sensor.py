@@ -6,11 +6,14 @@ import math
 from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from quizgen.camera.effects.base import stream
 from quizgen.camera.scene import Image, View
 
-_ROWS = 64
+Field = NDArray[np.float64]
+
+_ROWS = 16
 
 CHANNELS = {"R": 0, "G": 1, "B": 2}
 
@@ -75,6 +78,65 @@ def _well(view: View) -> float:
     return view.camera.full_well or math.inf
 
 
+FEW_ELECTRONS = 16.18
+"""Below this mean, counts are looked up one by one."""
+
+
+def poisson_quantiles(mean: Field, normal: Field) -> Field:
+    """Poisson counts at the probabilities of standard normal values.
+
+    One normal value per pixel makes the counts grow with the mean, so that a rounding error in one
+    pixel cannot change its neighbours, and a Gaussian rung sees the same luck.
+
+    Parameters
+    ----------
+    mean, normal : numpy.ndarray
+        Same shape, float64; mean >= 0.
+
+    Returns
+    -------
+    numpy.ndarray
+        Whole numbers. The distribution function is within 2e-5 of Poisson's: the expansion of its
+        inverse in 1/sqrt(mean) (M. Giles, Algorithm 955), exact counting below `FEW_ELECTRONS`.
+    """
+    enough = np.maximum(mean, FEW_ELECTRONS)
+    root, square = np.sqrt(enough), normal * normal
+    first = 1.0 / 3.0 + square / 6.0
+    second = normal * (-1.0 / 36.0 - square / 72.0)
+    third = -8.0 / 405.0 + square * (7.0 / 810.0 + square / 270.0)
+    counts = np.floor(enough + root * normal + first + (second + third / root) / root)
+    np.maximum(counts, 0.0, out=counts)
+    few = mean < FEW_ELECTRONS
+    if few.any():
+        counts[few] = _counted(mean[few], normal[few])
+    return counts
+
+
+def _counted(mean: Field, normal: Field) -> Field:
+    """How many steps of the distribution function lie below each probability."""
+    below = _normal_below(normal)
+    chance = np.exp(-mean)
+    reached, counts = chance.copy(), np.zeros_like(mean)
+    for count in range(1, 80):
+        more = below > reached
+        if not more.any():
+            break
+        counts += more
+        chance *= mean / count
+        reached += chance
+    return counts
+
+
+def _normal_below(normal: Field) -> Field:
+    """Normal distribution function within 1e-7 (Abramowitz and Stegun 26.2.17)."""
+    t = 1.0 / (1.0 + 0.2316419 * np.abs(normal))
+    series = 0.31938153 + t * (
+        -0.356563782 + t * (1.781477937 + t * (-1.821255978 + t * 1.330274429))
+    )
+    tail = t * series * np.exp(-normal * normal / 2.0) / math.sqrt(2.0 * math.pi)
+    return np.where(normal < 0.0, tail, 1.0 - tail)
+
+
 def shot_noise(image: Image, view: View, rung: str = "") -> Image:
     """Electrons arrive at random: Poisson with mean (signal times full well).
 
@@ -86,16 +148,16 @@ def shot_noise(image: Image, view: View, rung: str = "") -> Image:
     rung : str
         ``gaussian`` uses the normal law with the same mean and variance (errata E23).
     """
-    source, result = stream(view, "shot noise"), np.empty_like(image)
-    well = _well(view)
+    source, result, well = stream(view, "shot noise"), np.empty_like(image), _well(view)
     for start in range(0, image.shape[0], _ROWS):
         rows = slice(start, start + _ROWS)
         signal = np.maximum(image[rows], np.float32(0.0))
+        normal = source.standard_normal(signal.shape, np.float32)
         if rung == "gaussian":
-            spread = source.standard_normal(signal.shape, np.float32)
-            result[rows] = signal + np.sqrt(signal * np.float32(1.0 / well)) * spread
+            result[rows] = signal + np.sqrt(signal * np.float32(1.0 / well)) * normal
         else:
-            result[rows] = source.poisson(signal.astype(np.float64) * well) * (1.0 / well)
+            mean = signal.astype(np.float64) * well
+            result[rows] = poisson_quantiles(mean, normal.astype(np.float64)) / well
     return result
 
 

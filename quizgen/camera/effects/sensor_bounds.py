@@ -8,12 +8,13 @@ from dataclasses import replace
 import numpy as np
 
 from quizgen.camera.effects.sensor import dark_electrons, fall_off, levels
-from quizgen.camera.facts import Error, Facts, LayerFacts
+from quizgen.camera.facts import EXCEEDED, Error, Facts, LayerFacts
 from quizgen.camera.scene import View
 
-POISSON_GAP = 3.2
+POISSON_GAP = 3.8
 """Electrons between the quantiles of Poisson and normal law, at any mean, for all but the share
-`EXCEEDED` of the values: (z^2 - 1)/6 for the skewness and 1/2 for whole electrons."""
+`EXCEEDED` of the values: z^2/4 where the normal law turns negative, else (z^2 - 1)/6 for the
+skewness and 1/2 for whole electrons."""
 
 
 def _well(view: View) -> float:
@@ -85,10 +86,15 @@ def shot_skipped(facts: Facts, view: View) -> Error:
 
 
 def shot_carried(error: Error, facts: Facts, view: View) -> Error:
-    """Another signal has another noise; the root is steepest at the darkest place."""
-    start = max(0.0, facts.bottom - error.total)
+    """Another signal has another noise, and may make one electron more.
+
+    The root is steepest at the darkest place; a change of the mean by less than `EXCEEDED`
+    electrons changes fewer counts than that share.
+    """
+    well, start = _well(view), max(0.0, facts.bottom - error.total)
     apart = math.sqrt(start + error.total) - math.sqrt(start)
-    return Error(error.sure, error.sigma + apart / math.sqrt(_well(view)))
+    electron = 1.0 / well if error.total * well > EXCEEDED else 0.0
+    return Error(error.sure + electron, error.sigma + apart / math.sqrt(well))
 
 
 def shot_gaussian(facts: Facts, view: View) -> Error:

@@ -1,0 +1,125 @@
+"""With and without OpenCV: the same pictures within the stated bound, the same plans."""
+
+import subprocess
+import sys
+
+import cv2
+import numpy as np
+import pytest
+import scenes_at_random as at_random
+
+from quizgen.camera import SceneError, filters
+from quizgen.camera.effects import isp
+from quizgen.camera.kernels import disc, line
+from quizgen.camera.plan import Prepared, everything, plan
+from quizgen.camera.simulate import run
+
+
+@pytest.fixture(params=["opencv", "numpy"])
+def backend(request, monkeypatch):
+    if request.param == "numpy":
+        without(monkeypatch)
+    return request.param
+
+
+def without(monkeypatch):
+    filters._opencv_remap_is_exact.cache_clear()
+    monkeypatch.setattr(filters, "opencv", lambda: None)
+    monkeypatch.setattr(isp, "opencv", lambda: None)
+
+
+@pytest.fixture(autouse=True)
+def forget():
+    yield
+    filters._opencv_remap_is_exact.cache_clear()
+
+
+def picture(height=70, width=90, seed=0):
+    return np.random.default_rng(seed).random((height, width, 3), np.float32)
+
+
+@pytest.mark.parametrize("kernel", [disc(0.4), disc(3.0), disc(9.5), disc(40.0), line(7.0, 3.0), line(0.0, 30.0)])
+def test_convolution_is_a_weighted_sum(kernel, backend):
+    """Against the plain definition in double precision."""
+    image = picture()
+    rows, columns = (side // 2 for side in kernel.shape)
+    wide = np.pad(image.astype(float), ((rows, rows), (columns, columns), (0, 0)), mode="edge")
+    for y, x in ((0, 0), (35, 44), (69, 89), (3, 60)):
+        expected = (kernel[..., None] * wide[y : y + 2 * rows + 1, x : x + 2 * columns + 1]).sum((0, 1))
+        assert filters.convolve(image, kernel)[y, x] == pytest.approx(expected, abs=filters.AGREEMENT)
+
+
+def test_sampling_is_bilinear(backend):
+    image, source = picture(), np.random.default_rng(1)
+    x = source.uniform(-3, 93, (20, 30)).astype(np.float32)
+    y = source.uniform(-3, 73, (20, 30)).astype(np.float32)
+    found = filters.sample(image, x, y)
+    for place in ((0, 0), (5, 7), (19, 29), (11, 3)):
+        column, row = float(np.clip(x[place], 0, 89)), float(np.clip(y[place], 0, 69))
+        left, top = min(int(column), 88), min(int(row), 68)
+        a, b = column - left, row - top
+        corner = image[top : top + 2, left : left + 2].astype(float)
+        expected = (
+            corner[0, 0] * (1 - a) * (1 - b) + corner[0, 1] * a * (1 - b)
+            + corner[1, 0] * (1 - a) * b + corner[1, 1] * a * b
+        )  # fmt: skip
+        assert found[place] == pytest.approx(expected, abs=filters.AGREEMENT)
+
+
+def test_coarse_remapping_is_noticed(monkeypatch):
+    """OpenCV 4 rounds positions to 1/32 px; then NumPy samples."""
+
+    class Coarse:
+        INTER_LINEAR = cv2.INTER_LINEAR
+
+        @staticmethod
+        def remap(image, x, y, flags):
+            return cv2.remap(image, np.round(x * 32) / 32, y, flags)
+
+    monkeypatch.setattr(filters, "opencv", lambda: Coarse)
+    filters._opencv_remap_is_exact.cache_clear()
+    assert not filters._opencv_remap_is_exact()
+    edge = np.repeat(np.float32([[0, 1], [0, 1]])[..., None], 3, axis=2)
+    at = np.full((1, 1), 0.01, np.float32)
+    assert filters.sample(edge, at, at)[0, 0, 0] == pytest.approx(0.01, abs=1e-6)
+
+
+def test_whole_photographs_agree_and_plans_are_equal(monkeypatch):
+    photos = []
+    for use in ("opencv", "numpy"):
+        if use == "numpy":
+            without(monkeypatch)
+        for seed in range(60):
+            source = np.random.default_rng([seed, 3])
+            prepared = Prepared(at_random.scene(source), at_random.camera(source, noise=False))
+            if prepared.given.camera.bit_depth or prepared.given.camera.blooming:
+                continue  # a rounding difference may flip a code there
+            try:
+                chosen = plan(prepared, budget=2.0)
+                photos.append((use, seed, chosen, run(prepared, everything(prepared))))
+            except SceneError as error:
+                assert "folds" in str(error)
+    half = len(photos) // 2
+    assert half > 20
+    for (_, seed, chosen, one), (_, _, again, other) in zip(photos[:half], photos[half:], strict=True):
+        names = [(step.effect, step.rung) for step in chosen.steps]
+        assert names == [(step.effect, step.rung) for step in again.steps], seed
+        gain = 13 if one.plan.steps and "gamma" in [s.effect for s in one.plan.steps] else 1
+        largest = max(1.0, float(np.abs(one.values).max()))
+        assert np.abs(one.values - other.values).max() < 10 * gain * filters.AGREEMENT * largest, seed
+
+
+def test_hue_agrees(monkeypatch):
+    image = picture()
+    with_it = isp.edit_hsv(image, 77.0, 1.2, 0.9)
+    without(monkeypatch)
+    assert np.abs(isp.edit_hsv(image, 77.0, 1.2, 0.9) - with_it).max() < filters.AGREEMENT
+
+
+def test_the_camera_imports_numpy_only():
+    code = (
+        "import sys; import quizgen.camera, quizgen.camera.pictures, quizgen.camera.reading;"
+        "heavy = {'cv2', 'scipy', 'matplotlib', 'sympy', 'PIL', 'rich', 'click'} & set(sys.modules);"
+        "assert not heavy, heavy"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)

@@ -1,0 +1,211 @@
+"""Scene files, the command and PNG files."""
+
+import io
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from PIL import Image as PillowImage
+
+from quizgen.camera import SceneError, png
+from quizgen.camera.reading import load
+from quizgen.cli_simulate import SCENES, simulate
+
+NAMES = sorted(path.stem for path in SCENES.glob("*.toml"))
+
+WRONG = [
+    ('[camera]\nfocal_lenght = "50 mm"\n', 2, "did you mean 'focal_length'"),
+    ('[camera]\n\nfocal_length = "50 kg"\n', 3, "unknown unit 'kg'"),
+    ('[camera]\nfocal_length = "50 s"\n', 2, "expected a unit like 'm'"),
+    ("[camera]\nfocal_length = 50\n", 2, "quantity with its unit"),
+    ('[camera]\nfocal_length = "-50 mm"\n', 1, "must be positive"),
+    ('[camera]\nread_noise = "3 e-"\n', 1, "need full_well"),
+    ("[camera]\nmechanical_vignetting = 1.5\n", 1, "must be in [0, 1)"),
+    ("[camera]\nbit_depth = true\n", 2, "whole number"),
+    ('[camera]\nmosaic = "RGBG"\n', 2, "expected one of RGGB"),
+    ('[camra]\nk1 = 0\n', 1, "did you mean 'camera'"),
+    ('[[thing]]\nshape = "full"\n[[thing]]\nshape = "disc"\ncolor = "#ffffff"\n', 5, "'colour'"),
+    ('[[thing]]\nshape = "disc"\n', 1, "a disc needs radius"),
+    ('[[thing]]\nshape = "star"\n', 2, "expected one of box"),
+    ('[[thing]]\nshape = "full"\ncolour = "red"\n', 3, "list of 3"),
+    ('[[thing]]\nshape = "full"\ndepth = "-1 m"\n', 3, "positive"),
+    ('[scene]\nwidth = 0\n', 2, "2 to 32768"),
+    ('[scene]\nimage = "missing.png"\n', 2, "missing.png"),
+    ('[scene]\nquestion = ["colour"]\n', 2, "expected one of"),
+    ('[scene]\nwidth = "1/0 px"\n', 2, "whole number"),
+    ('[camera]\nshutter = "1/0 s"\n', 2, "shutter"),
+]
+
+
+@pytest.mark.parametrize(("text", "line", "words"), WRONG)
+def test_a_wrong_file_is_one_line_with_its_place(tmp_path, text, line, words):
+    path = tmp_path / "scene.toml"
+    path.write_text(text, "utf-8")
+    with pytest.raises(SceneError) as caught:
+        load(path)
+    message = str(caught.value)
+    assert message.startswith(f"{path}:{line}: ")
+    assert words in message
+    assert "\n" not in message
+
+
+def test_broken_toml_and_missing_files_are_named(tmp_path):
+    (tmp_path / "a.toml").write_text("[scene\n", "utf-8")
+    for name in ("a.toml", "b.toml"):
+        with pytest.raises(SceneError, match=name):
+            load(tmp_path / name)
+
+
+def test_units_become_base_units(tmp_path):
+    path = tmp_path / "scene.toml"
+    path.write_text(
+        '[camera]\nfocal_length = "50 mm"\nsensor_width = "36 mm"\nf_number = "f/2.8"\n'
+        'focus_distance = "300 cm"\nshutter = "1/250 s"\nhue = "180 deg"\nsmear = "2 %"\n'
+        'full_well = "20000 e-"\nvelocity = ["3 px/s", "-1 px/s"]\n'
+        '[[thing]]\nshape = "box"\nwidth = "2 m"\nheight = "30 px"\ndepth = "4 m"\n'
+        'colour = "#bcbcbc"\nvelocity = ["1 m/s", "2 px/s"]\n',
+        "utf-8",
+    )
+    scene, camera = load(path)
+    assert (camera.focal_length, camera.f_number, camera.focus_distance) == (0.05, 2.8, 3.0)
+    assert camera.pixel_pitch == pytest.approx(0.036 / 640)
+    assert (camera.shutter, camera.smear, camera.velocity) == (0.004, 0.02, (3.0, -1.0))
+    assert camera.hue == pytest.approx(np.pi)
+    thing = scene.things[0]
+    assert (thing.width, thing.height) == ((2.0, True), (30.0, False))
+    assert thing.velocity == ((1.0, True), (2.0, False))
+    assert thing.colour == pytest.approx([0.5029] * 3, abs=1e-4)
+
+
+def test_a_picture_with_a_depth_map(tmp_path):
+    codes = np.random.default_rng(0).integers(0, 256, (12, 16, 3), np.uint8)
+    (tmp_path / "photo.png").write_bytes(png.encode(codes))
+    nearness = np.zeros((12, 16), np.uint8)
+    nearness[:, 8:] = 255
+    (tmp_path / "near.png").write_bytes(png.encode(nearness))
+    path = tmp_path / "scene.toml"
+    path.write_text(
+        '[scene]\nimage = "photo.png"\ndepth_map = "near.png"\ndepth_near = "2 m"\n'
+        'depth_far = "10 m"\n[camera]\ngamma = "srgb"\n',
+        "utf-8",
+    )
+    scene, _ = load(path)
+    assert (scene.width, scene.height) == (16, 12)
+    assert scene.depth[0, 0] == pytest.approx(10)
+    assert scene.depth[0, 15] == pytest.approx(2)
+    out = tmp_path / "out.png"
+    result = CliRunner().invoke(simulate, [str(path), "--out", str(out)], catch_exceptions=False)
+    assert result.exit_code == 0
+    assert np.array_equal(png.decode(out.read_bytes()), codes)
+
+
+def invoke(*arguments):
+    result = CliRunner().invoke(simulate, list(arguments), catch_exceptions=False)
+    assert result.exit_code == 0
+    return result.output
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_shipped_scenes(name, tmp_path):
+    """Each runs, keeps its promise, writes the same bytes twice and keeps what it asks about."""
+    out = tmp_path / "photo.png"
+    report = json.loads(invoke(name, "--all", "--json", "--out", str(out)))
+    first = out.read_bytes()
+    assert {"ran", "skipped", "predicted_error_dn", "predicted_ms", "measured_ms"} <= set(report)
+    # noise: the 99.99 % quantile of 900 000 values scatters by a few percent around its bound
+    assert report["difference_dn"] <= report["predicted_error_dn"] * 1.05 + 1e-4
+    assert report["predicted_error_dn"] <= 0.5
+    for item in report["skipped"]:
+        assert set(item) == {"effect", "reason", "bound_dn", "saved_ms"}
+    invoke(name, "--json", "--out", str(out))
+    assert out.read_bytes() == first
+    assert png.decode(first).shape == (480, 640, 3)
+
+
+EXPECTED = {
+    "pinhole": [],
+    "fisheye": ["distortion"],
+    "flat": ["shot noise", "read noise", "gamma"],
+    "landscape": ["shot noise", "read noise", "gamma"],
+    "propeller": ["motion blur", "rolling shutter", "gamma"],
+}
+
+
+@pytest.mark.parametrize("name", EXPECTED)
+def test_what_shipped_scenes_call_for(name):
+    assert json.loads(invoke(name, "--json"))["ran"] == EXPECTED[name]
+
+
+def test_there_are_eight_scenes_and_a_list():
+    assert len(NAMES) == 8
+    assert all(name in invoke() for name in NAMES)
+
+
+def test_budgets_by_name_skip_more():
+    counts = [len(json.loads(invoke("landscape", "--json", "--budget", b))["ran"]) for b in ("0", "same", "visible", "sketch")]
+    assert counts == sorted(counts, reverse=True)
+    assert counts[0] > counts[-1]
+
+
+def test_the_table_says_why():
+    text = invoke("landscape", "--all")
+    assert "skipped" in text
+    assert "DN" in text
+    assert "everything:" in text
+
+
+def test_errors_are_one_line_and_exit_code_2(tmp_path):
+    (tmp_path / "bad.toml").write_text("[camera]\nk3 = 1\n", "utf-8")
+    for arguments in (["bad.toml"], ["nowhere.toml"], ["pinhole", "--budget", "x"], ["pinhole", "--question", "x"]):
+        run = subprocess.run(
+            [sys.executable, "-m", "quizgen", "simulate", *arguments],
+            cwd=tmp_path, capture_output=True, text=True, check=False,
+            env={"PYTHONPATH": str(Path(__file__).parents[2]), "PATH": ""},
+        )  # fmt: skip
+        assert run.returncode == 2
+        assert len(run.stderr.splitlines()) == 1, run.stderr
+        assert "Traceback" not in run.stderr
+
+
+def pictures():
+    source = np.random.default_rng(1)
+    smooth = (np.add.outer(np.arange(40), np.arange(30))[..., None] * [1, 2, 3] % 256).astype(np.uint8)
+    return [
+        smooth,
+        source.integers(0, 256, (7, 5, 3), np.uint8),
+        source.integers(0, 256, (9, 4), np.uint8),
+        source.integers(0, 256, (3, 8, 4), np.uint8),
+        np.zeros((1, 1, 3), np.uint8),
+    ]
+
+
+@pytest.mark.parametrize("number", range(5))
+def test_written_pngs_are_read_by_others(number):
+    codes = pictures()[number]
+    data = png.encode(codes)
+    assert np.array_equal(np.asarray(PillowImage.open(io.BytesIO(data))), codes)
+    assert np.array_equal(png.decode(data).reshape(codes.shape), codes)
+
+
+@pytest.mark.parametrize("number", range(4))
+def test_pngs_of_others_are_read(number):
+    codes = pictures()[number]
+    stream = io.BytesIO()
+    PillowImage.fromarray(codes).save(stream, "PNG")
+    assert np.array_equal(png.decode(stream.getvalue()).reshape(codes.shape), codes)
+    deep = np.random.default_rng(2).integers(0, 65536, (6, 5, 3)).astype(np.uint16)
+    for strategy in range(5):
+        _, data = cv2.imencode(".png", deep[..., ::-1], [cv2.IMWRITE_PNG_STRATEGY, strategy])
+        assert np.array_equal(png.decode(data.tobytes()), deep)
+
+
+def test_broken_pngs_are_refused():
+    data = png.encode(pictures()[1])
+    for broken in (b"GIF89a", data[:20], data[:60], data[:-30], data.replace(b"IDAT", b"IDOT")):
+        with pytest.raises(ValueError, match="PNG"):
+            png.decode(broken)

@@ -1,0 +1,291 @@
+"""Sensor, raw development and edits against published values, OpenCV, colorsys and statistics."""
+
+import colorsys
+import math
+import zlib
+
+import cv2
+import numpy as np
+import pytest
+from scipy import stats
+
+from quizgen.camera import Camera, Scene, View, luminosity, pictures, simulate
+from quizgen.camera.effects import isp, sensor
+from quizgen.camera.effects.base import stream
+from quizgen.camera.effects.sensor_bounds import POISSON_GAP
+from quizgen.camera.facts import DEVIATIONS, EXCEEDED
+from quizgen.camera.power import encode, encode_by_table
+
+
+def flat(level, size=300):
+    return np.full((size, size, 3), level, np.float32)
+
+
+def view(**camera):
+    return View(Scene(seed=7), Camera(**camera))
+
+
+def chi_square(counts, mean):
+    """Probability of a fit at least this bad against Poisson(mean)."""
+    low, high = int(stats.poisson.ppf(1e-4, mean)), int(stats.poisson.ppf(1 - 1e-4, mean))
+    inner = [(counts == value).sum() for value in range(low, high + 1)]
+    seen = np.array([(counts < low).sum(), *inner, (counts > high).sum()])
+    chances = stats.poisson.pmf(np.arange(low, high + 1), mean)
+    expected = np.array([stats.poisson.cdf(low - 1, mean), *chances, stats.poisson.sf(high, mean)])
+    possible = expected > 0
+    assert seen[~possible].sum() == 0
+    expected = expected[possible] / expected.sum() * seen.sum()
+    return stats.chisquare(seen[possible], expected).pvalue
+
+
+@pytest.mark.parametrize("electrons", [3.0, 40.0, 1000.0])
+def test_shot_noise_is_poisson(electrons):
+    noisy = sensor.shot_noise(flat(0.5), view(full_well=2 * electrons)) * 2 * electrons
+    counts = np.rint(noisy)
+    assert np.abs(noisy - counts).max() < 1e-3
+    assert 1e-3 < chi_square(counts, electrons) < 1 - 1e-3
+
+
+@pytest.mark.parametrize("electrons", [0.2, 6.0, 300.0])
+def test_dark_charge_is_poisson(electrons):
+    look = view(full_well=1e4, dark_current=electrons, shutter=1.0)
+    counts = np.rint(sensor.dark_current(flat(0.0), look) * 1e4)
+    assert 1e-3 < chi_square(counts, electrons) < 1 - 1e-3
+
+
+@pytest.mark.parametrize("mean", [1e-3, 0.3, 3.0, 16.1, 16.2, 25.5, 400.0, 1e6])
+def test_poisson_quantiles_against_scipy(mean):
+    normal = np.linspace(-6, 6, 300_001)
+    counts = sensor.poisson_quantiles(np.full_like(normal, mean), normal)
+    jumps = np.flatnonzero(np.diff(counts))
+    assert (np.diff(counts) >= 0).all()
+    ours, theirs = stats.norm.cdf(normal[jumps]), stats.poisson.cdf(counts[jumps], mean)
+    assert np.abs(ours - theirs).max() < 4e-5
+
+
+def test_a_brighter_pixel_never_counts_less():
+    means = np.geomspace(1e-3, 1e5, 20_001)
+    for normal in np.linspace(-4, 4, 17):
+        counts = sensor.poisson_quantiles(means, np.full_like(means, normal))
+        assert (np.diff(counts) >= 0).mean() > 0.9999
+        assert np.diff(counts).min() >= -1
+
+
+def test_normal_noises_are_normal():
+    read = sensor.read_noise(flat(0.5), view(full_well=1000.0, read_noise=8.0)) - 0.5
+    rough = sensor.shot_noise(flat(0.25), view(full_well=1e4), "gaussian") - 0.25
+    finished = isp.gaussian_noise(flat(0.5), view(gaussian_noise=0.02)) - 0.5
+    for values, sigma in ((read, 8e-3), (rough, math.sqrt(0.25 / 1e4)), (finished, 0.02)):
+        assert stats.kstest(values.ravel() / sigma, "norm").pvalue > 1e-3
+
+
+def test_the_stated_gap_between_poisson_and_normal_holds():
+    quantiles = np.linspace(-DEVIATIONS, DEVIATIONS, 801)
+    assert 2 * stats.norm.sf(DEVIATIONS) == pytest.approx(EXCEEDED)
+    for mean in np.concatenate([np.geomspace(1e-3, 1e6, 400), np.arange(0.5, 30, 0.25)]):
+        exact = stats.poisson.ppf(stats.norm.cdf(quantiles), mean)
+        assert np.abs(exact - (mean + math.sqrt(mean) * quantiles)).max() < POISSON_GAP, mean
+
+
+def test_the_same_seed_gives_the_same_noise_everywhere():
+    """Pinned: SFC64 streams do not depend on the machine nor on other effects."""
+    noise = stream(view(), "read noise").standard_normal(1000, np.float32)
+    assert zlib.crc32(noise.tobytes()) == PINNED_NOISE
+    scene = Scene(64, 48, background=(0.2, 0.3, 0.4), seed=11)
+    noisy = Camera(full_well=5000.0, read_noise=5.0, bit_depth=12, gamma="srgb", exposure=0.5)
+    assert zlib.crc32(simulate(scene, noisy, budget=0.0).pixels().tobytes()) == PINNED_PHOTO
+
+
+PINNED_NOISE = 3319410594
+PINNED_PHOTO = 1490915194
+
+
+def test_streams_differ_between_effects_and_seeds():
+    one = stream(view(), "read noise").random(4)
+    assert not np.array_equal(one, stream(view(), "shot noise").random(4))
+    other = View(Scene(seed=8), Camera())
+    assert not np.array_equal(one, stream(other, "read noise").random(4))
+
+
+def test_hot_pixels_are_a_share():
+    look = view(full_well=1e4, hot_pixels=0.01)
+    hot = (sensor.dark_current(flat(0.1), look) == 1).all(axis=2).sum()
+    assert stats.binomtest(int(hot), 90_000, 0.01).pvalue > 1e-3
+
+
+def test_blooming_keeps_the_charge_and_stays_in_the_column():
+    image = np.zeros((61, 5, 3), np.float32)
+    image[30, 2] = 21.0
+    spilt = sensor.blooming(image, view())
+    assert spilt.max() == 1.0
+    assert spilt.sum() == pytest.approx(63.0, rel=1e-6)
+    assert spilt[20:41, 2].min() == 1.0
+    assert (np.delete(spilt, 2, axis=1) == 0).all()
+    assert np.array_equal(spilt, spilt[::-1])
+
+
+def test_a_streak_lifts_the_whole_column():
+    image = np.zeros((100, 3, 3), np.float32)
+    image[10, 1] = 50.0
+    lifted = sensor.smear(image, view(full_well=1.0, smear=0.02))
+    assert lifted[60, 1] == pytest.approx(0.02 * 50 / 100)
+    assert (lifted[:, 0] == 0).all()
+
+
+def test_converter_codes():
+    ramp = (np.arange(9, dtype=np.float32) / 8).reshape(1, 9, 1)
+    codes = sensor.quantise(ramp, view(bit_depth=2)) * 3
+    assert codes.ravel().tolist() == [0, 0, 1, 1, 2, 2, 2, 3, 3]
+    fine = sensor.quantise(np.random.default_rng(0).random((400, 400, 3), np.float32), view(bit_depth=8))
+    original = np.random.default_rng(0).random((400, 400, 3), np.float32)
+    error = (fine - original) * 255
+    assert np.abs(error).max() <= 0.5001
+    assert error.std() == pytest.approx(1 / math.sqrt(12), rel=5e-3)
+
+
+OPENCV_NAMES = {
+    "RGGB": cv2.COLOR_BayerBG2RGB,
+    "BGGR": cv2.COLOR_BayerRG2RGB,
+    "GRBG": cv2.COLOR_BayerGB2RGB,
+    "GBRG": cv2.COLOR_BayerGR2RGB,
+}
+"""OpenCV names a mosaic after its second row and column (errata E06)."""
+
+
+@pytest.mark.parametrize("phase", OPENCV_NAMES)
+def test_demosaicing_is_that_of_opencv(phase):
+    codes = np.random.default_rng(3).integers(0, 256, (40, 52), np.uint8)
+    theirs = cv2.cvtColor(codes, OPENCV_NAMES[phase])
+    ours = isp.rounded(isp.demosaic(codes[..., None].astype(np.float32), view(mosaic=phase)))
+    assert np.array_equal(ours[1:-1, 1:-1], theirs[1:-1, 1:-1])
+
+
+def test_a_red_scene_stays_red_to_the_border():
+    red = np.zeros((7, 9, 3), np.float32)
+    red[..., 0] = 0.8
+    for phase in OPENCV_NAMES:
+        raw, coloured, full = pictures.bayer(red, phase)
+        assert np.array_equal(full, red)
+        assert raw.sum() == pytest.approx(coloured.sum())
+
+
+def test_the_notes_bayer_means():
+    """Four greens 100, 120, 110, 130 make 115, and nothing wraps (W15, EC7)."""
+    raw = np.zeros((5, 5, 1), np.float32)
+    raw[1, 2], raw[2, 1], raw[2, 3], raw[3, 2] = 100, 120, 110, 130
+    assert isp.demosaic(raw, view(mosaic="RGGB"))[2, 2, 1] == 115
+
+
+def test_flat_field_of_the_notes():
+    """K28 with rounding instead of truncation: 191.25 becomes 191 either way, the rest is exact."""
+    image, even = np.float32([[50, 100], [255, 60]]), np.float32([[100, 200], [200, 100]])
+    corrected = isp.correct_flat(image, even, np.float32(0))
+    assert corrected.tolist() == [[75.0, 75.0], [191.25, 90.0]]
+    with pytest.raises(ValueError, match="dark frame"):
+        isp.correct_flat(image, np.float32([[0, 1], [1, 1]]), np.float32(0))
+
+
+def test_flat_field_undoes_vignetting():
+    camera = Camera(0.02, 5e-5, natural_vignetting=True, mechanical_vignetting=0.5, flat_field=True)
+    picture = simulate(Scene(64, 48, background=(0.3, 0.6, 0.9)), camera, budget=0.0).values
+    kept = sensor.fall_off_map(View(Scene(64, 48), camera))
+    assert picture == pytest.approx(np.float32([0.3, 0.6, 0.9]) * kept.mean() * np.ones_like(picture), rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("gamma", "linear", "encoded"),
+    [
+        ("srgb", 0.5, 0.7353569830524495),
+        ("srgb", 0.18, 0.4613561295004417),
+        ("srgb", 0.0031308, 0.040449936),
+        ("srgb", 0.002, 0.02584),
+        (2.2, 0.5, 0.7297400528407231),
+        (2.2, 0.2, 0.4811565050522864),
+        (2.2, 0.8, 0.9035454309190944),
+        (1.0, 0.25, 0.25),
+    ],
+)
+def test_tone_curves_have_their_published_values(gamma, linear, encoded):
+    values = np.full((2, 2, 3), linear, np.float32)
+    assert encode(values, gamma) == pytest.approx(encoded, abs=2e-6)
+    assert encode_by_table(values, gamma) == pytest.approx(encoded, abs=1e-4)
+
+
+def test_tone_curves_everywhere():
+    values = np.random.default_rng(1).random((50, 50, 3)) ** 6
+    expected = np.where(values <= 0.0031308, 12.92 * values, 1.055 * values ** (1 / 2.4) - 0.055)
+    assert encode(values.astype(np.float32), "srgb") == pytest.approx(expected, abs=2e-6)
+    power = encode(values.astype(np.float32), 2.2)
+    assert power == pytest.approx(values ** (1 / 2.2), abs=3e-6)
+
+
+def colours():
+    corners = np.array(np.meshgrid(*[np.linspace(0, 1, 9)] * 3)).reshape(3, -1).T
+    return np.concatenate([corners, np.random.default_rng(4).random((800, 3))])[None].astype(np.float32)
+
+
+def test_hsv_against_colorsys():
+    ours = isp.rgb_to_hsv(colours())[0]
+    for colour, (hue, saturation, value) in zip(colours()[0].astype(float), ours, strict=True):
+        expected = colorsys.rgb_to_hsv(*colour)
+        turn = abs(hue / 360 - expected[0])
+        assert min(turn, 1 - turn) < 1e-5
+        assert saturation == pytest.approx(expected[1], abs=2e-6)
+        assert value == pytest.approx(expected[2], abs=1e-7)
+        back = isp.hsv_to_rgb(np.float32([[[hue, saturation, value]]]))[0, 0]
+        assert back == pytest.approx(colour, abs=2e-6)
+
+
+def test_hsv_edits_of_the_notes():
+    """(0.2, 0.8, 0.4) is 140 deg; +120 deg swaps to (0.4, 0.2, 0.8); S x 0.2 is (0.68, 0.8, 0.72)."""
+    colour = np.float32([[[0.2, 0.8, 0.4]]])
+    assert isp.rgb_to_hsv(colour)[0, 0] == pytest.approx([140, 0.75, 0.8], abs=1e-4)
+    _, darker, paler, turned = (edit[0, 0] for edit in pictures.hsv_edits(colour, 0.5, 0.2, 120.0))
+    assert darker == pytest.approx([0.1, 0.4, 0.2], abs=1e-6)
+    assert paler == pytest.approx([0.68, 0.8, 0.72], abs=1e-6)
+    assert turned == pytest.approx([0.4, 0.2, 0.8], abs=1e-6)
+
+
+def test_clipped_noise_lifts_black():
+    """0.399 sigma (errata E39): 5.09 grey levels at sigma = 0.05."""
+    lifted = isp.add_gaussian(flat(0.0, 600), 0.05, np.random.default_rng(5)).mean() * 255
+    assert lifted == pytest.approx(5.09, abs=0.02)
+
+
+def test_salt_and_pepper_come_in_halves():
+    _, _, spotted = pictures.noisy(flat(0.5), 0.08, 0.08, seed=6)
+    black, white = (spotted == 0).all(axis=2).sum(), (spotted == 1).all(axis=2).sum()
+    for count in (black, white):
+        assert stats.binomtest(int(count), 90_000, 0.04).pvalue > 1e-3
+    with pytest.raises(ValueError, match="share"):
+        isp.add_impulses(flat(0.5), 1.5, np.random.default_rng(0))
+
+
+def test_normalisation_of_the_notes():
+    values = np.float32([128, 125, 0.51, 160]) / 255
+    look = isp.stretch_range(values, 50 / 255, 200 / 255)
+    assert look == pytest.approx([0.52, 0.5, 0.0, 110 / 150], abs=1e-6)
+    after, before_counts, after_counts = pictures.normalised(flat(0.5), 0.25, 0.45)
+    assert (after == 1).all()
+    assert before_counts.sum() == after_counts.sum() == after_counts[-1]
+
+
+def test_histogram_of_codes_has_one_bin_per_level():
+    codes = np.arange(256, dtype=np.uint8).reshape(16, 16)
+    assert isp.histogram(codes, top=255).tolist() == [1] * 256
+
+
+def test_luminosity():
+    """V(700) = 0.004102: a green line at 555 nm looks 244 times as bright (errata E01)."""
+    assert 1 / luminosity.photopic(700) == pytest.approx(243.8, abs=0.05)
+    assert luminosity.photopic([400, 532, 555]).tolist() == [0.000396, 0.885, 1.0]
+    assert luminosity.scotopic(507) == 1.0
+    assert luminosity.scotopic(780) == 1.39e-7
+    with pytest.raises(ValueError, match="380"):
+        luminosity.photopic(800)
+
+
+def test_luminosity_sums_to_the_published_integral():
+    """Sum of V at 1 nm, 360-830 nm: 106.856917; the 10 nm table misses by its interpolation."""
+    grid = np.arange(380, 781)
+    assert luminosity.photopic(grid).sum() == pytest.approx(106.857, abs=0.15)
