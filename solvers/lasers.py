@@ -1,0 +1,27 @@
+"""Two laser beams compared by luminous flux.
+
+Source: CIE 018:2019, The Basis of Physical Photometry (V of 1924).
+"""
+
+from sympy import evaluate, symbols
+
+from quizgen.model import Model, Step
+
+P_1, P_2, V_1, V_2 = symbols("P_1 P_2 V_1 V_2", positive=True)
+r, Q = symbols("r Q", real=True)
+
+with evaluate(False):
+    MODEL = Model(
+        given={P_1: "mW", P_2: "mW", V_1: "", V_2: ""},
+        steps=(
+            Step(r, (P_1 * V_1) / (P_2 * V_2)),
+            Step(Q, P_1 * (V_1 / V_2), "mW"),
+        ),
+        traps={
+            "only-power": Step(r, P_1 / P_2),
+            "only-luminosity": Step(r, V_1 / V_2),
+            "inverted": Step(r, (P_2 * V_2) / (P_1 * V_1)),
+            "luminosity-inverted": Step(Q, P_1 * (V_2 / V_1)),
+            "times-ratio": Step(Q, P_1 * r),
+        },
+    )
