@@ -23,7 +23,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -307,36 +307,31 @@ def slots(parts: Any) -> Iterator[str]:
     """Names of all slots in blocks or inlines."""
     if isinstance(parts, Slot):
         yield parts.name
-    elif isinstance(parts, CodeBlock):
-        yield from _SLOT.findall(parts.text)
     elif isinstance(parts, tuple):
         for part in parts:
             yield from slots(part)
-    elif isinstance(parts, Paragraph | Styled):
-        yield from slots(parts.children)
-    elif isinstance(parts, Items):
-        yield from slots(parts.items)
-    elif isinstance(parts, Table):
-        yield from slots((parts.head, parts.rows))
+    else:
+        for name in _INNER.get(type(parts), ()):
+            yield from slots(getattr(parts, name))
 
 
 def fill(parts: Any, value: Callable[[Inline], Inline]) -> Any:
     """Replace slots, formulas and programs in blocks or inlines by what ``value`` gives."""
     if isinstance(parts, tuple):
         return tuple(fill(part, value) for part in parts)
-    if isinstance(parts, Words):
-        return parts
     if isinstance(parts, Slot | Formula | CodeBlock):
         return value(parts)
-    if isinstance(parts, Paragraph):
-        return Paragraph(fill(parts.children, value))
-    if isinstance(parts, Styled):
-        return Styled(parts.style, fill(parts.children, value))
-    if isinstance(parts, Items):
-        return Items(fill(parts.items, value), parts.ordered)
-    if isinstance(parts, Table):
-        return Table(fill(parts.head, value), fill(parts.rows, value))
-    return parts
+    inner = _INNER.get(type(parts), ())
+    return replace(parts, **{n: fill(getattr(parts, n), value) for n in inner}) if inner else parts
+
+
+_INNER = {
+    Paragraph: ("children",),
+    Styled: ("children",),
+    Items: ("items",),
+    Table: ("head", "rows"),
+}
+"""Where a block or inline holds others."""
 
 
 def fill_text(text: str, value: Callable[[str], str]) -> str:
