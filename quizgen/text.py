@@ -307,6 +307,8 @@ def slots(parts: Any) -> Iterator[str]:
     """Names of all slots in blocks or inlines."""
     if isinstance(parts, Slot):
         yield parts.name
+    elif isinstance(parts, CodeBlock):
+        yield from _SLOT.findall(parts.text)
     elif isinstance(parts, tuple):
         for part in parts:
             yield from slots(part)
