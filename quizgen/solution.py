@@ -18,7 +18,7 @@ from quizgen.chain import ChainStep
 from quizgen.draw import Draw, plan_of
 from quizgen.errors import BankError
 from quizgen.expr import PRECISION, Expr, Sym, exact, names, taken_branch
-from quizgen.numbers import exact_text, rounded_text, short_decimal
+from quizgen.numbers import exact_text, rational, rounded_text, short_decimal
 from quizgen.reader import to_text
 from quizgen.text import Block, CodeBlock, Inline, Slot, Words, fill, fill_text
 from quizgen.units import shown as unit_shown
@@ -133,6 +133,7 @@ def _slot(name: str, drawn: Draw, lang: str, *, hidden: bool) -> Inline:
         found = drawn.template.texts[lang].sentence("words", drawn.words[name])
         if found is None:
             raise BankError(_complaint(drawn, lang, f"no words for {drawn.words[name]!r}"))
+        found = filled(found, drawn, lang, hidden=hidden)
         return found if len(found) != 1 else found[0]
     if name in drawn.shown:
         return Words(quantity_text(drawn.shown[name], drawn.template.units.get(name, "")))
@@ -256,7 +257,10 @@ def _wrong_text(spec: Mapping[str, Any], value: Any) -> str:
     left_out = {"traps", "notes", "exact", "form", "accept"}
     wrong = {name: entry for name, entry in spec.items() if name not in left_out}
     if spec.get("exact"):
-        wrong["sigfigs"] = len("1.234") - 1
+        parts = list(value.values()) if isinstance(value, Mapping) else value
+        texts = [parts] if isinstance(parts, str) else parts
+        short = all(short_decimal(rational(text)) for text in texts)
+        wrong |= {"exact": True} if short else {"sigfigs": len("1.234") - 1}
     wrong[key_field(spec, value)] = value
     return answer_text(wrong, "en")
 
