@@ -3,6 +3,8 @@
 ``python benchmarks/camera.py [--quick] [--calibrate]``; times are the best of several runs, ms.
 """
 
+# ruff: noqa: SLF001 - caches are emptied between runs
+
 from __future__ import annotations
 
 import sys
@@ -13,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from quizgen.camera import Camera, Scene, costs, filters
+from quizgen.camera import Camera, Scene, filters
 from quizgen.camera.effects import isp, optics, sensor
 from quizgen.camera.kernels import disc
 from quizgen.camera.plan import Plan, Prepared, everything, plan
@@ -132,7 +134,8 @@ def calibrate() -> None:
     for name, stand_in in (("OpenCV", real), ("NumPy", lambda: None)):
         filters.opencv = isp.opencv = stand_in
         filters._opencv_remap_is_exact.cache_clear()
-        columns = [primitives(size, repeats) for size, repeats in zip(SIZES.values(), (9, 2), strict=True)]
+        small, large = SIZES.values()
+        columns = [primitives(small, 9), primitives(large, 2)]
         print(f"# {name}")
         for key in columns[0]:
             print(f'    "{key}": ({columns[0][key]:.3g}, {columns[1][key]:.4g}),')
@@ -165,9 +168,9 @@ def chains(repeats: int) -> None:
             planned = best(lambda: plan_and_run(scene, camera), repeats)  # noqa: B023
             chosen = plan(prepared)
             measured = min(timed(prepared, chosen) for _ in range(repeats))
-            ran = ", ".join(step.effect + (f" ({step.rung})" if step.rung else "") for step in chosen.steps)
+            ran = ", ".join(f"{step.effect} {step.rung}".strip() for step in chosen.steps)
             print(
-                f"  {wish:11} eager {eager:8.1f}  planned {planned:8.2f} ms  x{eager / planned:7.1f}"
+                f"  {wish:11} eager {eager:8.1f}  planned {planned:8.2f}  x{eager / planned:7.1f}"
                 f"  predicted {chosen.predicted_ms:7.1f} measured {measured:7.1f}  ran: {ran}"
             )
 

@@ -4,6 +4,8 @@
 only, so that installing OpenCV never changes a picture; predicted times use what is installed.
 """
 
+# ruff: noqa: ARG001 - every cost takes the same arguments
+
 from __future__ import annotations
 
 import math
@@ -12,7 +14,7 @@ from quizgen.camera.draw import sheets
 from quizgen.camera.effects.optics import slices, turns
 from quizgen.camera.effects.optics_bounds import blur_of, map_range
 from quizgen.camera.filters import opencv
-from quizgen.camera.kernels import disc, line
+from quizgen.camera.kernels import Kernel, disc, line
 from quizgen.camera.scene import View
 
 SIZES = (0.3072, 12.0)
@@ -23,9 +25,9 @@ Pair = tuple[float, float]
 POINTWISE: dict[str, Pair] = {
     "vignetting": (0.807, 47.8),
     "exposure": (0.0786, 18),
-    "shot noise": (29, 1154),
-    "shot noise/gaussian": (8.06, 326),
-    "dark current": (8, 900),
+    "shot noise": (15.5, 690),
+    "shot noise/gaussian": (8.2, 330),
+    "dark current": (22, 1050),
     "blooming": (9.37, 215),
     "streak": (0.483, 40.2),
     "full well": (0.338, 25.9),
@@ -35,8 +37,8 @@ POINTWISE: dict[str, Pair] = {
     "demosaicing": (1.64, 173),
     "flat field": (1.34, 88.2),
     "white balance": (1.55, 76.5),
-    "gamma": (2.89, 139),
-    "gamma/table": (1.1, 55),
+    "gamma": (3.3, 150),
+    "gamma/table": (1.3, 65),
     "hsv edit": (38.3, 2551),
     "gaussian noise": (7.18, 302),
     "impulse noise": (4.13, 200),
@@ -63,24 +65,23 @@ FACTS_PER_MEGAPIXEL = 35.0
 def at_size(pair: Pair, megapixels: float) -> float:
     """Cost between and beyond the two measured sizes: a power law."""
     power = math.log(pair[1] / pair[0]) / math.log(SIZES[1] / SIZES[0])
-    return pair[0] * (megapixels / SIZES[0]) ** power
+    return float(pair[0] * (megapixels / SIZES[0]) ** power)
 
 
-def _convolution(height: int, width: int, taps: int, view: View, *, opencv_used: bool) -> float:
+def _convolution(kernel: Kernel, view: View, *, opencv_used: bool) -> float:
+    height, width, taps = *kernel.shape, int((kernel > 0).sum())
     if taps == 1:
         return 0.0
     if opencv_used:
         if height * width <= 11 * 11:
-            return 0.1 + at_size(TAP_OPENCV, view.megapixels) * (20 + height * width)
+            return 0.1 + at_size(TAP_OPENCV, view.megapixels) * float(20 + height * width)
         return at_size(FOURIER_OPENCV, view.megapixels)
     few = taps <= 49
     return at_size(TAP, view.megapixels) * taps if few else at_size(FOURIER, view.megapixels)
 
 
 def _blur(diameter: float, view: View, *, opencv_used: bool) -> float:
-    kernel = disc(diameter)
-    taps = int((kernel > 0).sum())
-    return _convolution(*kernel.shape, taps, view, opencv_used=opencv_used)
+    return _convolution(disc(diameter), view, opencv_used=opencv_used)
 
 
 def _defocus(rung: str, view: View, *, opencv_used: bool) -> float:
@@ -106,9 +107,7 @@ def _motion(rung: str, view: View, *, opencv_used: bool) -> float:
             (own + pan) * shutter
             for own, pan in zip(sheet.motion.velocity, view.camera.velocity, strict=True)
         )
-        kernel = line(across, down)
-        taps = int((kernel > 0).sum())
-        total += _convolution(*kernel.shape, taps, view, opencv_used=opencv_used)
+        total += _convolution(line(across, down), view, opencv_used=opencv_used)
         if sheet.motion.spin:
             count = turns(sheet.motion.spin, sheet.motion.reach, shutter)
             positions = max(1, count // 2) if rung == "half" else count

@@ -85,7 +85,7 @@ def _ellipse(thing: Thing, x: Plane, y: Plane) -> Plane:
     half_width, half_height = thing.width.value / 2, thing.height.value / 2
     level = np.hypot(x / half_width, y / half_height)
     slope = np.hypot(x / half_width**2, y / half_height**2)
-    return (level - 1.0) * level / np.maximum(slope, 1e-12)
+    return np.asarray((level - 1.0) * level / np.maximum(slope, 1e-12))
 
 
 def _grid(thing: Thing, x: Plane, y: Plane) -> Plane:
@@ -102,17 +102,16 @@ def _blades(thing: Thing, x: Plane, y: Plane) -> Plane:
     distance = np.hypot(x, y)
     along, aside = distance * np.cos(turn), distance * np.sin(turn)
     blade = np.maximum(np.abs(aside) - thing.stroke.value / 2, along - thing.radius.value)
-    return np.minimum(blade, distance - thing.stroke.value * 0.8)
+    return np.asarray(np.minimum(blade, distance - thing.stroke.value * 0.8))
 
 
 def _polygon(thing: Thing, x: Plane, y: Plane) -> Plane:
     distance, inside = np.full(x.shape, np.inf), np.zeros(x.shape, bool)
-    for (ax, ay), (bx, by) in zip(
-        thing.points, (*thing.points[1:], thing.points[0]), strict=True
-    ):
+    for (ax, ay), (bx, by) in zip(thing.points, (*thing.points[1:], thing.points[0]), strict=True):
         along = ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / ((bx - ax) ** 2 + (by - ay) ** 2)
         along = np.clip(along, 0.0, 1.0)
-        distance = np.minimum(distance, np.hypot(x - ax - along * (bx - ax), y - ay - along * (by - ay)))
+        away = np.hypot(x - ax - along * (bx - ax), y - ay - along * (by - ay))
+        distance = np.minimum(distance, away)
         if ay != by:
             crossing = (ay > y) != (by > y)
             inside ^= crossing & (x < (bx - ax) * (y - ay) / (by - ay) + ax)

@@ -125,7 +125,8 @@ def sample(image: Image, x: Image, y: Image) -> Image:
     cv2: Any = opencv()
     if cv2 is not None and _opencv_remap_is_exact() and max(image.shape[:2]) < 2**15:
         flags = {"borderMode": cv2.BORDER_REPLICATE}
-        return cv2.remap(image, x, y, cv2.INTER_LINEAR, **flags).reshape(*x.shape, image.shape[2])
+        found = cv2.remap(image, x, y, cv2.INTER_LINEAR, **flags)
+        return np.asarray(found.reshape(*x.shape, image.shape[2]), np.float32)
     result = np.empty((*x.shape, image.shape[2]), np.float32)
     for start in range(0, x.shape[0], _ROWS):
         rows = slice(start, start + _ROWS)
@@ -145,7 +146,7 @@ def _sample_rows(image: Image, x: Image, y: Image) -> Image:
     across, down = across[..., None], down[..., None]
     above = image[top, left] * (1 - across) + image[top, right] * across
     below = image[bottom, left] * (1 - across) + image[bottom, right] * across
-    return above * (1 - down) + below * down
+    return np.asarray(above * (1 - down) + below * down, np.float32)
 
 
 def sample_nearest(image: NDArray[Any], x: Image, y: Image) -> NDArray[Any]:
@@ -161,4 +162,4 @@ def sample_grid(channel: Image, x: NDArray[np.float64], y: NDArray[np.float64]) 
     left, right, across = _split(x.astype(np.float32), channel.shape[1])
     top, bottom, down = _split(y.astype(np.float32), channel.shape[0])
     rows = channel[top] * (1 - down)[:, None] + channel[bottom] * down[:, None]
-    return rows[:, left] * (1 - across) + rows[:, right] * across
+    return np.asarray(rows[:, left] * (1 - across) + rows[:, right] * across, np.float32)

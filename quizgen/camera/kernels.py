@@ -69,8 +69,8 @@ def disc(diameter: float) -> Kernel:
     if radius == 0.0:
         return np.ones((1, 1))
     count = max(SAMPLES, min(32 * math.ceil(radius), 1024), 2 * math.ceil(2.0 * radius))
-    centres = radius * ((np.arange(count) + 0.5) * (2.0 / count) - 1.0)
-    tents = _tents(centres)
+    centres = radius * ((np.arange(count, dtype=np.float64) + 0.5) * (2.0 / count) - 1.0)
+    tents = _tents(np.asarray(centres, np.float64))
     kernel = tents @ _disc_cells(count) @ tents.T
     kernel = (kernel + kernel[::-1] + kernel[:, ::-1] + kernel[::-1, ::-1]) / 4.0
     return np.asarray(kernel / kernel.sum())

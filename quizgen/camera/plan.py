@@ -153,7 +153,7 @@ class _Chain:
 
 
 def _lost(effect: Effect, facts: Facts, view: View) -> Error:
-    """Loss of skipping, rounding included; a limit of the sensor that is never met costs nothing."""
+    """Loss of skipping, with rounding; a limit of the sensor that is never met costs nothing."""
     lost = effect.skipped(facts, view)
     if lost == NO_ERROR and effect.stage == "sensor":
         return lost
@@ -188,9 +188,9 @@ def _unit(members: tuple[int, ...], present: tuple[Effect, ...], asked: frozense
     return _Unit(members, (EXACT, *rungs, SKIP), needed or effects[0].stage == "scene")
 
 
-def _costs(present: tuple[Effect, ...], view: View, *, opencv_used: bool | None) -> list[
-    dict[str, float]
-]:
+def _costs(
+    present: tuple[Effect, ...], view: View, *, opencv_used: bool | None
+) -> list[dict[str, float]]:
     def one(effect: Effect) -> dict[str, float]:
         rungs = (EXACT, *(rung.name for rung in effect.cheaper))
         known = {rung: cost(effect.name, rung, view, opencv_used=opencv_used) for rung in rungs}

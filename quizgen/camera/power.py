@@ -130,5 +130,5 @@ def encode_number(value: float, gamma: str | float) -> float:
     if gamma == "linear":
         return value
     if gamma != "srgb":
-        return value ** (1.0 / float(gamma))
+        return float(value ** (1.0 / float(gamma)))
     return 12.92 * value if value <= SRGB_KNEE else 1.055 * value ** (1.0 / 2.4) - 0.055

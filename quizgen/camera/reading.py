@@ -1,5 +1,7 @@
 """Read scenes from TOML: quantities carry units, unknown keys are errors with file and line."""
 
+# ruff: noqa: TRY004 - a wrong value in a file is a ValueError, whatever its type
+
 from __future__ import annotations
 
 import math
@@ -23,14 +25,15 @@ from quizgen.units import Dimension, unit
 
 Parser = Callable[[Any], Any]
 
-_QUANTITY = re.compile(r"\s*(?P<number>[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?:/\d+)?)\s*(?P<unit>.*?)\s*")
+_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?:/\d+)?"
+_QUANTITY = re.compile(rf"\s*(?P<number>{_NUMBER})\s*(?P<unit>.*?)\s*")
 _MAX_PIXELS = 50_000_000
 
 
 def _measure(text: Any) -> tuple[float, Dimension]:
     """Number in base units and its dimension; degrees become radians."""
     if not isinstance(text, str):
-        raise ValueError("expected a quantity with its unit in quotes")  # noqa: TRY004
+        raise ValueError("expected a quantity with its unit in quotes")
     match = _QUANTITY.fullmatch(text)
     if match is None:
         raise ValueError(f"cannot read {text!r}; expected a number and a unit")
@@ -230,7 +233,8 @@ class _File:
         self, table: str, which: int, key: str, value: Any, known: Mapping[str, Parser]
     ) -> Any:
         if key not in known:
-            raise self.fail(table, which, key, f"unknown key {key!r} in {table}{_nearest(key, known)}")
+            hint = _nearest(key, known)
+            raise self.fail(table, which, key, f"unknown key {key!r} in {table}{hint}")
         try:
             return known[key](value)
         except (ValueError, OverflowError) as error:
@@ -271,7 +275,9 @@ def load(path: str | Path) -> tuple[Scene, Camera]:
     file = _File(Path(path))
     file.check_tables()
     camera = _camera(file)
-    things = [_thing(file, which, table) for which, table in enumerate(file.tables.get("thing", []))]
+    things = [
+        _thing(file, which, table) for which, table in enumerate(file.tables.get("thing", []))
+    ]
     return _scene(file, tuple(things)), camera
 
 
@@ -312,7 +318,7 @@ def _scene(file: _File, things: tuple[Thing, ...]) -> Scene:
     if (nearness := values.pop("depth_map", None)) is not None:
         shape = (values.get("height"), values.get("width"))
         if nearness.shape[:2] != shape:
-            raise file.fail("scene", 0, "depth_map", "the depth map needs an image of the same size")
+            raise file.fail("scene", 0, "depth_map", "a depth map needs an image of its size")
         values["depth"] = _depths(nearness, near, far)
     return Scene(things=things, **values)
 

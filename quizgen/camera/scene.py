@@ -31,7 +31,7 @@ class Length(NamedTuple):
     metric: bool = False
 
 
-NONE = Length(0.0)
+NONE, CELL, STROKE = Length(0.0), Length(16.0), Length(2.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,8 +68,8 @@ class Thing:
     width: Length = NONE
     height: Length = NONE
     radius: Length = NONE
-    cell: Length = Length(16.0)
-    stroke: Length = Length(2.0)
+    cell: Length = CELL
+    stroke: Length = STROKE
     depth: float = math.inf
     colour: Colour = (1.0, 1.0, 1.0)
     other: Colour = (0.0, 0.0, 0.0)
@@ -267,10 +267,8 @@ class Camera:
 
     def _not_negative(self) -> tuple[float, ...]:
         noise = (self.read_noise, self.dark_current, self.gaussian_noise, self.smear)
-        return (*noise, self.shutter, self.row_time, self.saturation, self.value, *self._gains())
-
-    def _gains(self) -> Colour:
-        return self.white_balance
+        times = (self.shutter, self.row_time)
+        return (*noise, *times, self.saturation, self.value, *self.white_balance)
 
     @property
     def has_lens(self) -> bool:

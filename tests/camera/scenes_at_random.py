@@ -17,7 +17,9 @@ def _texture(source, height, width):
         wave = np.cos(2 * math.pi * (rows * math.sin(angle) + columns * math.cos(angle)) / period)
         return 0.5 + 0.5 * wave[..., None] * source.random(3)
     if kind == 2:
-        return np.where(columns[..., None] < source.integers(1, width), source.random(3), source.random(3))
+        return np.where(
+            columns[..., None] < source.integers(1, width), source.random(3), source.random(3)
+        )
     if kind == 3:
         return np.broadcast_to(source.random(3), (height, width, 3))
     image = np.zeros((height, width, 3))
@@ -38,7 +40,10 @@ def _depth(source, height, width):
 
 
 def _thing(source, height, width):
-    shape = source.choice(["box", "disc", "ellipse", "grid", "blades", "polygon", "full"], p=[0.2, 0.2, 0.1, 0.1, 0.2, 0.1, 0.1])
+    shape = source.choice(
+        ["box", "disc", "ellipse", "grid", "blades", "polygon", "full"],
+        p=[0.2, 0.2, 0.1, 0.1, 0.2, 0.1, 0.1],
+    )
     moving = source.random() < 0.3
     return Thing(
         str(shape),
@@ -111,7 +116,9 @@ def camera(source, *, noise: bool) -> Camera:
         bit_depth=maybe(0.4, lambda: int(source.integers(4, 17)), None),
         mosaic=maybe(0.2, lambda: str(source.choice(["RGGB", "BGGR", "GRBG", "GBRG"])), ""),
         flat_field=bool(source.random() < 0.2),
-        white_balance=maybe(0.2, lambda: tuple(1 + source.normal(0, 0.1, 3).clip(-0.5, 0.5)), (1.0, 1.0, 1.0)),
+        white_balance=maybe(
+            0.2, lambda: tuple(1 + source.normal(0, 0.1, 3).clip(-0.5, 0.5)), (1.0, 1.0, 1.0)
+        ),
         gamma=maybe(0.3, lambda: source.choice(["srgb", "2.2"]), "linear").replace("2.2", "srgb"),
         hue=maybe(0.1, lambda: signed(-3, 0), 0.0),
         saturation=maybe(0.1, lambda: float(source.uniform(0, 2)), 1.0),

@@ -24,8 +24,8 @@ def photographs(first, last, *, noise):
         prepared = Prepared(at_random.scene(source), at_random.camera(source, noise=noise))
         try:
             yield seed, source, prepared, run(prepared, everything(prepared))
-        except SceneError as error:
-            assert "folds" in str(error)
+        except SceneError:
+            assert prepared.given.camera.k1 < 0 or prepared.given.camera.k2 < 0
 
 
 def apart(one, other):
@@ -50,7 +50,7 @@ def test_planned_and_everything_differ_by_at_most_the_reported_bound(number):
 
 
 def _chosen(units, source):
-    each = [{index: made for index in unit.members} for unit in units for made in unit.choices[1:]]
+    each = [dict.fromkeys(unit.members, made) for unit in units for made in unit.choices[1:]]
     mixed = []
     for _ in range(2):
         made = [str(source.choice(list(unit.choices))) for unit in units]
@@ -116,9 +116,8 @@ def test_what_is_asked_about_is_never_skipped():
         kind = str(source.choice(QUESTIONS))
         try:
             chosen = plan(prepared, question=kind, budget=1e6)
-        except SceneError as error:
-            assert "folds" in str(error)
-            continue
+        except SceneError:
+            continue  # the picture folds over
         exact = {step.effect for step in chosen.steps if not step.rung}
         for effect in EFFECTS:
             if kind in effect.decides and effect.present(prepared.given):
@@ -154,7 +153,9 @@ def test_noise_agrees_in_distribution():
         camera = prepared.given.camera
         try:
             chosen = run(Prepared(scene, camera), plan(scene, camera, budget=3.0))
-            whole = run(Prepared(replace(scene, seed=seed + 10**6), camera), everything(scene, camera))
+            whole = run(
+                Prepared(replace(scene, seed=seed + 10**6), camera), everything(scene, camera)
+            )
         except SceneError:
             continue
         changed = chosen.plan.predicted_error_dn

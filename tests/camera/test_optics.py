@@ -46,14 +46,18 @@ def test_a_small_blur_moves_an_edge_by_the_published_amount():
     assert round(float(moved), 1) == 13.5
 
 
-@pytest.mark.parametrize(("f", "number", "s", "z"), [(50, 2, 2000, 5000), (35, 8, 3000, 900), (85, 4, 10000, 8000)])
+@pytest.mark.parametrize(
+    ("f", "number", "s", "z"), [(50, 2, 2000, 5000), (35, 8, 3000, 900), (85, 4, 10000, 8000)]
+)
 def test_circle_of_confusion_from_two_image_distances(f, number, s, z):
     """c = D |z'_s - z'_z| / z'_z by exact fractions, pitch 5 um."""
     f, s, z = Fraction(f), Fraction(s), Fraction(z)
     in_focus, other = f * s / (s - f), f * z / (z - f)
     expected = f / number * (in_focus - other) / other / Fraction(5, 1000)
     camera = Camera(float(f) / 1000, 5e-6, float(number), float(s) / 1000)
-    assert View(Scene(), camera).blur_diameter(float(z) / 1000) == pytest.approx(float(expected), rel=1e-12)
+    assert View(Scene(), camera).blur_diameter(float(z) / 1000) == pytest.approx(
+        float(expected), rel=1e-12
+    )
 
 
 def test_focus_at_infinity_and_subject_at_infinity():
@@ -153,7 +157,9 @@ def test_motion_is_a_box_along_the_path(across, down):
 
 def test_rolling_shutter_tilts_an_upright_edge():
     """Speed 500 px/s, 1 ms per row: half a pixel per row."""
-    thing = Thing("box", width=Length(10.0), height=Length(80.0), velocity=(Length(500.0), Length(0.0)))
+    thing = Thing(
+        "box", width=Length(10.0), height=Length(80.0), velocity=(Length(500.0), Length(0.0))
+    )
     prepared = Prepared(Scene(120, 60, (thing,)), Camera(row_time=1e-3))
     picture = run(prepared, everything(prepared)).values[..., 0]
     centres = (picture * np.arange(120)).sum(axis=1) / picture.sum(axis=1)

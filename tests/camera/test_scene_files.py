@@ -28,13 +28,13 @@ WRONG = [
     ("[camera]\nmechanical_vignetting = 1.5\n", 1, "must be in [0, 1)"),
     ("[camera]\nbit_depth = true\n", 2, "whole number"),
     ('[camera]\nmosaic = "RGBG"\n', 2, "expected one of RGGB"),
-    ('[camra]\nk1 = 0\n', 1, "did you mean 'camera'"),
+    ("[camra]\nk1 = 0\n", 1, "did you mean 'camera'"),
     ('[[thing]]\nshape = "full"\n[[thing]]\nshape = "disc"\ncolor = "#ffffff"\n', 5, "'colour'"),
     ('[[thing]]\nshape = "disc"\n', 1, "a disc needs radius"),
     ('[[thing]]\nshape = "star"\n', 2, "expected one of box"),
     ('[[thing]]\nshape = "full"\ncolour = "red"\n', 3, "list of 3"),
     ('[[thing]]\nshape = "full"\ndepth = "-1 m"\n', 3, "positive"),
-    ('[scene]\nwidth = 0\n', 2, "2 to 32768"),
+    ("[scene]\nwidth = 0\n", 2, "2 to 32768"),
     ('[scene]\nimage = "missing.png"\n', 2, "missing.png"),
     ('[scene]\nquestion = ["colour"]\n', 2, "expected one of"),
     ('[scene]\nwidth = "1/0 px"\n', 2, "whole number"),
@@ -147,7 +147,10 @@ def test_there_are_eight_scenes_and_a_list():
 
 
 def test_budgets_by_name_skip_more():
-    counts = [len(json.loads(invoke("landscape", "--json", "--budget", b))["ran"]) for b in ("0", "same", "visible", "sketch")]
+    counts = [
+        len(json.loads(invoke("landscape", "--json", "--budget", b))["ran"])
+        for b in ("0", "same", "visible", "sketch")
+    ]
     assert counts == sorted(counts, reverse=True)
     assert counts[0] > counts[-1]
 
@@ -161,7 +164,12 @@ def test_the_table_says_why():
 
 def test_errors_are_one_line_and_exit_code_2(tmp_path):
     (tmp_path / "bad.toml").write_text("[camera]\nk3 = 1\n", "utf-8")
-    for arguments in (["bad.toml"], ["nowhere.toml"], ["pinhole", "--budget", "x"], ["pinhole", "--question", "x"]):
+    for arguments in (
+        ["bad.toml"],
+        ["nowhere.toml"],
+        ["pinhole", "--budget", "x"],
+        ["pinhole", "--question", "x"],
+    ):
         run = subprocess.run(
             [sys.executable, "-m", "quizgen", "simulate", *arguments],
             cwd=tmp_path, capture_output=True, text=True, check=False,
@@ -174,7 +182,9 @@ def test_errors_are_one_line_and_exit_code_2(tmp_path):
 
 def pictures():
     source = np.random.default_rng(1)
-    smooth = (np.add.outer(np.arange(40), np.arange(30))[..., None] * [1, 2, 3] % 256).astype(np.uint8)
+    smooth = (np.add.outer(np.arange(40), np.arange(30))[..., None] * [1, 2, 3] % 256).astype(
+        np.uint8
+    )
     return [
         smooth,
         source.integers(0, 256, (7, 5, 3), np.uint8),

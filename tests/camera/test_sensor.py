@@ -136,7 +136,9 @@ def test_converter_codes():
     ramp = (np.arange(9, dtype=np.float32) / 8).reshape(1, 9, 1)
     codes = sensor.quantise(ramp, view(bit_depth=2)) * 3
     assert codes.ravel().tolist() == [0, 0, 1, 1, 2, 2, 2, 3, 3]
-    fine = sensor.quantise(np.random.default_rng(0).random((400, 400, 3), np.float32), view(bit_depth=8))
+    fine = sensor.quantise(
+        np.random.default_rng(0).random((400, 400, 3), np.float32), view(bit_depth=8)
+    )
     original = np.random.default_rng(0).random((400, 400, 3), np.float32)
     error = (fine - original) * 255
     assert np.abs(error).max() <= 0.5001
@@ -189,7 +191,9 @@ def test_flat_field_undoes_vignetting():
     camera = Camera(0.02, 5e-5, natural_vignetting=True, mechanical_vignetting=0.5, flat_field=True)
     picture = simulate(Scene(64, 48, background=(0.3, 0.6, 0.9)), camera, budget=0.0).values
     kept = sensor.fall_off_map(View(Scene(64, 48), camera))
-    assert picture == pytest.approx(np.float32([0.3, 0.6, 0.9]) * kept.mean() * np.ones_like(picture), rel=1e-5)
+    assert picture == pytest.approx(
+        np.float32([0.3, 0.6, 0.9]) * kept.mean() * np.ones_like(picture), rel=1e-5
+    )
 
 
 @pytest.mark.parametrize(
@@ -221,7 +225,9 @@ def test_tone_curves_everywhere():
 
 def colours():
     corners = np.array(np.meshgrid(*[np.linspace(0, 1, 9)] * 3)).reshape(3, -1).T
-    return np.concatenate([corners, np.random.default_rng(4).random((800, 3))])[None].astype(np.float32)
+    return np.concatenate([corners, np.random.default_rng(4).random((800, 3))])[None].astype(
+        np.float32
+    )
 
 
 def test_hsv_against_colorsys():

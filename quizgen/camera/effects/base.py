@@ -1,5 +1,7 @@
 """What an effect is: one function, and what the planner may know about it."""
 
+# ruff: noqa: ARG001 - every effect and every bound takes the same arguments
+
 from __future__ import annotations
 
 from collections.abc import Callable

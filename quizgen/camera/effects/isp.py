@@ -1,5 +1,7 @@
 """What is done to the raw data, and the edits of finished pictures."""
 
+# ruff: noqa: ARG001 - every effect and every bound takes the same arguments
+
 from __future__ import annotations
 
 import math
@@ -83,7 +85,7 @@ def rounded(values: NDArray[np.floating[Any]]) -> NDArray[np.uint8]:
 
     Nothing is truncated (errata EC8) and nothing wraps (errata E21).
     """
-    return np.clip(np.floor(values + 0.5), 0, 255).astype(np.uint8)
+    return np.asarray(np.clip(np.floor(values + 0.5), 0, 255), np.uint8)
 
 
 def flat_field(image: Image, view: View, rung: str = "") -> Image:

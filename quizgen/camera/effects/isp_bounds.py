@@ -1,5 +1,7 @@
 """How much raw development and edits can matter, from facts alone."""
 
+# ruff: noqa: ARG001 - every effect and every bound takes the same arguments
+
 from __future__ import annotations
 
 import math
@@ -117,7 +119,10 @@ def hsv_skipped(facts: Facts, view: View) -> Error:
     chroma = min(top, facts.span + 2 * facts.reach)
     turned = chroma if math.fmod(camera.hue, 2 * math.pi) else 0.0
     return Error(
-        turned + abs(camera.saturation - 1.0) * chroma + abs(camera.value - 1.0) * top + clip
+        turned
+        + abs(camera.saturation - 1.0) * chroma
+        + abs(camera.value - 1.0) * top
+        + clip
         + CURVE_ERROR
     )
 

@@ -1,11 +1,14 @@
 """Effects of the lens and of motion: functions on the stack of layers, in linear light."""
 
+# ruff: noqa: ARG001 - every effect and every bound takes the same arguments
+
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
 from dataclasses import replace
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,12 +59,12 @@ def _map_layer(layer: Layer, resample: Callable[[Image], Image]) -> Layer:
 # Radial distortion
 
 
-def stretch(radius: float | Field, k1: float, k2: float) -> float | Field:
+def stretch(radius: Any, k1: float, k2: float) -> Any:
     """Factor L(r) = 1 + k1 r^2 + k2 r^4 from undistorted to distorted radius."""
     return 1.0 + radius**2 * (k1 + k2 * radius**2)
 
 
-def slope(radius: float | Field, k1: float, k2: float) -> float | Field:
+def slope(radius: Any, k1: float, k2: float) -> Any:
     """Derivative of r L(r); zero where the picture folds over."""
     return 1.0 + radius**2 * (3.0 * k1 + 5.0 * k2 * radius**2)
 
@@ -85,7 +88,9 @@ def undistorted_radius(distorted: float, k1: float, k2: float) -> float:
         middle = (low + high) / 2
         if middle in (low, high):
             break
-        low, high = (low, middle) if middle * stretch(middle, k1, k2) > distorted else (middle, high)
+        low, high = (
+            (low, middle) if middle * stretch(middle, k1, k2) > distorted else (middle, high)
+        )
     return low
 
 
@@ -96,7 +101,9 @@ def _fold(k1: float, k2: float, distorted: float) -> float:
     if k1 >= 0.0 and k2 >= 0.0:
         return far
     # slope - least is a quadratic in q = r^2: its smallest positive root
-    roots = np.roots([5.0 * k2, 3.0 * k1, 1.0 - least]) if k2 else np.array([-(1 - least) / (3 * k1)])
+    roots = (
+        np.roots([5.0 * k2, 3.0 * k1, 1.0 - least]) if k2 else np.array([-(1 - least) / (3 * k1)])
+    )
     real = [root.real for root in np.atleast_1d(roots) if abs(root.imag) < 1e-12 and root.real > 0]
     return min([math.sqrt(root) for root in real] + [far])
 
@@ -126,12 +133,12 @@ def _hermite(q: Field, table: tuple[Field, Field, float]) -> Field:
     first, second = values[cell], values[cell + 1]
     bend = rates[cell] - (second - first)
     other = (second - first) - rates[cell + 1]
-    return first + t * ((second - first) + (1 - t) * (bend * (1 - t) + other * t))
+    return np.asarray(first + t * ((second - first) + (1 - t) * (bend * (1 - t) + other * t)))
 
 
 def _axes(view: View) -> tuple[Field, Field]:
     x, y = view.centre
-    return np.arange(view.width) - x, np.arange(view.height) - y
+    return np.arange(view.width, dtype=np.float64) - x, np.arange(view.height, dtype=np.float64) - y
 
 
 @lru_cache(maxsize=2)
@@ -318,7 +325,8 @@ def _turned(image: Image, view: View, layer: Layer, angle: float | Field) -> Ima
 
 def row_times(view: View) -> Field:
     """When each row is read, s, the middle row at 0."""
-    return (np.arange(view.height) - (view.height - 1) / 2) * view.camera.row_time
+    rows: Field = np.arange(view.height, dtype=np.float64) - (view.height - 1) / 2
+    return rows * view.camera.row_time
 
 
 def rolling_shutter(stack: Stack, view: View, rung: str = "") -> Stack:
@@ -326,12 +334,13 @@ def rolling_shutter(stack: Stack, view: View, rung: str = "") -> Stack:
     return tuple(_rolled(layer, view) for layer in stack)
 
 
-def _rolled(layer: Layer, view: View) -> Layer:
+def _rolled(still: Layer, view: View) -> Layer:
     times = row_times(view)[:, None]
-    across, down = path(layer, view, 1.0)
-    if layer.motion.spin:
-        angle = layer.motion.spin * times
-        layer = _map_layer(layer, lambda image: _turned(image, view, layer, angle))
+    across, down = path(still, view, 1.0)
+    layer = still
+    if still.motion.spin:
+        angle = still.motion.spin * times
+        layer = _map_layer(still, lambda image: _turned(image, view, still, angle))
     if not across and not down:
         return layer
     x = np.arange(view.width)[None, :] - across * times

@@ -4,6 +4,8 @@ A stack shows an error of its layers as at most the sum over layers of the colou
 the range times the cover's; `LayerFacts` hold steps weighted in exactly that way.
 """
 
+# ruff: noqa: ARG001 - every effect and every bound takes the same arguments
+
 from __future__ import annotations
 
 import math
@@ -46,7 +48,7 @@ def _top_radius(view: View) -> float:
 def largest_displacement(view: View) -> float:
     """Bound on how far distortion moves any point of the picture, px: |k1| r^3 + |k2| r^5."""
     radius = _top_radius(view)
-    return view.focal * radius**3 * (abs(view.camera.k1) + abs(view.camera.k2) * radius**2)
+    return float(view.focal * radius**3) * (abs(view.camera.k1) + abs(view.camera.k2) * radius**2)
 
 
 def _magnification(view: View) -> float:
@@ -124,7 +126,7 @@ def _map_error(layer: LayerFacts, view: View, rung: str = "") -> float:
     if len(middles) == 1:
         return change(largest, layer.jump, layer.bend, math.inf)
     reach = largest.shape[0] // 2
-    return reach * (layer.jump[0] + layer.jump[1])
+    return float(reach * (layer.jump[0] + layer.jump[1]))
 
 
 def defocus_skipped(facts: Facts, view: View) -> Error:

@@ -1,9 +1,13 @@
 """Effects of the sensor: functions on one linear picture (H, W, 3), 1 = full well = white."""
 
+# ruff: noqa: ARG001 - every effect and every bound takes the same arguments
+
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,21 +17,28 @@ from quizgen.camera.scene import Image, View
 
 Field = NDArray[np.float64]
 
-_ROWS = 16
+_PART = 1 << 15
 
 CHANNELS = {"R": 0, "G": 1, "B": 2}
+
+
+def _bands(shape: tuple[int, ...]) -> Iterator[slice]:
+    """Rows in bands that stay in the processor's cache."""
+    rows = max(1, _PART // math.prod(shape[1:]))
+    for start in range(0, shape[0], rows):
+        yield slice(start, start + rows)
 
 
 # Light fall-off and exposure
 
 
-def rim_overlap(shift: float | np.ndarray) -> float | np.ndarray:
+def rim_overlap(shift: Any) -> Any:
     """Area shared by two equal discs, as a share of one, at a shift in diameters (0 to 1)."""
     half = np.clip(shift, 0.0, 1.0)
     return (2.0 / math.pi) * (np.arccos(half) - half * np.sqrt(1.0 - half * half))
 
 
-def fall_off(radius: float | np.ndarray, view: View) -> float | np.ndarray:
+def fall_off(radius: Any, view: View) -> Any:
     """Share of light kept at a distance from the principal point, px.
 
     Natural: cos^4 of the field angle, (1 + (r/f)^2)^-2. Mechanical: lens rim and aperture as two
@@ -53,7 +64,7 @@ def _fall_off_map(width: int, height: int, focal: float, mechanical: float) -> I
     x, y = (width - 1) / 2, (height - 1) / 2
     right, lower = np.arange((width + 1) // 2) - x, np.arange((height + 1) // 2) - y
     squared = right[None, :] ** 2 + lower[:, None] ** 2
-    kept = 1.0 / (1.0 + squared / focal**2) ** 2 if focal else np.ones_like(squared)
+    kept: Field = 1.0 / (1.0 + squared / focal**2) ** 2 if focal else np.ones_like(squared)
     if mechanical:
         kept = kept * rim_overlap(mechanical * np.sqrt(squared) / math.hypot(x, y))
     kept = np.concatenate([kept, kept[:, width // 2 - 1 :: -1]], axis=1)
@@ -149,8 +160,7 @@ def shot_noise(image: Image, view: View, rung: str = "") -> Image:
         ``gaussian`` uses the normal law with the same mean and variance (errata E23).
     """
     source, result, well = stream(view, "shot noise"), np.empty_like(image), _well(view)
-    for start in range(0, image.shape[0], _ROWS):
-        rows = slice(start, start + _ROWS)
+    for rows in _bands(image.shape):
         signal = np.maximum(image[rows], np.float32(0.0))
         normal = source.standard_normal(signal.shape, np.float32)
         if rung == "gaussian":
@@ -163,8 +173,7 @@ def shot_noise(image: Image, view: View, rung: str = "") -> Image:
 
 def _add_normal(image: Image, sigma: float, source: np.random.Generator) -> Image:
     result = np.empty_like(image)
-    for start in range(0, image.shape[0], _ROWS):
-        rows = slice(start, start + _ROWS)
+    for rows in _bands(image.shape):
         spread = source.standard_normal(image[rows].shape, np.float32)
         spread *= np.float32(sigma)
         np.add(image[rows], spread, out=result[rows])
@@ -185,8 +194,7 @@ def _poisson(mean: float, shape: tuple[int, ...], source: np.random.Generator) -
         for count in range(first, last)
     ]
     below, counts = np.cumsum(chances), np.empty(shape, np.float32)
-    for start in range(0, shape[0], _ROWS):
-        rows = slice(start, start + _ROWS)
+    for rows in _bands(shape):
         counts[rows] = np.searchsorted(below, source.random(counts[rows].shape), side="right")
     return counts + np.float32(first)
 
@@ -235,7 +243,7 @@ def _spill(kept: Image, excess: Image) -> Image:
 def smear(image: Image, view: View, rung: str = "") -> Image:
     """Light that falls in while a CCD shifts its rows: a share of each column's mean."""
     mean = image.mean(axis=0, keepdims=True, dtype=np.float64)
-    return image + (view.camera.smear * mean).astype(np.float32)
+    return np.asarray(image + (view.camera.smear * mean).astype(np.float32))
 
 
 def full_well(image: Image, view: View, rung: str = "") -> Image:

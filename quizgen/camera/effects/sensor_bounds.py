@@ -1,5 +1,7 @@
 """How much the effects of the sensor can matter, from facts alone."""
 
+# ruff: noqa: ARG001 - every effect and every bound takes the same arguments
+
 from __future__ import annotations
 
 import math
