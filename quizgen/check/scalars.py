@@ -16,7 +16,7 @@ from quizgen.check.rewrites import Source, normalise
 from quizgen.errors import MathError
 from quizgen.expr import PRECISION, Expr, Field, compile_expr, exact
 from quizgen.reader import ReadError, parse_pieces, to_text, tokens
-from quizgen.reader.lexer import LARGEST_EXPONENT, LONGEST_NUMBER
+from quizgen.reader.lexer import LARGEST_EXPONENT, LONGEST_NUMBER, SMALLEST_EXPONENT
 
 LARGEST_BITS = 4000
 """Largest size of an intermediate value in a typed number."""
@@ -174,7 +174,7 @@ def _written(source: Source) -> Number:
 
 def _power(text: str) -> int:
     exponent = int(text.strip("()"))
-    if abs(exponent) > LARGEST_EXPONENT:
+    if not SMALLEST_EXPONENT <= exponent <= LARGEST_EXPONENT:
         raise ReadError("number-too-large", 1, text)
     return exponent
 

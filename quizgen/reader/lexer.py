@@ -15,6 +15,8 @@ from quizgen.reader.names import CONSTANTS, FUNCTIONS, KEYWORDS, folded, spellin
 LARGEST_EXPONENT = 250
 """Largest decimal exponent read: beyond anything measurable, and every unit keeps it a float."""
 
+SMALLEST_EXPONENT = -300
+
 LONGEST_NUMBER = 60
 """Most digits read in one number."""
 
@@ -185,7 +187,7 @@ def number_node(word: str, column: int = 1) -> Num:
     mantissa, _, exponent = word.lower().partition("e")
     if len(mantissa) > LONGEST_NUMBER or len(exponent) > 5:
         raise ReadError("number-too-long", column, word)
-    if exponent and abs(int(exponent)) > LARGEST_EXPONENT:
+    if exponent and not SMALLEST_EXPONENT <= int(exponent) <= LARGEST_EXPONENT:
         raise ReadError("number-too-large", column, word)
     value = Fraction(f"{mantissa or 0}e{exponent or 0}")
     return Num(value, "." in mantissa or value.denominator != 1)

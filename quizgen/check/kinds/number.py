@@ -161,7 +161,8 @@ def shown(spec: Tolerance, value: Any, form: str = "") -> str:
     if spec.sigfigs is not None:
         return with_figures(value, spec.sigfigs)
     if spec.exact and isinstance(value, fmpq):
-        return exact_or_figures(value, 12) if _terminates(value) else str(value)
+        decimal = _terminates(value) and value.q != 1
+        return exact_or_figures(value, 12) if decimal else str(value)
     return _for_tolerance(spec, value)
 
 

@@ -1,0 +1,99 @@
+"""Every template of the bank: what is printed counts, what lies beyond the tolerance does not."""
+
+from __future__ import annotations
+
+from collections import Counter
+from fractions import Fraction
+
+import pytest
+
+from quizgen import specs
+from quizgen.bank import builtin
+from quizgen.check import load_spec, mark, show
+from quizgen.question import instance
+
+SEEDS = 500
+BANGLA = str.maketrans("0123456789", "০১২৩৪৫৬৭৮৯")
+NOT_TYPED_BACK = {"text", "witness"}  # no single printed answer
+TEMPLATES = list(builtin().paths)
+
+
+@pytest.fixture(scope="module", params=TEMPLATES)
+def parts(request):
+    """Specs of every part, one list per seed: drawn once, used by all tests of a template."""
+    template = builtin().template(request.param)
+    return [
+        [specs.build(drawn, index) for index in range(len(template.rules.part))]
+        for drawn in (instance(template, seed) for seed in range(SEEDS))
+    ]
+
+
+def tables(parts, seeds=SEEDS):
+    for drawn in parts[:seeds]:
+        yield from drawn
+
+
+def test_printed_answer_typed_back_is_correct(parts):
+    for table in tables(parts):
+        if table["kind"] in NOT_TYPED_BACK:
+            continue
+        spec = load_spec(table)
+        printed = show(spec)
+        for decimal, text in (("auto", printed), ("comma", printed.replace(".", ","))):
+            for typed in (text, text.translate(BANGLA)):
+                verdict = mark(spec, typed, decimal=decimal)
+                assert verdict.verdict == "correct", (table, typed, verdict)
+
+
+def shaped(table, value):
+    """The key's own notation for a wrong answer."""
+    name = "value" if "value" in table else "values"
+    plain = {k: v for k, v in table.items() if k not in {"traps", "notes", "accept"}}
+    return show({**plain, name: value})
+
+
+def test_typed_traps_are_named_and_never_misnamed(parts):
+    named: Counter[str] = Counter()
+    for table in tables(parts):
+        spec = load_spec(table)
+        for trap, value in table.get("traps", {}).items():
+            if table["kind"] in {"choice", "multi", "match", "code", "expression"}:
+                continue
+            verdict = mark(spec, shaped(table, value))
+            assert verdict.verdict != "correct"
+            hit = verdict.note == f"trap:{trap}"
+            assert hit or not verdict.note.startswith("trap:"), (table, trap, verdict)
+            named["yes" if hit else "no"] += 1
+    assert named["yes"] >= 0.95 * named.total()
+
+
+def width(table, key):
+    """The documented tolerance, worked out here on its own; None for the default."""
+    if "decimals" in table:
+        return Fraction(str(table.get("within", 1))) / 10 ** table["decimals"]
+    if "rel" in table:
+        return Fraction(str(table["rel"])) * abs(key)
+    if "abs" in table:
+        return Fraction(str(table["abs"]))
+    return Fraction(0) if table.get("exact") else None
+
+
+def typed(value, table):
+    unit = table["unit"] if table["kind"] == "quantity" else ""
+    percent = "%" if table.get("percent") else ""
+    return f"{value.numerator}/{value.denominator} {unit}{percent}".strip()
+
+
+def test_the_bound_counts_and_beyond_it_does_not(parts):
+    for table in tables(parts, 40):
+        if table["kind"] not in {"number", "quantity"} or "accept" in table:
+            continue
+        key = Fraction(table["value"]) * (100 if table.get("percent") else 1)
+        reach = width(table, key)
+        if reach is None or len(table["value"]) > 30:
+            continue
+        step = max(reach, abs(key), Fraction(1)) / 10**9
+        for sign in (1, -1):
+            on, beyond = key + sign * reach, key + sign * (reach + step)
+            assert mark(table, typed(on, table)).verdict == "correct", (table, on)
+            assert mark(table, typed(beyond, table)).verdict != "correct", (table, beyond)
