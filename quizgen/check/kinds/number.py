@@ -13,7 +13,7 @@ from quizgen.check.options import Options
 from quizgen.check.quantities import split_quantity
 from quizgen.check.rewrites import Source, normalise
 from quizgen.check.rounding import exact_or_figures, rounded, with_figures
-from quizgen.check.scalars import Number, ReadError, Readings, exact_value, fast, read_source
+from quizgen.check.scalars import Number, ReadError, Readings, exact_value, quick, read_source
 from quizgen.check.specs import Scalar, Tolerance
 from quizgen.check.verdict import Verdict, unreadable, with_values
 from quizgen.units import shown as shown_unit
@@ -48,8 +48,7 @@ def check(spec: Spec, typed: str, options: Options) -> Verdict:
     """Judge a typed number."""
     if spec.unit:
         return _with_unit(spec, typed, options)
-    number = fast(typed)
-    readings = Readings(number) if number else _read(spec, typed, options)
+    readings = quick(typed, options.decimal) or _read(spec, typed, options)
     return resolve(readings, lambda n: _judge(spec, n, options), spec.decimals)
 
 
