@@ -119,7 +119,7 @@ class _Chain:
     """The present effects of one view with their facts; predicts the error of any choice."""
 
     def __init__(self, present: tuple[Effect, ...], view: View, facts: Facts) -> None:
-        self.present, self.view = present, view
+        self.present, self.view, self.facts = present, view, facts
         self.before = _facts_along(present, view, facts)
         self.lost = [_lost(effect, f, view) for effect, f in zip(present, self.before, strict=True)]
         self.rough = [
@@ -320,7 +320,7 @@ def _report(
     times = _costs(chain.present, chain.view, opencv_used=None)
     steps, skipped = [], []
     for unit in units:
-        alone = min(chain.dn(dict.fromkeys(unit.members, SKIP)), GREY_LEVELS)
+        alone = min(_alone(chain, choice, unit), GREY_LEVELS)
         for index in unit.members:
             name, made, time = chain.present[index].name, choice[index], times[index]
             if made == SKIP:
@@ -331,6 +331,14 @@ def _report(
     ran = tuple(step for _, step in sorted(steps, key=lambda pair: pair[0]))
     spent = sum(step.predicted_ms for step in ran)
     return Plan(ran, tuple(skipped), absent, chain.dn(choice), spent, limit)
+
+
+def _alone(chain: _Chain, choice: dict[int, str], unit: _Unit) -> float:
+    """What one unit changes in this plan: with it against without it, all other choices as made."""
+    kept = [i for i in range(len(chain.present)) if choice[i] != SKIP or i in unit.members]
+    present = tuple(chain.present[index] for index in kept)
+    without = {kept.index(index): SKIP for index in unit.members}
+    return _Chain(present, chain.view, chain.facts).dn(without)
 
 
 def _why_skipped(bound: float) -> str:
