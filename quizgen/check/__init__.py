@@ -7,14 +7,13 @@ student types never raises: it becomes a ``Verdict``. Neither SymPy nor NumPy is
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import Any
 
 from quizgen.check.kinds import KINDS, kind_module
 from quizgen.check.messages import say
 from quizgen.check.options import DECIMALS, Context, Options
 from quizgen.check.specs import Spec, decode
-from quizgen.check.verdict import Verdict, ambiguous, unreadable
+from quizgen.check.verdict import Verdict, ambiguous, unreadable, with_words
 from quizgen.errors import KeyFileError
 from quizgen.reader import ReadError
 
@@ -98,8 +97,10 @@ def _asked_back(error: ReadError) -> Verdict:
 
 def explained(spec: Spec, verdict: Verdict, lang: str) -> Verdict:
     """Put the verdict's note into words of a language."""
+    if not verdict.note and not verdict.cells:
+        return verdict
     cells = tuple(explained(spec, cell, lang) for cell in verdict.cells)
-    return replace(verdict, message=_sentence(spec, verdict, lang), cells=cells)
+    return with_words(verdict, _sentence(spec, verdict, lang), cells)
 
 
 def _sentence(spec: Spec, verdict: Verdict, lang: str) -> str:

@@ -61,10 +61,10 @@ def read_literal(typed: str, decimal: str = "auto", column: int = 1) -> Literal:
     decimal_reading = f"{whole or 0}.{digits}"
     if compact != typed or len(digits) != 3 or not 1 <= len(whole) <= 3 or whole[0] == "0":
         return Literal(decimal_reading)
-    return Literal(decimal_reading, whole + digits, _doubt(mark, decimal))
+    return Literal(decimal_reading, whole + digits, doubtful(mark, decimal))
 
 
-def _doubt(mark: str, decimal: str) -> Doubt | None:
+def doubtful(mark: str, decimal: str) -> Doubt | None:
     """Tell how far the declared decimal sign settles the matter."""
     if decimal == "point":
         return None if mark == "." else Doubt(mark, native=False, group_wins=True)

@@ -47,6 +47,8 @@ class Source:
 
     def sub(self, pattern: re.Pattern[str], new: Callable[[re.Match[str]], str]) -> Source:
         """Replace matches; a replacement takes the column of the match's start."""
+        if pattern.search(self.text) is None:
+            return self
         text, columns, last = [], list[int](), 0
         for match in pattern.finditer(self.text):
             put = new(match)
@@ -54,12 +56,12 @@ class Source:
             columns += self.columns[last : match.start()]
             columns += [self.column(match.start())] * len(put)
             last = match.end()
-        if not text:
-            return self
         return Source("".join([*text, self.text[last:]]), (*columns, *self.columns[last:]))
 
     def strip(self, characters: str = " ") -> Source:
         """Remove characters at both ends."""
+        if self.text[:1] not in characters and self.text[-1:] not in characters:
+            return self
         left = len(self.text) - len(self.text.lstrip(characters))
         right = len(self.text.rstrip(characters))
         return self.cut(left, max(left, right))

@@ -11,7 +11,7 @@ from typing import Any
 import flint
 from flint import fmpq
 
-from quizgen.check.literals import Doubt, pointed
+from quizgen.check.literals import Doubt, doubtful, pointed
 from quizgen.check.rewrites import Source, normalise
 from quizgen.errors import MathError
 from quizgen.expr import PRECISION, Expr, Field, compile_expr, exact
@@ -101,6 +101,22 @@ def fast(typed: str) -> Number | None:
     return _decimal(sign, whole, digits)
 
 
+def quick(typed: str, decimal: str) -> Readings | None:
+    """Read a plain number without any rewriting, with both readings if there are two."""
+    number = fast(typed)
+    if number is not None:
+        return Readings(number)
+    match = _FAST.fullmatch(typed if typed.isascii() else typed.translate(_DIGITS))
+    if match is None:
+        return None
+    sign, whole, mark, digits = match.groups()
+    main = _decimal("-" if sign else "", whole, digits)
+    doubt = doubtful(mark, decimal)
+    if doubt is None:
+        return Readings(main)
+    return Readings(main, _decimal("-" if sign else "", whole + digits, ""), doubt)
+
+
 def _decimal(sign: str, whole: str, digits: str) -> Number:
     top = int(whole + digits)
     value = fmpq(-top if sign == "-" else top, 10 ** len(digits))
@@ -128,8 +144,7 @@ def read_number(typed: str, decimal: str = "auto") -> Readings:
     ReadError
         With the column, if it cannot be read.
     """
-    number = fast(typed)
-    return Readings(number) if number else read_source(normalise(typed), decimal)
+    return quick(typed, decimal) or read_source(normalise(typed), decimal)
 
 
 def read_source(source: Source, decimal: str) -> Readings:
@@ -140,9 +155,9 @@ def read_source(source: Source, decimal: str) -> Readings:
     ReadError
         With the column, if it cannot be read.
     """
-    number = fast(source.text)
-    if number:
-        return Readings(number)
+    found = quick(source.text, decimal)
+    if found:
+        return found
     main, other, doubt = pointed(source, decimal)
     if other is None:
         return Readings(_written(main))

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from flint import arb, fmpq
 
-from quizgen.check.rounding import magnitude
 from quizgen.check.scalars import Number
+from quizgen.numbers import magnitude, to_float
 
 CLOSE = fmpq(1, 200)
 """Relative distance within which a slip is said to explain a number."""
@@ -30,7 +31,7 @@ FACTORS = {
 }
 """Constant factors worth naming."""
 
-_TENS = {fmpq(10) ** power: power for power in range(-18, 19) if power}
+_TENS = {power: fmpq(10) ** power for power in range(-19, 20)}
 
 
 def close(value: Any, target: Any) -> bool:
@@ -42,10 +43,9 @@ def power_of_ten(value: Any, key: Any) -> int:
     """Exponent k if the value is 10^k times the key, else 0."""
     if value == 0 or key == 0:
         return 0
-    for power in {magnitude(value) - magnitude(key) + step for step in (-1, 0, 1)}:
-        if power and abs(power) <= 18 and close(value, key * fmpq(10) ** power):
-            return power
-    return 0
+    ratio = to_float(value / key)
+    power = round(math.log10(ratio)) if 1e-19 < ratio < 1e19 else 0
+    return power if power and close(value, key * _TENS[power]) else 0
 
 
 def slip(number: Number, value: Any, key: Any) -> tuple[str, dict[str, Any]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
@@ -13,6 +13,7 @@ WRONG = "wrong"
 UNREADABLE = "unreadable"
 AMBIGUOUS = "ambiguous"
 
+FULL, NONE = Fraction(1), Fraction(0)
 HALF = Fraction(1, 2)
 """Credit for a right value in the wrong form, precision or without its unit."""
 
@@ -43,7 +44,7 @@ class Verdict:
     """
 
     verdict: str
-    credit: Fraction = Fraction(0)
+    credit: Fraction = NONE
     read_as: str = ""
     note: str = ""
     message: str = ""
@@ -69,7 +70,7 @@ class Verdict:
 
 def correct(read_as: str, note: str = "", **fields: Any) -> Verdict:
     """Full credit."""
-    return Verdict(CORRECT, Fraction(1), read_as, note, fields=fields)
+    return Verdict(CORRECT, FULL, read_as, note, fields=fields)
 
 
 def partial(credit: Fraction, read_as: str, note: str, **fields: Any) -> Verdict:
@@ -79,17 +80,17 @@ def partial(credit: Fraction, read_as: str, note: str, **fields: Any) -> Verdict
 
 def wrong(read_as: str, note: str = "", **fields: Any) -> Verdict:
     """No credit."""
-    return Verdict(WRONG, Fraction(0), read_as, note, fields=fields)
+    return Verdict(WRONG, NONE, read_as, note, fields=fields)
 
 
 def unreadable(note: str, read_as: str = "", **fields: Any) -> Verdict:
     """Asked back: it could not be read."""
-    return Verdict(UNREADABLE, Fraction(0), read_as, note, fields=fields)
+    return Verdict(UNREADABLE, NONE, read_as, note, fields=fields)
 
 
 def ambiguous(note: str, read_as: str = "", **fields: Any) -> Verdict:
     """Asked back: there are two readings, or a person has to decide."""
-    return Verdict(AMBIGUOUS, Fraction(0), read_as, note, fields=fields)
+    return Verdict(AMBIGUOUS, NONE, read_as, note, fields=fields)
 
 
 def shared(credit: Fraction, read_as: str, note: str, **fields: Any) -> Verdict:
@@ -103,4 +104,27 @@ def shared(credit: Fraction, read_as: str, note: str, **fields: Any) -> Verdict:
 
 def with_values(verdict: Verdict, *values: Any) -> Verdict:
     """Attach the numbers that were read."""
-    return replace(verdict, values=values)
+    return Verdict(
+        verdict.verdict,
+        verdict.credit,
+        verdict.read_as,
+        verdict.note,
+        verdict.message,
+        verdict.fields,
+        verdict.cells,
+        values,
+    )
+
+
+def with_words(verdict: Verdict, message: str, cells: tuple[Verdict, ...]) -> Verdict:
+    """Attach the sentence in the learner's language."""
+    return Verdict(
+        verdict.verdict,
+        verdict.credit,
+        verdict.read_as,
+        verdict.note,
+        message,
+        verdict.fields,
+        cells,
+        verdict.values,
+    )
