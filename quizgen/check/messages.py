@@ -14,19 +14,25 @@ LANGUAGES = ("en", "bn")
 
 
 @cache
-def sentences(lang: str) -> dict[str, str]:
-    """Return all sentences of one language; an unknown language falls back to English."""
+def _tables(lang: str) -> dict[str, dict[str, str]]:
     lang = lang if lang in LANGUAGES else "en"
     text = (files("quizgen") / "locale" / f"check.{lang}.toml").read_text("utf-8")
-    return dict(tomllib.loads(text)["notes"])
+    return tomllib.loads(text)
 
 
-@cache
+def sentences(lang: str) -> dict[str, str]:
+    """Return the sentences of the notes; an unknown language falls back to English."""
+    return _tables(lang)["notes"]
+
+
 def words(lang: str) -> dict[str, str]:
     """Return the names of token kinds and short words used inside sentences."""
-    lang = lang if lang in LANGUAGES else "en"
-    text = (files("quizgen") / "locale" / f"check.{lang}.toml").read_text("utf-8")
-    return dict(tomllib.loads(text)["words"])
+    return _tables(lang)["words"]
+
+
+def practice_words(lang: str) -> dict[str, str]:
+    """Return the sentences of ``quizgen practice``."""
+    return _tables(lang)["practice"]
 
 
 def say(lang: str, note: str, fields: Mapping[str, Any]) -> str:

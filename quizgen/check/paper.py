@@ -145,16 +145,33 @@ def check_paper(
 def _question(
     question: KeyQuestion, answers: Mapping[str, str], options: Options
 ) -> list[PartResult]:
-    earlier: dict[str, Any] = {}
-    results = []
-    for part in question.parts:
-        typed = answers.get(part.id, "")
+    marker = Marker(question, options)
+    return [marker.mark(part, answers.get(part.id, "")) for part in question.parts]
+
+
+class Marker:
+    """Marks the parts of one question in order, remembering the student's own values.
+
+    Parameters
+    ----------
+    question : KeyQuestion
+        The question's key.
+    options : Options
+        How to read, and the language of the messages.
+    """
+
+    def __init__(self, question: KeyQuestion, options: Options) -> None:
+        self.question = question
+        self.options = options
+        self.earlier: dict[str, Any] = {}
+
+    def mark(self, part: KeyPart, typed: str) -> PartResult:
+        """Mark one part; a part marked again replaces its earlier values."""
         spec = _spec(part)
-        verdict = _verdict(question, spec, typed, options, earlier)
-        results.append(_result(question, part, typed, explained(spec, verdict, options.lang)))
-        if question.chain is not None:
-            _remember(question, spec, verdict, earlier)
-    return results
+        verdict = _verdict(self.question, spec, typed, self.options, self.earlier)
+        if self.question.chain is not None:
+            _remember(self.question, spec, verdict, self.earlier)
+        return _result(self.question, part, typed, explained(spec, verdict, self.options.lang))
 
 
 def _spec(part: KeyPart) -> Spec:
