@@ -203,7 +203,10 @@ def _spend(
     chain: _Chain, units: list[_Unit], costs: list[dict[str, float]], budget: float
 ) -> dict[int, str]:
     """Take the affordable choice that saves most per grey level, again and again."""
-    choice = {index: EXACT for unit in units for index in unit.members}
+    choice = {i: EXACT if unit.fixed else SKIP for unit in units for i in unit.members}
+    if chain.dn(choice) <= budget:
+        return choice
+    choice = dict.fromkeys(choice, EXACT)
     while True:
         now, best = chain.dn(choice), (0.0, choice)
         for unit in units:
