@@ -33,10 +33,10 @@ class Context:
 
     @cached_property
     def solved(self) -> dict[str, Any]:
-        """The right value of every quantity; empty if the chain has no value."""
+        """The right value of every quantity; empty if the chain does not fit the given numbers."""
         try:
             return self.chain.solve(self.given)
-        except MathError:
+        except (MathError, KeyError):
             return {}
 
 

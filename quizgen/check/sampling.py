@@ -19,7 +19,9 @@ from quizgen.expr import Expr, compile_expr, names
 POINTS = 8
 """Points at which both formulas must have a value and agree."""
 
-TRIES = 40
+TRIES = 96
+"""Points tried: a key may have a value on a part of the declared domain only."""
+
 BITS = 128
 """Working precision: a difference beyond 30 digits is seen."""
 

@@ -16,6 +16,9 @@ from quizgen.errors import FormulaError, KeyFileError
 Scalar = str | int | float
 """An exact number in a spec: ``"20/3"``, ``"6.67"``, ``12`` or a constant formula."""
 
+MOST_DIGITS = 40
+"""Most decimals or significant figures that can be asked."""
+
 DEFAULT_REL = fmpq(1, 200)
 """Tolerance when a spec states none: half a percent of the key."""
 
@@ -74,6 +77,10 @@ class Tolerance(Spec, kw_only=True):
             raise ValueError("only one of decimals, sigfigs, rel, abs, exact can be given")
         if self.accept is not None and len(self.accept) != 2:
             raise ValueError("accept needs two bounds")
+        if not 0 <= (self.decimals or 0) <= MOST_DIGITS:
+            raise ValueError(f"decimals must be 0 to {MOST_DIGITS}")
+        if not 1 <= (self.sigfigs or 1) <= MOST_DIGITS:
+            raise ValueError(f"sigfigs must be 1 to {MOST_DIGITS}")
         for value in (self.rel, self.abs, self.within, *(self.accept or ())):
             if value is not None:
                 exact_value(value)

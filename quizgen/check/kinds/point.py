@@ -39,6 +39,8 @@ class Spec(Tolerance, kw_only=True):
         if not self.values or (self.names and len(self.names) != len(self.values)):
             raise ValueError("values must not be empty, names as many as values")
         plain_unit(self.unit)
+        if any(len(trap) != len(self.values) for trap in self.traps.values()):
+            raise ValueError("a trap needs as many values as the point")
         for value in (*self.values, *(item for trap in self.traps.values() for item in trap)):
             exact_value(value)
 

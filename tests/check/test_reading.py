@@ -1,0 +1,203 @@
+"""The rewrites one by one, where errors point, and what the checker understood."""
+
+from __future__ import annotations
+
+import pytest
+
+from quizgen.check import mark
+from quizgen.check.echo import safe
+from quizgen.check.formulas import FORMULA_REWRITES, read_formula
+from quizgen.check.literals import read_literal
+from quizgen.check.rewrites import REWRITES, normalise, rewrite
+from quizgen.check.unit_words import WORDS, typed_unit
+from quizgen.check.wording import fold, nearest_terms
+from quizgen.reader import ReadError
+from quizgen.units import unit
+
+ONE_BY_ONE = [
+    ("direction marks around", "\u200f12\u200e", "12"),
+    ("blanks", "1\u202f234\u00a0m", "1 234 m"),
+    ("digits", "১২.৫ ４", "12.5 4"),
+    ("full-width forms", "（1，5）", "(1,5)"),
+    ("minus and dashes", "−5 – 3 — 1", "-5 - 3 - 1"),
+    ("minus and dashes", "x⁻²", "x⁻²"),
+    ("times", "3·4 × 5", "3*4 * 5"),
+    ("division", "6 ÷ 2 ⁄ 3", "6 / 2 / 3"),
+    ("decimal marks", "12٫5", "12.5"),
+    ("quotes and primes", "z′ p’_x", "z' p'_x"),
+    ("double primes", "z″", "z''"),
+    ("semicolons", "1；2", "1;2"),
+    ("angle brackets", "⟨1; 2⟩", "(1; 2)"),
+    ("superscripts", "x² 10⁻³ r¹⁰", "x^2 10^(-3) r^(10)"),
+    ("subscripts", "k₁ pₓ", "k1 px"),
+    ("vulgar fractions", "½ 1½ 2 ¾", "(1/2) (1+1/2) (2+3/4)"),
+    ("about", "≈ 5", "5"),
+    ("about", "ca. 5", "5"),
+    ("about", "approximately 5", "5"),
+    ("about", "cat", "cat"),
+    ("x between numbers", "3x10^5", "3*10^5"),
+    ("x between numbers", "0x3", "0x3"),
+    ("x between numbers", "2x", "2x"),
+]
+
+
+@pytest.mark.parametrize(("name", "typed", "wanted"), ONE_BY_ONE)
+def test_rewrite(name, typed, wanted):
+    assert rewrite(name, typed) == wanted
+
+
+def test_every_rewrite_is_tested_alone():
+    assert {name for name, _, _ in ONE_BY_ONE} == set(REWRITES)
+
+
+@pytest.mark.parametrize(
+    ("name", "typed", "same"),
+    [
+        ("function synonyms", "arctan(x) + lg(x)", "atan(x) + log10(x)"),
+        ("degrees", "sin(30°)", "sin((30*pi/180))"),
+        ("percent", "5 % * x", "(5/100)*x"),
+        ("semicolon arguments", "max(x; 1)", "max(x, 1)"),
+        ("square brackets", "2[x+1]", "2*(x+1)"),
+        ("leading point", "x + .5", "x + 0.5"),
+        ("pi", "2πx", "2*pi*x"),
+    ],
+)
+def test_formula_rewrite(name, typed, same):
+    assert name in FORMULA_REWRITES
+    assert read_formula(typed, ["x"]).tree == read_formula(same, ["x"]).tree
+
+
+@pytest.mark.parametrize(
+    ("typed", "decimal", "text", "other"),
+    [
+        ("12,5", "auto", "12.5", ""),
+        ("1.000", "auto", "1.000", "1000"),
+        ("1.000", "point", "1.000", "1000"),
+        ("0,500", "comma", "0.500", ""),
+        ("1234,500", "comma", "1234.500", ""),
+        ("1.234.567,8", "auto", "1234567.8", ""),
+        ("1,234.5", "auto", "1234.5", ""),
+        ("12,34,567", "auto", "1234567", ""),
+        ("1'234'567", "auto", "1234567", ""),
+        (",5", "auto", "0.5", ""),
+        ("5.", "auto", "5", ""),
+    ],
+)
+def test_literals(typed, decimal, text, other):
+    literal = read_literal(typed, decimal)
+    assert (literal.text, literal.other) == (text, other)
+    assert (literal.doubt is None) == (not other or decimal == "point")
+
+
+@pytest.mark.parametrize("typed", ["1.2.3", "1,2,3", "1..2", "1.23,45,6", "12,3456,7"])
+def test_literals_that_are_none(typed):
+    with pytest.raises(ReadError):
+        read_literal(typed)
+
+
+@pytest.mark.parametrize(
+    ("typed", "column"),
+    [
+        ("1\u200b2", 2),
+        ("  1\u200b2", 4),
+        ("২ + ৩ $", 7),
+        ("½ + $", 5),
+        ("x² + y", 6),
+        ("\u200f 3 $", 5),
+    ],
+)
+def test_errors_point_into_what_was_typed(typed, column):
+    spec = {"kind": "expression", "value": "x", "symbols": {"x": "real"}}
+    assert mark(spec, typed).fields["column"] == column
+
+
+def test_a_missing_end_points_behind_the_text():
+    spec = {"kind": "expression", "value": "x", "symbols": {"x": "real"}}
+    verdict = mark(spec, "(x + 1")
+    assert verdict.fields["column"] == 7
+    assert ")" in verdict.message
+
+
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        ("<b>", "&lt;b&gt;"),
+        ("a\x00b", "a[U+0000 control character]b"),
+        ("a\u200bb", "a[U+200B ZERO WIDTH SPACE]b"),
+        ("\x1b[31m", "[U+001B control character][31m"),
+        ("x" * 100, "x" * 39 + "…"),
+    ],
+)
+def test_echo_is_harmless_and_short(text, shown):
+    assert safe(text) == shown
+
+
+def test_every_listed_unit_word_is_a_listed_unit():
+    for word, name in WORDS.items():
+        assert typed_unit(word).dimension == (
+            unit(name).dimension if name != "rad" else (("deg", 1),)
+        )
+
+
+@pytest.mark.parametrize(
+    ("typed", "listed"),
+    [
+        ("µm/px", "um/px"),
+        ("mm²".replace("²", "^2"), "mm^2"),
+        ("lx s", "lx*s"),
+        ("mm^-1", "1/mm"),
+        ("m s^-1", "m/s"),
+        ("px per mm", "px/mm"),
+    ],
+)
+def test_compound_units(typed, listed):
+    found, wanted = typed_unit(typed), unit(listed)
+    assert (found.dimension, str(found.factor)) == (wanted.dimension, str(wanted.factor))
+
+
+# 26 pairs of terms that fuzzy thresholds confuse: typed, all terms, the term meant (None: none)
+TERMS = [
+    "far-sighted",
+    "near-sighted",
+    "demosaicing",
+    "mosaicing",
+    "rod",
+    "cone",
+    "barrel",
+    "pincushion",
+    "blooming",
+    "zooming",
+    "hue",
+    "value",
+    "additive",
+    "subtractive",
+    "vignetting",
+    "photosite",
+]
+
+
+@pytest.mark.parametrize(
+    ("typed", "meant"),
+    [
+        ("far sighted", "far-sighted"), ("nearsighted", "near-sighted"), ("farsigted", "far-sighted"), ("demosaicng", "demosaicing"),
+        ("mosaicng", "mosaicing"), ("mosaicing", "mosaicing"), ("rods", None), ("cones", None), ("barel", "barrel"), ("barrell", "barrel"),
+        ("pincusion", "pincushion"), ("pinchusion", "pincushion"), ("bloomin", "blooming"), ("zoomin", "zooming"), ("hues", None), ("valeu", "value"),
+        ("additiv", "additive"), ("subtractiv", "subtractive"), ("adictive", None), ("vinetting", "vignetting"), ("vignette", None), ("photosit", "photosite"),
+        ("photo site", "photosite"), ("photograph", None), ("", None), ("nonsense", None),
+    ],
+)  # fmt: skip
+def test_the_nearest_term_decides(typed, meant):
+    found, _ = nearest_terms(typed, TERMS)
+    assert found == ([meant] if meant else [])
+
+
+def test_folding_of_words():
+    assert fold("  The Colour-Filter  Array. ") == fold("color filter array")
+    assert fold("O\u0308ffnung") == fold("Oeffnung") == fold("öffnung")
+    assert fold("বেয়ার") == fold("বেয়ার".replace("\u09df", "\u09af\u09bc"))
+
+
+def test_the_cap_stands_before_everything_else():
+    with pytest.raises(ReadError) as caught:
+        normalise("\u200b" * 1_000_000)
+    assert caught.value.code == "too-long"
