@@ -7,11 +7,12 @@ A = f**2 and B = N c (s - f); no image distance occurs, so nothing cancels but A
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
-from .domain import POSITIVE, Kernel, Numbers, Result, Rule
+from .domain import POSITIVE, Kernel, Numbers, Result, Rule, nearest
 from .double_double import pairs
 
 _CLOSE = 2.0**-40
@@ -53,6 +54,53 @@ def _limited(formula: Any) -> Any:
     return compute
 
 
+_FAR_AWAY = 0.25
+"""Below this share of the hyperfocal distance plain doubles keep their digits."""
+
+
+def _far_short(f: Any, N: Any, c: Any, s: Any) -> Any:
+    q = N * c * (s - f) / (f * f)
+    return _or_long(s / (1 - q), q, _FAR, (f, N, c, s))
+
+
+def _near_short(f: Any, N: Any, c: Any, s: Any) -> Any:
+    q = N * c * (s - f) / (f * f)
+    return _or_long(s / (1 + q), q, _NEAR, (f, N, c, s))
+
+
+def _total_short(f: Any, N: Any, c: Any, s: Any) -> Any:
+    """2 s q/(1 - q**2) with q = B/A to twice the precision."""
+    f, N, c, s = pairs(f, N, c, s)
+    q = (N * c / (f * f)) * (s - f)
+    square = q.high * q.high
+    value = 2 * s.high * q.high / (1 - square)
+    value += value * (q.low / np.maximum(q.high, _LEAST))
+    return _or_long(value, q.high, _TOTAL, (f.high, N.high, c.high, s.high))
+
+
+_LEAST = 2.0**-900
+
+
+def _or_long(value: Any, q: Any, kernel: Kernel, args: Any) -> Any:
+    """Replace elements closer to the hyperfocal distance by the careful way."""
+    if q.max() < _FAR_AWAY:
+        return value
+    where = np.flatnonzero(q >= _FAR_AWAY)
+    some = [arg.take(where) if arg.size > 1 else arg for arg in args]
+    careful, doubtful = kernel.compute(*some)
+    value[where] = careful
+    if doubtful is not None and doubtful.any():
+        rest = where[doubtful]
+        value[rest] = [_settled(kernel, args, i) for i in rest]
+    return value
+
+
+def _settled(kernel: Kernel, args: Any, i: int) -> float:
+    values = (Fraction(float(arg[i if arg.size > 1 else 0])) for arg in args)
+    exact: Any = kernel.exact
+    return nearest(exact(*values))
+
+
 def _limited_exact(formula: Any) -> Any:
     def exact(f: Any, N: Any, c: Any, s: Any) -> Any:
         return formula(f, N, c, s) if N * c * (s - f) < f * f else math.inf
@@ -65,10 +113,19 @@ def _plain(formula: Any) -> Any:
 
 
 _RULES = (Rule("no-real-image", lambda f, _N, _c, s: s < f),)
-_HYPERFOCAL = Kernel(_plain(_hyperfocal), (POSITIVE,) * 3, exact=_hyperfocal)
-_NEAR = Kernel(_plain(_near), (POSITIVE,) * 4, _RULES, exact=_near)
-_FAR = Kernel(_limited(_far), (POSITIVE,) * 4, _RULES, exact=_limited_exact(_far))
-_TOTAL = Kernel(_limited(_total), (POSITIVE,) * 4, _RULES, exact=_limited_exact(_total))
+_HYPERFOCAL = Kernel(
+    _plain(_hyperfocal),
+    (POSITIVE,) * 3,
+    exact=_hyperfocal,
+    fast=lambda f, N, c: f * (f / (N * c)) + f,
+)
+_NEAR = Kernel(_plain(_near), (POSITIVE,) * 4, _RULES, exact=_near, fast=_near_short)
+_FAR = Kernel(
+    _limited(_far), (POSITIVE,) * 4, _RULES, exact=_limited_exact(_far), fast=_far_short
+)
+_TOTAL = Kernel(
+    _limited(_total), (POSITIVE,) * 4, _RULES, exact=_limited_exact(_total), fast=_total_short
+)
 
 
 def hyperfocal(f: Numbers, N: Numbers, c: Numbers) -> Result:

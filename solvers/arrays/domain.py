@@ -104,6 +104,8 @@ class Kernel:
         ``compute`` is trusted for zero and magnitudes from ``1/reach`` to ``reach``.
     outputs : int
         Number of result arrays.
+    fast : callable, optional
+        Shorter way for blocks whose arguments are all positive and within ``reach``.
     """
 
     compute: Callable[..., Any]
@@ -112,6 +114,7 @@ class Kernel:
     exact: Exact | None = None
     reach: float = 2.0**120
     outputs: int = 1
+    fast: Callable[..., Any] | None = None
 
     def __call__(self, *args: Numbers) -> Result:
         """Run the kernel on scalars or arrays that broadcast together."""
@@ -141,29 +144,39 @@ class Kernel:
         return None
 
     def _array(self, args: list[Array], shape: tuple[int, ...]) -> Result:
-        size = math.prod(shape)
-        parts = [self._block(block) for block in _blocks(args, size)]
-        if not parts:
-            return np.empty(shape)
-        if isinstance(parts[0], tuple):
-            return tuple(_join(list(column), shape) for column in zip(*parts, strict=True))
-        return _join(parts, shape)
+        columns = [np.empty(math.prod(shape)) for _ in range(self.outputs)]
+        masks: list[tuple[int, Flags]] = []
+        for start, block in _blocks(args, columns[0].size):
+            values, bad = self._block(block)
+            stop = start + max(arg.size for arg in block)
+            for column, value in zip(
+                columns, values if isinstance(values, tuple) else (values,), strict=True
+            ):
+                column[start:stop] = value if bad is None else _scatter(value, ~bad)
+            if bad is not None:
+                masks.append((start, bad))
+        results = tuple(_with_mask(column, masks).reshape(shape) for column in columns)
+        return results if self.outputs > 1 else results[0]
 
-    def _block(self, args: list[Array]) -> Any:
-        bad = self._bad(args)
+    def _block(self, args: list[Array]) -> tuple[Any, Flags | None]:
+        limits = [(arg.min(), arg.max()) for arg in args]
+        bad = self._bad(args, limits)
         if bad is None:
-            return self._checked(args)
+            if self.fast is not None and all(
+                low >= 1 / self.reach and high <= self.reach for low, high in limits
+            ):
+                return self.fast(*args), None
+            return self._checked(args), None
         good = ~bad
-        values: Any = (np.empty(0),) * self.outputs if self.outputs > 1 else np.empty(0)
         if good.any():
-            values = self._checked([arg[good] if arg.size > 1 else arg for arg in args])
-        if isinstance(values, tuple):
-            return tuple(_scatter(value, good) for value in values)
-        return _scatter(values, good)
+            return self._checked([arg[good] if arg.size > 1 else arg for arg in args]), bad
+        return ((np.empty(0),) * self.outputs if self.outputs > 1 else np.empty(0)), bad
 
-    def _bad(self, args: list[Array]) -> Flags | None:
+    def _bad(self, args: list[Array], limits: list[tuple[Any, Any]]) -> Flags | None:
         spans = list(zip(self.spans, args, strict=True))
-        inside = all(span.holds(arg.min(), arg.max()) for span, arg in spans)
+        inside = all(
+            span.holds(*limit) for span, limit in zip(self.spans, limits, strict=True)
+        )
         broken = [rule.broken(*args) for rule in self.rules] if inside else []
         if inside and not any(np.any(flags) for flags in broken):
             return None
@@ -239,21 +252,23 @@ def _flat(array: Array, shape: tuple[int, ...]) -> Array:
     return np.ascontiguousarray(np.broadcast_to(array, shape)).reshape(-1)
 
 
-def _blocks(args: list[Array], size: int) -> Iterator[list[Array]]:
+def _blocks(args: list[Array], size: int) -> Iterator[tuple[int, list[Array]]]:
     for start in range(0, size, BLOCK):
-        yield [arg if arg.size == 1 else arg[start : start + BLOCK] for arg in args]
+        yield start, [arg if arg.size == 1 else arg[start : start + BLOCK] for arg in args]
 
 
-def _scatter(values: Any, good: Flags) -> Any:
-    """Put the answers where they belong, masked elsewhere."""
+def _scatter(values: Any, good: Flags) -> Array:
+    """Put the answers where they belong, NaN elsewhere (masked later)."""
     data = np.full(good.shape, np.nan)
     data[good] = values
-    return np.ma.MaskedArray(data, mask=~good)
+    return data
 
 
-def _join(parts: list[Any], shape: tuple[int, ...]) -> Any:
-    if not any(isinstance(part, np.ma.MaskedArray) for part in parts):
-        return np.concatenate(parts).reshape(shape) if len(parts) > 1 else parts[0].reshape(shape)
-    data = np.concatenate([np.ma.getdata(part) for part in parts])
-    mask = np.concatenate([np.ma.getmaskarray(part) for part in parts])
-    return np.ma.MaskedArray(data, mask=mask).reshape(shape)
+def _with_mask(column: Array, masks: list[tuple[int, Flags]]) -> Any:
+    """The column, masked where there is no answer."""
+    if not masks:
+        return column
+    mask = np.zeros(column.size, dtype=bool)
+    for start, bad in masks:
+        mask[start : start + bad.size] = bad
+    return np.ma.MaskedArray(column, mask=mask)

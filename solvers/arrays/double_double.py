@@ -54,6 +54,7 @@ class Pair:
     """The unevaluated sum ``high + low`` of two arrays; ``low`` is None when it is zero."""
 
     __slots__ = ("_halves", "high", "low")
+    __array_ufunc__ = None  # arrays leave mixed operations to this class
 
     def __init__(self, high: Any, low: Any = None) -> None:
         self.high = high

@@ -5,6 +5,7 @@ Source: N = (newMax - newMin)/(max - min) (I - min) + newMin, clamped on both si
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any
@@ -15,6 +16,8 @@ from .domain import REAL, Array, Kernel, Numbers, Result, Rule, nearest
 from .double_double import Pair, pairs
 
 _CANCELLED = 2.0**-48
+_SHORT = 2.0**25
+_LARGEST = 2.0**52
 
 
 def _exact(I: Any, low: Any, high: Any, new_low: Any, new_high: Any) -> Any:
@@ -24,11 +27,13 @@ def _exact(I: Any, low: Any, high: Any, new_low: Any, new_high: Any) -> Any:
 def _compute(I: Array, low: Array, high: Array, new_low: Array, new_high: Array) -> Any:
     if low.size == high.size == new_low.size == new_high.size == 1:
         return _along_line(I, low.item(), high.item(), new_low.item(), new_high.item())
-    up = pairs(new_high)[0] * (pairs(I)[0] - low)
-    down = pairs(new_low)[0] * (pairs(high)[0] - I)
+    above, below = pairs(I)[0] - low, pairs(high)[0] - I
+    up, down = new_high * above, new_low * below
     value = ((up + down) / (pairs(high)[0] - low)).rounded()
     terms = (np.abs(up.high) + np.abs(down.high)) / np.abs(high - low)
-    return value, np.abs(value) < _CANCELLED * terms
+    cancelled = np.abs(value) < _CANCELLED * terms
+    certain_zero = (value == 0) & (above.low == 0) & (below.low == 0)
+    return value, cancelled & ~certain_zero
 
 
 def _along_line(I: Array, *ends: float) -> Any:
@@ -38,6 +43,36 @@ def _along_line(I: Array, *ends: float) -> Any:
     if slope.low == 0 and start.low == 0:
         return value, None
     return value, np.abs(value) < _CANCELLED * abs(start.high)
+
+
+@lru_cache(maxsize=64)
+def _whole_line(*ends: float) -> tuple[float, float, float] | None:
+    """Whole numbers with N = (slope I + start)/width exactly, when the ends are whole."""
+    if any(end != round(end) or abs(end) >= _SHORT for end in ends):
+        return None
+    a, b, c, d = (int(end) for end in ends)
+    common = math.gcd(d - c, c * b - d * a, b - a)
+    return float((d - c) // common), float((c * b - d * a) // common), float((b - a) // common)
+
+
+@lru_cache(maxsize=64)
+def _whole_kernel(*ends: float) -> Kernel | None:
+    """Whole intensities between whole ends: one quotient of exactly known numbers."""
+    line = _whole_line(*map(float, ends))
+    if line is None or ends[1] <= ends[0]:
+        return None
+    slope, start, width = line
+
+    def compute(I: Array) -> Any:
+        if np.array_equal(np.rint(I), I):
+            top = slope * I
+            top += start
+            if max(abs(top.min()), abs(top.max())) < _LARGEST:
+                top /= width
+                return top
+        return np.ma.getdata(_NORMALISE(I, *ends))
+
+    return Kernel(compute, (REAL,))
 
 
 @lru_cache(maxsize=64)
@@ -93,7 +128,9 @@ def normalise(
     DomainError
         ``empty-range`` (high <= low), ``not-finite`` (arrays: masked).
     """
-    value = _NORMALISE(I, low, high, new_low, new_high)
+    ends = (low, high, new_low, new_high)
+    whole = _whole_kernel(*ends) if all(np.ndim(end) == 0 for end in ends) else None
+    value = _NORMALISE(I, *ends) if whole is None else whole(I)
     return _clamped(value, new_low, new_high) if clamp else value
 
 

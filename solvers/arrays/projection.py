@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
-from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -89,41 +88,31 @@ def _decimal_pixel(*args: Fraction) -> Fraction:
 
 
 def _pixels(f: Array, pitch: Array, x: Array, z: Array, o: Array) -> Any:
-    if f.size == pitch.size == o.size == 1:
-        exact = _by_integers(_line(f.item(), pitch.item(), o.item()), x, z)
-        if exact is not None:
-            return exact, None
+    exact = _by_integers(f, pitch, x, z, o)
+    if exact is not None:
+        return exact, None
     value = _pixel(*pairs(f, pitch, x, z, o)).rounded()
     twice = 2 * value
     cancelled = np.abs(value) < np.abs(value - o)
     return value, cancelled | (np.abs(twice - np.rint(twice)) < _NEXT_TO_HALF)
 
 
-@lru_cache(maxsize=64)
-def _line(f: float, pitch: float, o: float) -> tuple[Fraction, Fraction]:
-    return Fraction(repr(f)) / Fraction(repr(pitch)), Fraction(repr(o))
-
-
-def _by_integers(line: tuple[Fraction, Fraction], x: Array, z: Array) -> Array | None:
-    """o + g x/z as one quotient of exactly known integers, or None when they are too long."""
-    scaled = _integers(x), _integers(z)
-    if scaled[0] is None or scaled[1] is None:
+def _by_integers(*columns: Array) -> Array | None:
+    """o + f x/(pitch z) as one quotient of exactly known integers, or None if they are long."""
+    found = [_integers(column) for column in columns]
+    known = [one for one in found if one is not None]
+    if len(known) < len(columns):
         return None
-    (x_whole, x_scale), (z_whole, z_scale) = scaled
-    g, o = line
-    factors = (
-        o.numerator * g.denominator * x_scale,
-        o.denominator * g.numerator * z_scale,
-        o.denominator * g.denominator * x_scale,
-    )
-    common = math.gcd(*factors)
-    of_z, of_x, below = (factor // common for factor in factors)
-    if max(abs(of_z), of_x, below) >= _LARGEST:
+    (f, pitch, x, z, o), (by_f, by_pitch, by_x, by_z, by_o) = zip(*known, strict=True)
+    left, right = by_f * by_x, by_o * by_pitch * by_z
+    common = math.gcd(left, right)
+    left, right = left // common, right // common
+    largest = [float(np.abs(column).max()) for column in (f, pitch, x, z, o)]
+    depth = largest[1] * largest[3] * left
+    if max(depth * by_o, depth * largest[4] + largest[0] * largest[2] * right) >= _LARGEST:
         return None
-    z_largest, x_largest = np.abs(z_whole).max(), np.abs(x_whole).max()
-    if max(abs(of_z) * z_largest + of_x * x_largest, below * z_largest) >= _LARGEST:
-        return None
-    result: Array = (float(of_z) * z_whole + float(of_x) * x_whole) / (float(below) * z_whole)
+    below = pitch * z * float(left)
+    result: Array = (o * below + f * x * float(right)) / (below * float(by_o))
     return result
 
 

@@ -35,7 +35,12 @@ def _photons(snr: Any, sigma: Any) -> Any:
     return snr * (half + root)
 
 
-_SNR = Kernel(_snr, (NONNEGATIVE, NONNEGATIVE))
+_SNR = Kernel(
+    _snr,
+    (NONNEGATIVE, NONNEGATIVE),
+    reach=_REACH,
+    fast=lambda N, sigma: N / np.sqrt(N + sigma * sigma),
+)
 _LOSS = Kernel(_loss, (POSITIVE, NONNEGATIVE))
 _PHOTONS = Kernel(_photons, (NONNEGATIVE, NONNEGATIVE))
 

@@ -26,11 +26,17 @@ def _magnification(f: Any, z: Any) -> Any:
 
 
 def _from_focus(f: Any, z: Any) -> Any:
-    """z - f with a positive zero, so that the pole is plus infinity."""
-    return np.abs(z - f) * np.where(z < f, -1.0, 1.0)
+    """z - f, where equal values give a positive zero: the pole is plus infinity."""
+    return z - f
 
 
-_IMAGE_DISTANCE = Kernel(_image_distance, (POSITIVE, POSITIVE))
+def _image_distance_near(f: Any, z: Any) -> Any:
+    return f * (z / (z - f))
+
+
+_IMAGE_DISTANCE = Kernel(
+    _image_distance, (POSITIVE, POSITIVE), reach=2.0**400, fast=_image_distance_near
+)
 _FOCUS_SHIFT = Kernel(_focus_shift, (POSITIVE, POSITIVE))
 _MAGNIFICATION = Kernel(_magnification, (POSITIVE, POSITIVE))
 

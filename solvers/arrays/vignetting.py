@@ -27,8 +27,29 @@ def _on_pairs(formula: Any) -> Any:
     return lambda r, f: (formula(*pairs(r, f)).rounded(), None)
 
 
-_COS4 = Kernel(_on_pairs(_cos4), (NONNEGATIVE, POSITIVE), exact=_cos4)
-_FALLOFF = Kernel(_on_pairs(_falloff), (NONNEGATIVE, POSITIVE), exact=_falloff)
+def _cos4_short(r: Any, f: Any) -> Any:
+    A = f * f
+    q = A / (r * r + A)
+    return q * q
+
+
+def _falloff_short(r: Any, f: Any) -> Any:
+    """p (2 - p) with p = r**2/(r**2 + f**2): no difference of nearly equal values."""
+    B = r * r
+    p = B / (B + f * f)
+    return p * (2 - p)
+
+
+_COS4 = Kernel(
+    _on_pairs(_cos4), (NONNEGATIVE, POSITIVE), exact=_cos4, reach=2.0**120, fast=_cos4_short
+)
+_FALLOFF = Kernel(
+    _on_pairs(_falloff),
+    (NONNEGATIVE, POSITIVE),
+    exact=_falloff,
+    reach=2.0**120,
+    fast=_falloff_short,
+)
 
 
 def cos4(r: Numbers, f: Numbers) -> Result:

@@ -1,0 +1,246 @@
+"""Rungs: the same formula in different number systems, and the truth to judge them by."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from quizgen.errors import MathError, QuizgenError
+from quizgen.expr import Expr, compile_expr, exact
+from quizgen.tradeoff import fields
+from quizgen.tradeoff.families import Family
+
+WANTED_BITS = 63
+"""Relative bits asked of a ball, so that rounding it to 53 bits is right."""
+
+ORACLE_BITS = 200
+MOST_BITS = 12800
+DIGITS = 50
+ORACLE_DIGITS = 80
+AGREEMENT = 1e-25
+
+
+@dataclass(frozen=True)
+class Rung:
+    """One way of computing.
+
+    Parameters
+    ----------
+    key : str
+        Language-free name; the words stand in ``words/*.toml``.
+    kind : str
+        ``array`` (``run`` takes columns) or ``scalar`` (``run`` takes one prepared input).
+    run : callable
+        The computation that is timed.
+    prepare : callable
+        Turns a row of doubles into what a scalar ``run`` takes; not timed.
+    finish : callable
+        Turns what ``run`` returns into doubles; not timed.
+    """
+
+    key: str
+    kind: str
+    run: Callable[..., Any]
+    prepare: Callable[[Sequence[float]], Any] = tuple
+    finish: Callable[[Any], Any] = float
+
+
+def rational(value: float, *, decimal: bool) -> Any:
+    """A double as an exact rational: as it is, or as the decimal it prints as."""
+    import flint
+
+    q = Fraction(repr(float(value))) if decimal else Fraction(float(value))
+    return flint.fmpq(q.numerator, q.denominator)
+
+
+def to_float(value: Any) -> float:
+    """Nearest double of an exact rational or the middle of a ball."""
+    if hasattr(value, "rel_accuracy_bits"):
+        return float(value.mid())
+    if hasattr(value, "p") and hasattr(value, "q"):
+        return int(value.p) / int(value.q)
+    return float(value)
+
+
+def rungs(family: Family) -> list[Rung]:
+    """Every rung that works for a family, cheapest number system first."""
+    formula = family.formula
+    if formula is None:
+        from quizgen.tradeoff.special import RUNGS
+
+        return [*RUNGS[family.name](family), _stable(family)]
+    found = [_array(family, formula, 32), _array(family, formula, 64), _stable(family)]
+    if fields.fits_pairs(formula):
+        found.append(_pairs(family, formula))
+    if family.rational:
+        found.append(_exact(family, formula))
+    if not family.whole_turn:
+        found.append(_balls(family, formula))
+    return [*found, _multiprecision(family, formula), _symbolic(family, formula)]
+
+
+def _array(family: Family, formula: Expr, bits: int) -> Rung:
+    import numpy as np
+
+    compiled = compile_expr(formula, fields.arrays(bits))
+    number = np.float32 if bits == 32 else np.float64
+
+    def run(*columns: Any) -> Any:
+        return compiled(dict(zip(family.names, columns, strict=True)))
+
+    return Rung(f"float{bits}", "array", run, lambda column: column.astype(number))
+
+
+def _stable(family: Family) -> Rung:
+    import numpy as np
+
+    def finish(result: Any) -> Any:
+        return np.ma.filled(result, np.nan)
+
+    return Rung("stable", "array", family.stable, lambda column: column, finish)
+
+
+def _pairs(family: Family, formula: Expr) -> Rung:
+    from quizgen.bank import solver_module
+
+    pair = solver_module("arrays.double_double").Pair
+    compiled = compile_expr(formula, fields.pairs())
+
+    def run(*columns: Any) -> Any:
+        values = map(pair, columns)
+        return compiled(dict(zip(family.names, values, strict=True))).rounded()
+
+    return Rung("double-double", "array", run, lambda column: column, lambda result: result)
+
+
+def _environment(family: Family, convert: Callable[[float], Any]) -> Callable[..., Any]:
+    return lambda row: {n: convert(v) for n, v in zip(family.names, row, strict=True)}
+
+
+def _exact(family: Family, formula: Expr) -> Rung:
+    compiled = compile_expr(formula, exact())
+    prepare = _environment(family, lambda v: rational(v, decimal=family.decimal))
+    return Rung("exact", "scalar", compiled, prepare, to_float)
+
+
+def ball_value(compiled: Callable[..., Any], inputs: Any, wanted: int = WANTED_BITS) -> Any:
+    """Evaluate with balls, doubling the precision until enough bits are certain.
+
+    Raises
+    ------
+    MathError
+        If 12800 bits are not enough.
+    """
+    import flint
+
+    precision = 80
+    while precision <= MOST_BITS:
+        with flint.ctx.workprec(precision):
+            try:
+                value = compiled({name: flint.arb(q) for name, q in inputs.items()})
+            except (MathError, ZeroDivisionError):
+                value = None
+            if value is not None and (not hasattr(value, "rad") or _certain(value, wanted)):
+                return value
+        precision *= 2
+    raise MathError("a ball does not become small enough")
+
+
+def _certain(value: Any, wanted: int) -> bool:
+    return bool(value.rel_accuracy_bits() >= wanted or value.is_zero())
+
+
+def _balls(family: Family, formula: Expr) -> Rung:
+    compiled = compile_expr(formula, exact())
+    prepare = _environment(family, lambda v: rational(v, decimal=family.decimal))
+    return Rung("arb", "scalar", lambda inputs: ball_value(compiled, inputs), prepare, to_float)
+
+
+def _multiprecision(family: Family, formula: Expr) -> Rung:
+    import mpmath as mp
+
+    compiled = compile_expr(formula, fields.multiprecision())
+
+    def run(inputs: Any) -> Any:
+        with mp.workdps(DIGITS):
+            return compiled(inputs)
+
+    return Rung("mpmath", "scalar", run, _precise(family))
+
+
+def _precise(family: Family) -> Callable[..., Any]:
+    import mpmath as mp
+
+    def convert(value: float) -> Any:
+        with mp.workdps(ORACLE_DIGITS):
+            return mp.mpf(repr(float(value))) if family.decimal else mp.mpf(float(value))
+
+    return _environment(family, convert)
+
+
+def _symbolic(family: Family, formula: Expr) -> Rung:
+    import sympy
+
+    compiled = compile_expr(formula, fields.symbolic())
+
+    def convert(value: float) -> Any:
+        q = rational(value, decimal=family.decimal)
+        return sympy.Rational(int(q.p), int(q.q))
+
+    return Rung("sympy", "scalar", lambda inputs: compiled(inputs).evalf(DIGITS), _environment(family, convert))
+
+
+class OraclesDisagree(QuizgenError):
+    """The exact or certified value and mpmath's differ: one of them is wrong."""
+
+
+def truths(family: Family, rows: list[tuple[float, ...]]) -> list[float]:
+    """Correctly rounded values, each computed twice by independent libraries.
+
+    Raises
+    ------
+    OraclesDisagree
+        If the two differ in the first 25 digits.
+    """
+    import mpmath as mp
+
+    first, second = oracles(family)
+    result = []
+    for row in rows:
+        certain = first(row)
+        with mp.workdps(ORACLE_DIGITS):
+            other = second(row)
+            value = _as_mpf(certain)
+            if abs(value - other) > AGREEMENT * abs(value) + mp.mpf(10) ** (-ORACLE_DIGITS + 20):
+                raise OraclesDisagree(f"{family.name}{row}: {value} and {other}")
+        result.append(to_float(certain))
+    return result
+
+
+def oracles(family: Family) -> tuple[Callable[..., Any], Callable[..., Any]]:
+    """The certified oracle and the independent one, as functions of a row of doubles."""
+    formula = family.formula
+    if formula is None:
+        from quizgen.tradeoff.special import ORACLES
+
+        return ORACLES[family.name]
+    compiled = compile_expr(formula, exact())
+    precise = compile_expr(formula, fields.multiprecision())
+    prepare = _environment(family, lambda v: rational(v, decimal=family.decimal))
+    convert = _precise(family)
+    if family.rational:
+        return (lambda row: compiled(prepare(row))), (lambda row: precise(convert(row)))
+    return (
+        lambda row: ball_value(compiled, prepare(row), ORACLE_BITS),
+        lambda row: precise(convert(row)),
+    )
+
+
+def _as_mpf(value: Any) -> Any:
+    import mpmath as mp
+
+    if hasattr(value, "rad"):
+        return mp.mpf(value.mid().str(70, radius=False))
+    return mp.mpf(int(value.p)) / int(value.q)

@@ -1,0 +1,147 @@
+"""Rungs and oracles of families that are solved by iteration or need the gamma function."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from quizgen.tradeoff.families import Family
+from quizgen.tradeoff.ladder import DIGITS, MOST_BITS, Rung, to_float
+
+Row = Sequence[float]
+
+
+def fixed_point(r_d: Any, k1: Any, count: int) -> Any:
+    """r := r_d/(1 + k1 r**2), as OpenCV does it."""
+    r = r_d
+    for _ in range(count):
+        r = r_d / (1 + k1 * r * r)
+    return r
+
+
+def newton(r_d: Any, k1: Any, count: int) -> Any:
+    """Newton's method on r + k1 r**3 - r_d, started at r_d."""
+    r = r_d
+    for _ in range(count):
+        r = r - (r * (1 + k1 * r * r) - r_d) / (1 + 3 * k1 * r * r)
+    return r
+
+
+def _inverse_rungs(family: Family) -> list[Rung]:
+    del family
+    import numpy as np
+
+    return [
+        Rung("float32", "array", lambda r, k, _: fixed_point(r, k, 5), _to(np.float32)),
+        Rung("float64", "array", lambda r, k, _: fixed_point(r, k, 5), _to(np.float64)),
+        Rung("fixed-20", "array", lambda r, k, _: fixed_point(r, k, 20), _to(np.float64)),
+        Rung("newton-10", "array", lambda r, k, _: newton(r, k, 10), _to(np.float64)),
+        Rung("arb", "scalar", lambda row: _inverse_ball(row, 63), tuple, to_float),
+        Rung("mpmath", "scalar", lambda row: _inverse_precise(row, DIGITS), tuple, float),
+        Rung("sympy", "scalar", _inverse_symbolic, tuple, float),
+    ]
+
+
+def _to(number: Any) -> Callable[[Any], Any]:
+    return lambda column: column.astype(number)
+
+
+def _inverse_ball(row: Row, wanted: int = 200) -> Any:
+    """Closed form of the cubic with balls: 2/sqrt(-3 k1) sin(asin(r_d/fold)/3)."""
+    import flint
+
+    precision = 100
+    while precision <= MOST_BITS:
+        with flint.ctx.workprec(precision):
+            r_d, k1 = flint.arb(row[0]), flint.arb(row[1])
+            size = (-3 * k1).sqrt()
+            value = 2 / size * ((3 * size * r_d / 2).asin() / 3).sin()
+            if value.is_finite() and value.rel_accuracy_bits() >= wanted:
+                return value
+        precision *= 2
+    raise ArithmeticError("no root below the fold")
+
+
+def _inverse_precise(row: Row, digits: int = 80) -> Any:
+    """Newton's method from below; the iteration is monotone up to the fold."""
+    import mpmath as mp
+
+    with mp.workdps(digits + 15):
+        r_d, k1 = mp.mpf(row[0]), mp.mpf(row[1])
+        r = r_d
+        for _ in range(300):
+            step = (r * (1 + k1 * r * r) - r_d) / (1 + 3 * k1 * r * r)
+            r -= step
+            if abs(step) < abs(r) * mp.mpf(10) ** (-digits):
+                break
+        return r
+
+
+def _inverse_symbolic(row: Row) -> Any:
+    import sympy
+
+    r = sympy.Symbol("r")
+    r_d, k1 = sympy.Rational(row[0]), sympy.Rational(row[1])
+    return sympy.nsolve(r + k1 * r**3 - r_d, r, row[0], prec=DIGITS, verify=False)
+
+
+def _poisson_rungs(family: Family) -> list[Rung]:
+    del family
+    import numpy as np
+
+    gamma = _log_gamma()
+
+    def textbook(k: Any, lam: Any) -> Any:
+        return np.exp(k * np.log(lam) - lam - gamma(k + 1).astype(k.dtype))
+
+    return [
+        Rung("float32", "array", textbook, _to(np.float32)),
+        Rung("float64", "array", textbook, _to(np.float64)),
+        Rung("arb", "scalar", lambda row: _poisson_ball(row, 63), tuple, to_float),
+        Rung("mpmath", "scalar", lambda row: _poisson_precise(row, DIGITS), tuple, float),
+    ]
+
+
+def _log_gamma() -> Callable[[Any], Any]:
+    import numpy as np
+
+    try:
+        import scipy.special
+    except ImportError:
+        return np.vectorize(math.lgamma, otypes=[np.float64])
+    function: Callable[[Any], Any] = scipy.special.gammaln
+    return function
+
+
+def _poisson_ball(row: Row, wanted: int = 200) -> Any:
+    import flint
+
+    precision = 100
+    while precision <= MOST_BITS:
+        with flint.ctx.workprec(precision):
+            k, lam = flint.arb(row[0]), flint.arb(row[1])
+            value = (k * lam.log() - lam - (k + 1).lgamma()).exp()
+            if value.rel_accuracy_bits() >= wanted:
+                return value
+        precision *= 2
+    raise ArithmeticError("a ball does not become small enough")
+
+
+def _poisson_precise(row: Row, digits: int = 80) -> Any:
+    import mpmath as mp
+
+    with mp.workdps(digits + 20):
+        k, lam = mp.mpf(row[0]), mp.mpf(row[1])
+        return mp.exp(k * mp.log(lam) - lam - mp.loggamma(k + 1))
+
+
+RUNGS: dict[str, Callable[[Family], list[Rung]]] = {
+    "inverse-distortion": _inverse_rungs,
+    "poisson": _poisson_rungs,
+}
+
+ORACLES: dict[str, tuple[Callable[..., Any], Callable[..., Any]]] = {
+    "inverse-distortion": (_inverse_ball, _inverse_precise),
+    "poisson": (_poisson_ball, _poisson_precise),
+}
