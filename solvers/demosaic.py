@@ -6,7 +6,7 @@ the greens at the edges: 1 above, 2 left, 3 right, 4 below.
 
 from typing import Any
 
-from sympy import Max, Min, evaluate, symbols
+from sympy import Add, Max, Min, evaluate, symbols
 
 from quizgen.model import Model, Step
 
@@ -21,7 +21,7 @@ def _middle(a: Any, b: Any, c: Any, d: Any) -> Any:
 
 
 with evaluate(False):
-    GREENS, REDS = G_1 + G_2 + G_3 + G_4, R_1 + R_2 + R_3 + R_4
+    GREENS, REDS = Add(G_1, G_2, G_3, G_4), Add(R_1, R_2, R_3, R_4)
     MODEL = Model(
         given=dict.fromkeys((G_1, G_2, G_3, G_4, R_1, R_2, R_3, R_4, B), ""),
         steps=(
@@ -32,8 +32,8 @@ with evaluate(False):
         traps={
             "half-of-four": (Step(green, GREENS / 2), Step(red, REDS / 2)),
             "centre-included": (
-                Step(green, (G_1 + G_2 + G_3 + G_4 + B) / 5),
-                Step(red, (R_1 + R_2 + R_3 + R_4 + B) / 5),
+                Step(green, Add(G_1, G_2, G_3, G_4, B) / 5),
+                Step(red, Add(R_1, R_2, R_3, R_4, B) / 5),
             ),
             "corners-for-green": (Step(green, REDS / 4), Step(red, GREENS / 4)),
             "eight-neighbours": (

@@ -1,0 +1,23 @@
+"""Difference of two 8-bit numbers, taken modulo 256.
+
+Source: NumPy reference, "Data type objects": unsigned integers wrap around.
+"""
+
+from sympy import Integer, Mod, evaluate, symbols
+
+from quizgen.model import Model, Step
+
+a, b = symbols("a b", integer=True)
+s, c = symbols("s c", integer=True)
+
+with evaluate(False):
+    MODEL = Model(
+        given={a: "", b: ""},
+        steps=(Step(s, a - b), Step(c, Mod(s, 256))),
+        traps={
+            "negative": Step(c, s),
+            "clipped": Step(c, Integer(0)),
+            "absolute": Step(c, b - a),
+            "modulo-255": Step(c, Mod(s, 255)),
+        },
+    )
