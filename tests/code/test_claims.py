@@ -1,0 +1,156 @@
+"""Code questions with choices: every claim of the key is tried out."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import cv2
+import numpy as np
+import pytest
+
+from quizgen.question import compose
+from quizgen.specs import display
+from quizgen.text import CodeBlock
+
+SEEDS = ["reference", *range(8)]
+
+
+def asked(bank, name, seed=0, part=0):
+    """Program of the stem, name to right or wrong, the draw and the composed part."""
+    question, key = compose(bank.template(name), seed, "en", figures=False)
+    (source,) = [b.text for b in question.stem if isinstance(b, CodeBlock)] or [""]
+    order = [option for _, option in display(key.draw, part)[0]]
+    correct = key.specs[part].get("correct", [])
+    truth = {option: i + 1 in correct for i, option in enumerate(order)}
+    return source, truth, key, question.parts[part]
+
+
+def run(source):
+    scope = {"__name__": "snippet"}
+    exec(compile(source, "snippet", "exec"), scope)
+    return scope
+
+
+def pairs(bank, name, part=0):
+    """Left name to right name of a matching, as the key says."""
+    answer = bank.template(name).rules.part[part].answer
+    return answer["pairs"]
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_k06_only_widening_before_the_sum_gives_255(bank, seed):
+    source, truth, key, part = asked(bank, "K06", seed)
+    scope = run(source)
+    texts = dict(zip(truth, [said[0].text for _, said in part.field.options], strict=True))
+    for name, right in truth.items():
+        assert (eval(texts[name], scope)[0] == 255) == right
+    assert key.specs[0]["kind"] == "choice"
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_k08_wrong_order_of_indices(bank, seed):
+    source, truth, key, _ = asked(bank, "K08", seed)
+    try:
+        run(source)
+        happened = "other-pixel"
+    except IndexError:
+        happened = "index-error"
+    assert [name for name, right in truth.items() if right] == [happened]
+    assert key.draw.shown["x"] != key.draw.shown["y"]
+
+
+def test_k12_both_repairs_exchange_red_and_blue(bank):
+    _, truth, _, part = asked(bank, "K12", part=1)
+    texts = dict(zip(truth, [said[0].text for _, said in part.field.options], strict=True))
+    image = np.arange(60, dtype=np.uint8).reshape(4, 5, 3)
+    wanted = np.stack([image[..., 2], image[..., 1], image[..., 0]], axis=-1)
+    for name, right in truth.items():
+        got = eval(texts[name], {"cv2": cv2, "image": image})
+        assert (got.shape == wanted.shape and bool(np.all(got == wanted))) == right
+
+
+def test_k14_a_missing_file_is_none(bank, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    source, truth, _, _ = asked(bank, "K14")
+    with pytest.raises(AttributeError):
+        run(source)
+    assert truth["attribute-error"]
+
+
+def test_k20_assertion_division_mirror(bank):
+    source, _, _, _ = asked(bank, "K20")
+    assert pairs(bank, "K20") == {
+        "zero": "assertion", "optimised": "division", "behind": "mirrored",
+    }  # fmt: skip
+    project = run(source)["project_pinhole"]
+    with pytest.raises(AssertionError):
+        project((1, 2, 0), 2)
+    assert project((1, 3, -2), 2) == (-1.0, -3.0)
+    done = subprocess.run(
+        [sys.executable, "-O", "-c", source + "\nproject_pinhole((1, 2, 0), 2)"],
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert "ZeroDivisionError" in done.stderr
+
+
+def test_k21_the_order_gives_a_clean_uint8_image(bank):
+    answer = bank.template("K21").rules.part[0].answer
+    words = bank.template("K21").texts["en"].named["options"]
+    scope = {
+        "np": np, "image": np.full((50, 50), 250, np.uint8),
+        "rng": np.random.default_rng(1), "sigma": 20.0,
+    }  # fmt: skip
+    for step in answer["steps"]:
+        exec(words[step][0].text, scope)
+    assert scope["x"].dtype == np.uint8
+    assert scope["x"].min() > 150
+    assert scope["x"].max() == 255
+
+
+def test_k22_calls_share_one_generator(bank):
+    source, truth, _, _ = asked(bank, "K22")
+    scope = run(source)
+    assert not np.array_equal(scope["first"], scope["second"])
+    assert truth["differ"]
+
+
+def test_k23_types_and_ranges(bank):
+    source, _, _, _ = asked(bank, "K23")
+    scope = run(source)
+    image = np.random.default_rng(2).integers(0, 256, (64, 64), dtype=np.uint8)
+    soft = scope["gaussian"](image, 0.3, np.random.default_rng(3))
+    hard = scope["impulse"](image, 0.2, np.random.default_rng(3))
+    assert pairs(bank, "K23") == {"gaussian": "float-unit", "impulse": "uint8-full"}
+    assert (soft.dtype, soft.min(), soft.max()) == (np.float64, 0.0, 1.0)
+    assert (hard.dtype, hard.min(), hard.max()) == (np.uint8, 0, 255)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_k26_borders(bank, seed):
+    source, _, key, _ = asked(bank, "K26", seed)
+    width = int(key.draw.shown["W"].p)
+    scope = run(source)
+    assert scope["neighbours"](0) == (scope["row"][-1] + scope["row"][1]) / 2
+    assert scope["neighbours"](1) == 10.0
+    with pytest.raises(IndexError):
+        scope["neighbours"](width - 1)
+    assert pairs(bank, "K26")["right"] == "index-error"
+
+
+PLACE = {"R": 2, "G": 1, "B": 0}
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_k27_the_constant_keeps_a_red_scene_red(bank, seed):
+    _, truth, key, part = asked(bank, "K27", seed)
+    tile = key.draw.words["tile"].upper()
+    rows = (tile[:2], tile[2:])
+    mosaic = np.array(
+        [[255 * (rows[y % 2][x % 2] == "R") for x in range(8)] for y in range(8)], np.uint8
+    )
+    texts = dict(zip(truth, [said[0].text for _, said in part.field.options], strict=True))
+    for name, right in truth.items():
+        code = getattr(cv2, texts[name].removeprefix("cv2."))
+        seen = cv2.cvtColor(mosaic, code)[4, 4].tolist()
+        assert (seen == [0, 0, 255]) == right

@@ -1,0 +1,77 @@
+"""Counterexamples are tested, never compared: against a criterion derived by other means."""
+
+from __future__ import annotations
+
+import itertools
+import random
+from fractions import Fraction
+
+import pytest
+
+from quizgen.check import mark
+from quizgen.draw import draw, reference
+from quizgen.specs import build
+
+
+def spec_of(bank, name, seed="reference", part=0):
+    template = bank.template(name)
+    one = reference(template) if seed == "reference" else draw(template, seed)
+    return build(one, part), one
+
+
+def typed(values):
+    return "; ".join(str(v) for v in values)
+
+
+def test_hsv_value_fails_additivity_exactly_without_a_common_largest_channel(bank):
+    spec, _ = spec_of(bank, "C15b")
+    tenths = [Fraction(i, 10) for i in range(6)]
+    chosen = random.Random(5)
+    for _ in range(300):
+        a, b = ([chosen.choice(tenths) for _ in range(3)] for _ in range(2))
+        largest = [{i for i, v in enumerate(c) if v == max(c)} for c in (a, b)]
+        refutes = not largest[0] & largest[1]
+        verdict = mark(spec, typed([*a, *b]))
+        assert (verdict.verdict == "correct") == refutes
+        assert refutes or verdict.note == "predicate"
+
+
+def test_a_colour_and_its_multiple_refute_nothing(bank):
+    spec, _ = spec_of(bank, "C15b")
+    verdict = mark(spec, "a = (0.4; 0.2; 0.1); b = (0.2; 0.1; 0.05)")
+    assert (verdict.verdict, verdict.note) == ("wrong", "predicate")
+
+
+def test_colours_out_of_range_are_told_so(bank):
+    spec, _ = spec_of(bank, "C15b")
+    assert mark(spec, "a = (1; 0; 0); b = (0.5; 1; 0)").note == "constraint"
+
+
+def bent(points, k):
+    moved = [(x * (1 + k * (x * x + y * y)), y * (1 + k * (x * x + y * y))) for x, y in points]
+    (ax, ay), (bx, by), (cx, cy) = moved
+    return (bx - ax) * (cy - ay) != (cx - ax) * (by - ay)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_three_points_of_a_line_are_a_witness_exactly_if_their_images_are_not_in_line(bank, seed):
+    spec, one = spec_of(bank, "C12line", seed)
+    k = Fraction(int(one.shown["k"].p), int(one.shown["k"].q))
+    steps = [Fraction(i, 4) for i in (-2, 0, 3)]
+    for x, slope in itertools.product((Fraction(0), Fraction(1, 2), Fraction(-1, 4)), (0, 1)):
+        line = [(x + slope * t / 2, t) for t in steps]
+        verdict = mark(spec, typed(v for point in line for v in point))
+        assert (verdict.verdict == "correct") == bent(line, k)
+
+
+def test_points_that_are_not_in_line_are_told_so(bank):
+    spec, _ = spec_of(bank, "C12line")
+    assert mark(spec, "A = (0; 0); B = (0.5; 0.5); C = (0.2; 1)").note == "constraint"
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_encoding_is_refuted_by_any_two_positive_intensities(bank, seed):
+    spec, _ = spec_of(bank, "D20ac", seed, part=1)
+    assert mark(spec, "0.25; 0.25").verdict == "correct"
+    assert mark(spec, "a = 0.1; b = 0.6").verdict == "correct"
+    assert mark(spec, "0; 0.5").note in {"predicate", "undecided"}
