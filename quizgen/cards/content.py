@@ -13,10 +13,8 @@ from typing import Any, Literal, TypeVar
 
 import msgspec
 
-from quizgen import formula
-from quizgen.errors import BankError, FormulaError
-from quizgen.reader import to_text
-from quizgen.solution import Maths
+from quizgen.cards.equations import inline
+from quizgen.errors import BankError
 from quizgen.text import Block, Formula, Inline, Slot, blocks, fill, inlines
 
 Tier = Literal["A", "B", "C", "D"]
@@ -182,9 +180,10 @@ def passage(entry: Entry, name: str, lang: str) -> tuple[Block, ...]:
     """
     both: Both = getattr(entry, name)
     try:
-        return _ready(blocks(both.of(lang)))
+        ready: tuple[Block, ...] = _ready(blocks(both.of(lang)))
     except BankError as error:
         raise BankError(f"card {entry.id!r}, {name}.{lang}: {error}") from error
+    return ready
 
 
 def sentence(entry: Entry, name: str, lang: str) -> tuple[Inline, ...]:
@@ -197,9 +196,10 @@ def sentence(entry: Entry, name: str, lang: str) -> tuple[Inline, ...]:
     """
     both: Both = getattr(entry, name)
     try:
-        return _ready(inlines(both.of(lang)))
+        ready: tuple[Inline, ...] = _ready(inlines(both.of(lang)))
     except BankError as error:
         raise BankError(f"card {entry.id!r}, {name}.{lang}: {error}") from error
+    return ready
 
 
 def _ready(parts: Any) -> Any:
@@ -211,7 +211,4 @@ def _printed(part: Inline) -> Inline:
         raise BankError(f"{{{{ {part.name} }}}} cannot be filled in on a card")
     if not isinstance(part, Formula):
         raise BankError(f"{part!r} cannot stand on a card")
-    try:
-        return Maths(formula.layout(part.expr, inline=True), to_text(part.expr))
-    except FormulaError as error:
-        raise BankError(str(error)) from error
+    return inline(part.expr)

@@ -26,8 +26,10 @@ from typing import Any
 
 from quizgen import formula
 from quizgen.errors import BankError, FormulaError, RenderError
+from quizgen.expr import Call, Expr, names
 from quizgen.formula.nodes import ATOM, PRODUCT, Big, Func, Ident, Number, Op, Row, Scripts
-from quizgen.reader import parse
+from quizgen.formula.tree import SIGNS
+from quizgen.reader import parse, to_text
 from quizgen.solution import Maths
 
 Inside = Mapping[str, Mapping[str, Any]]
@@ -80,12 +82,28 @@ def side(text: str, inside: Inside, where: str) -> Maths:
         Naming the place and the column.
     """
     try:
-        leaves = {name: piece(table, inside) for name, table in inside.items()}
-        node = formula.layout(parse(text), leaves={name: made.node for name, made in leaves.items()})
+        expr = parse(text)
+        leaves = {name: piece(inside[name], inside) for name in names(expr) & set(inside)}
+        node = formula.layout(expr, leaves={name: made.node for name, made in leaves.items()})
     except (FormulaError, RenderError) as error:
         raise BankError(f"{where}: {text!r}: {error}") from error
     typed = _NAME.sub(lambda m: leaves[m[0]].typed if m[0] in leaves else m[0], text)
     return Maths(node, typed)
+
+
+def inline(expr: Expr) -> Maths:
+    """Print a formula in a sentence; ``a = b = c`` stays one chain."""
+    links = expr.args if isinstance(expr, Call) and expr.op == "and" else (expr,)
+    pairs = [link for link in links if isinstance(link, Call) and link.op in SIGNS]
+    joined = all(
+        one.args[1] == other.args[0] for one, other in zip(pairs, pairs[1:], strict=False)
+    )
+    if len(pairs) != len(links) or not joined:
+        return Maths(formula.layout(expr, inline=True), to_text(expr))
+    signs = [SIGNS[link.op] for link in pairs]
+    ends = [pairs[0].args[0], *(link.args[1] for link in pairs)]
+    node = formula.relation(signs, [formula.layout(end, inline=True) for end in ends])
+    return Maths(node, " ".join(_woven([to_text(end) for end in ends], signs)))
 
 
 def piece(table: Mapping[str, Any], inside: Inside) -> Maths:

@@ -96,7 +96,8 @@ def chain(node: Node, lang: str) -> str:
     first, *rest = node.items
     pieces = [_large(formula.latex(first, lang))]
     for sign, side in zip(rest[::2], rest[1::2], strict=True):
-        pieces.append(_large("{}" + formula.latex(Row((sign, side), RELATION), lang)))
+        empty = "{}" if side == Row(()) else ""  # keeps the space after a sign at the end
+        pieces.append(_large("{}" + formula.latex(Row((sign, side), RELATION), lang) + empty))
     return " ".join(pieces)
 
 
@@ -125,7 +126,7 @@ def html(part: Any, lang: str, *, ask: bool | None = None) -> str:
 
 
 @html.register
-def _(part: tuple, lang: str, *, ask: bool | None = None) -> str:
+def _(part: tuple, lang: str, *, ask: bool | None = None) -> str:  # type: ignore[type-arg]
     return "".join(html(item, lang, ask=ask) for item in part)
 
 
@@ -242,7 +243,7 @@ def plain(part: Any, *, ask: bool = False) -> str:
 
 
 @plain.register
-def _(part: tuple, *, ask: bool = False) -> str:
+def _(part: tuple, *, ask: bool = False) -> str:  # type: ignore[type-arg]
     return "".join(plain(item, ask=ask) for item in part)
 
 

@@ -66,7 +66,7 @@ def section_of(covers: tuple[str, ...], topic: str) -> str:
     formulas = {entry.id: entry.section for entry in entries("formulas")}
     found = [formulas[ref] for ref in covers if ref in formulas]
     by_topic = [entry.section for entry in entries("vocabulary") if entry.topic == topic]
-    return (found or by_topic or [""])[0]
+    return str((found or by_topic or [""])[0])
 
 
 def shared(pairs: dict[str, Pair]) -> dict[str, Blocks]:
@@ -119,16 +119,17 @@ def answers(key: Key) -> Blocks:
 
 
 def _once(said: dict[str, Blocks]) -> dict[str, Blocks]:
-    """An answer of numbers reads the same in every language: it stands there once."""
+    """Answers that read the same in every language, such as numbers, stand there once."""
     main, *others = said
-    return {main: said[main]} | {lang: said[lang] for lang in others if said[lang] != said[main]}
+    repeated = {lang: tuple(b for b in said[lang] if b not in said[main]) for lang in others}
+    return {main: said[main]} | {lang: blocks for lang, blocks in repeated.items() if blocks}
 
 
 def _answer(part: PartSolution) -> Paragraph:
     label = f"({part.label}) " if part.label else ""
-    said: list[Any] = [Styled("strong", (Words(f"{label}{part.answer}"),))]
-    for option in part.options:
-        said += [Words(" – "), *option]
+    said: list[Any] = [Styled("strong", (Words(f"{label}{part.answer}".rstrip()),))]
+    for place, option in enumerate(part.options):
+        said += [Words(" – " if part.answer or place else " "), *option]
     return Paragraph(tuple(said))
 
 
