@@ -31,7 +31,7 @@ ALLOWED = {
     "figures": {"errors", "camera", "bank"},
     "check": {"errors", "expr", "chain", "numbers", "units", "reader", "locale"},
     "asking": {"locale", "units"},
-    "specs": {"errors", "expr", "draw", "numbers", "text", "solution"},
+    "specs": {"errors", "expr", "draw", "numbers", "text", "reader", "solution"},
     "solution": {"errors", "expr", "chain", "draw", "numbers", "units", "text", "reader", "formula",
                  "specs", "check"},
     "question": {"errors", "expr", "draw", "numbers", "template", "text", "reader", "figures",
