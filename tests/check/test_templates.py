@@ -39,7 +39,10 @@ def test_printed_answer_typed_back_is_correct(parts):
             continue
         spec = load_spec(table)
         printed = show(spec)
-        for decimal, text in (("auto", printed), ("comma", printed.replace(".", ","))):
+        styles = [("auto", printed), ("comma", printed.replace(".", ","))]
+        if table["kind"] == "code":
+            styles.pop()  # a program prints a point wherever it runs
+        for decimal, text in styles:
             for typed in (text, text.translate(BANGLA)):
                 verdict = mark(spec, typed, decimal=decimal)
                 assert verdict.verdict == "correct", (table, typed, verdict)
