@@ -1,28 +1,29 @@
-"""Black and white pixels that two threshold masks leave, the white one applied last.
+"""Expected numbers of black, white and untouched pixels under salt-and-pepper noise.
 
-Source: R. C. Gonzalez, R. E. Woods, Digital Image Processing, 4th ed. (2018), section 5.2.
+Source: Gonzalez & Woods, Digital Image Processing, 4th ed. (2018), section 5.2.
 """
 
-from sympy import Piecewise, evaluate, symbols
+from sympy import evaluate, symbols
 
 from quizgen.model import Model, Step
 
-n, p = symbols("n p", positive=True)
-w, b = symbols("w b", real=True)
+M, p = symbols("M p", positive=True)
+N, black, white, rest = symbols("N N_b N_w N_0", positive=True)
 
 with evaluate(False):
     MODEL = Model(
-        given={n: "", p: ""},
+        given={M: "", p: "%"},
         steps=(
-            Step(w, n * (p / 2)),
-            Step(b, Piecewise((n * (p / 2), p <= 1), (n * (1 - p / 2), True))),
+            Step(N, M * p),
+            Step(black, N / 2),
+            Step(white, N / 2),
+            Step(rest, M - N),
         ),
         traps={
-            "share-each": (Step(w, n * p), Step(b, n * p)),
-            "overlap-ignored": Step(b, n * (p / 2)),
-            "exchanged": (
-                Step(w, Piecewise((n * (p / 2), p <= 1), (n * (1 - p / 2), True))),
-                Step(b, n * (p / 2)),
-            ),
+            "share-each": (Step(black, N), Step(white, N), Step(rest, M - 2 * N)),
+            "share-each-once": (Step(black, N), Step(white, N)),
+            "percent-forgotten": Step(N, 100 * M * p),
+            "hit-for-rest": Step(rest, N),
+            "fraction-of-rest": (Step(black, N / 2), Step(white, (M - N / 2) * p / 2)),
         },
     )
