@@ -28,6 +28,7 @@ NAME = "quizgen"
               help="apkg (Anki), tsv, csv; by comma.")  # fmt: skip
 @click.option("--from-marks", "marks", type=click.Path(path_type=Path),
               help="Cards of what went wrong: a result of `quizgen check --json`.")  # fmt: skip
+@click.option("--blueprint", help="The paper's blueprint, if it is a file (with --from-marks).")
 @click.option("--out", type=click.Path(path_type=Path), default=Path("cards"), show_default=True,
               help="Folder to write to.")  # fmt: skip
 @bank_options
@@ -38,6 +39,9 @@ def cards(**options: Any) -> None:
     formats = _names(options["formats"])
     _check_formats(formats)
     deck = _deck(options)
+    if not deck.notes:
+        click.echo("Nothing to learn: no card fits.")
+        return
     folder: Path = options["out"]
     written = write_all(folder, _contents(deck, formats))
     if deck.media and set(formats) & {"tsv"}:
@@ -63,7 +67,9 @@ def _deck(options: dict[str, Any]) -> Deck:
     if options["marks"] is not None:
         from quizgen.cards.mistakes import from_marks
 
-        return from_marks(options["marks"], options["lang"], bank=bank)
+        return from_marks(
+            options["marks"], options["lang"], bank=bank, blueprint=options["blueprint"]
+        )
     return build(
         options["lang"],
         topics=_names(options["topics"]),

@@ -1,9 +1,9 @@
-"""Flashcards: one deck from the chapter's terms, formulas, mistakes, statements, figures, questions.
+"""Flashcards: one deck of terms, formulas, mistakes, statements, figures and questions.
 
 ``build`` makes the notes, ``quizgen.cards.apkg.package`` writes them for Anki, and
 ``quizgen.cards.tables`` writes them for other programs. Every sentence of the content stands in
-``content/*.toml`` in English and Bangla; every formula is written once, in the grammar that students
-type, and printed by ``quizgen.formula``.
+``content/*.toml`` in English and Bangla; every formula is written once, in the grammar that
+students type, and printed by ``quizgen.formula``.
 """
 
 from quizgen.cards.deck import Deck, build

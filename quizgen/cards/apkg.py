@@ -1,9 +1,9 @@
 """Decks for Anki: ``.apkg`` files that are a function of the deck and nothing else.
 
-The file is a zip of an SQLite database in Anki's schema 11, a list of media and the media. Every id
-comes from a hash, every time from the content version; the archive is stored uncompressed with fixed
-times, because compressors differ between machines; and the version of SQLite that wrote the database
-is taken out of its header.
+The file is a zip of an SQLite database in Anki's schema 11, a list of media and the media. Every
+id comes from a hash, every time from the content version; the archive is stored uncompressed with
+fixed times, because compressors differ between machines; and the version of SQLite that wrote the
+database is taken out of its header.
 """
 
 from __future__ import annotations
@@ -202,7 +202,8 @@ def _options() -> dict[str, Any]:
         "timer": 0, "replayq": True, "dyn": False,
         "new": {"bury": True, "delays": [1.0, 10.0], "initialFactor": 2500, "ints": [1, 4, 7],
                 "order": 1, "perDay": 20},
-        "rev": {"bury": True, "ease4": 1.3, "fuzz": 0.05, "hardFactor": 1.2, "ivlFct": 1.0,
-                "maxIvl": 36500, "perDay": 200},
-        "lapse": {"delays": [10.0], "leechAction": 1, "leechFails": 8, "minInt": 1, "mult": 0.0},
+        "rev": {"bury": True, "ease4": 1.3, "fuzz": 0.05, "hardFactor": 1.2,
+                "ivlFct": 1.0, "maxIvl": 36500, "perDay": 200},
+        "lapse": {"delays": [10.0], "leechAction": 1, "leechFails": 8, "minInt": 1,
+                  "mult": 0.0},
     }  # fmt: skip

@@ -22,6 +22,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping
+from itertools import pairwise
 from typing import Any
 
 from quizgen import formula
@@ -96,7 +97,7 @@ def inline(expr: Expr) -> Maths:
     links = expr.args if isinstance(expr, Call) and expr.op == "and" else (expr,)
     pairs = [link for link in links if isinstance(link, Call) and link.op in SIGNS]
     joined = all(
-        one.args[1] == other.args[0] for one, other in zip(pairs, pairs[1:], strict=False)
+        one.args[1] == other.args[0] for one, other in pairwise(pairs)
     )
     if len(pairs) != len(links) or not joined:
         return Maths(formula.layout(expr, inline=True), to_text(expr))

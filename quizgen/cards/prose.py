@@ -15,7 +15,7 @@ from typing import Any
 
 from quizgen import formula
 from quizgen.figures import Figure
-from quizgen.formula.nodes import RELATION, Node, Op, Row
+from quizgen.formula.nodes import RELATION, Node, Row
 from quizgen.solution import Maths
 from quizgen.text import Code, CodeBlock, Items, Paragraph, Styled, Table, Words
 
@@ -73,31 +73,34 @@ class Label:
     text: str
 
 
-def maths(node: Node, lang: str) -> str:
+LATEX = "en"
+"""Language of words in formulas: MathJax sets Bangla letter by letter, without conjuncts."""
+
+
+def maths(node: Node) -> str:
     r"""An inline formula for MathJax.
 
     Parameters
     ----------
     node : Node
-    lang : str
 
     Returns
     -------
     str
         HTML, between ``\(`` and ``\)``.
     """
-    return rf"\({escape(formula.latex(node, lang), quote=False)}\)"
+    return rf"\({escape(formula.latex(node, LATEX), quote=False)}\)"
 
 
-def chain(node: Node, lang: str) -> str:
+def chain(node: Node) -> str:
     """A chain of equations as one formula per side, so that a narrow screen can wrap it."""
     if not (isinstance(node, Row) and node.level == RELATION and len(node.items) > 1):
-        return _large(formula.latex(node, lang))
+        return _large(formula.latex(node, LATEX))
     first, *rest = node.items
-    pieces = [_large(formula.latex(first, lang))]
+    pieces = [_large(formula.latex(first, LATEX))]
     for sign, side in zip(rest[::2], rest[1::2], strict=True):
         empty = "{}" if side == Row(()) else ""  # keeps the space after a sign at the end
-        pieces.append(_large("{}" + formula.latex(Row((sign, side), RELATION), lang) + empty))
+        pieces.append(_large("{}" + formula.latex(Row((sign, side), RELATION), LATEX) + empty))
     return " ".join(pieces)
 
 
@@ -138,8 +141,8 @@ def _(part: Words, lang: str, *, ask: bool | None = None) -> str:
 
 @html.register
 def _(part: Maths, lang: str, *, ask: bool | None = None) -> str:
-    del ask
-    return maths(part.node, lang)
+    del lang, ask
+    return maths(part.node)
 
 
 @html.register
@@ -189,13 +192,14 @@ def _(part: Table, lang: str, *, ask: bool | None = None) -> str:
 
 @html.register
 def _(part: Display, lang: str, *, ask: bool | None = None) -> str:
-    del ask
-    return f'<div class="qg-line">{chain(part.maths.node, lang)}</div>'
+    del lang, ask
+    return f'<div class="qg-line">{chain(part.maths.node)}</div>'
 
 
 @html.register
 def _(part: Hole, lang: str, *, ask: bool | None = None) -> str:
-    shown, hidden = (chain(side.node, lang) for side in (part.shown, part.hidden))
+    del lang
+    shown, hidden = (chain(side.node) for side in (part.shown, part.hidden))
     if ask is None:
         hidden = f"{{{{c{part.number}::{hidden}}}}}"
     elif ask:
@@ -318,9 +322,3 @@ def pictures(part: Any) -> tuple[Picture, ...]:
     if isinstance(inside, tuple):
         return tuple(found for item in inside for found in pictures(item))
     return ()
-
-
-__all__ = [
-    "Display", "Fold", "Hole", "Label", "Op", "Picture", "chain", "html", "maths", "pictures",
-    "plain",
-]  # fmt: skip

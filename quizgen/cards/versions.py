@@ -27,6 +27,8 @@ BASE = 1_577_836_800
 STEP = 100_000
 """Seconds between two versions; room for seed and languages within one version."""
 LARGEST_SEED = STEP // 3 - 1
+DRAWN = frozenset({"question", "mistake"})
+"""Kinds whose numbers depend on a seed; their version is that of their template."""
 FILE = "versions"
 
 
@@ -39,7 +41,7 @@ def registry() -> dict[str, tuple[int, str]]:
 
 def version_of(note: Note) -> int:
     """Version of a note: as listed, or the one it came with."""
-    if note.kind == "question":
+    if note.kind in DRAWN:
         return note.version
     return registry().get(note.key, (note.version, ""))[0]
 
@@ -53,10 +55,10 @@ def template_version(template: Template) -> int:
 def modified(note: Note, seed: int) -> int:
     """Modification time of a note in Anki, seconds since 1970.
 
-    It rises with the version; within a version with the seed (only for worked questions, whose
+    It rises with the version; within a version with the seed (only for kinds whose
     numbers depend on it) and from one language to both.
     """
-    drawn = min(seed, LARGEST_SEED) if note.kind == "question" else 0
+    drawn = min(seed, LARGEST_SEED) if note.kind in DRAWN else 0
     return BASE + note.version * STEP + 3 * drawn + _breadth(note.langs)
 
 

@@ -45,7 +45,7 @@ def test_every_note_and_card_arrives(deck, packed, collection, tmp_path):
     log = bring_in(collection, packed, tmp_path)
     assert log.found_notes == len(log.new) == len(deck.notes)
     assert collection.card_count() == deck.cards
-    assert not (log.updated or log.duplicate or log.conflicting or log.missing_notetype)
+    assert not [*log.updated, *log.duplicate, *log.conflicting, *log.missing_notetype]
 
 
 def test_media_are_complete_and_none_is_unused(deck, packed, collection, tmp_path):

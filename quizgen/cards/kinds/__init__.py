@@ -14,4 +14,4 @@ KINDS: Mapping[str, str] = {
     "choice": "quizgen.cards.kinds.choice",
     "question": "quizgen.cards.kinds.question",
 }
-"""Kind to the module whose ``notes(wish)`` makes its notes, in the order in which they are learnt."""
+"""Kind to the module whose ``notes(wish)`` makes its notes, in the order of learning."""

@@ -1,4 +1,4 @@
-"""Multiple-choice twins of the vocabulary: which of four related terms is meant?"""
+"""Multiple-choice twins of the vocabulary: one meaning, four related terms."""
 
 from __future__ import annotations
 
@@ -37,10 +37,14 @@ def notes(wish: Wish) -> Iterator[Note]:
 
 def choices(entry: Term, terms: Sequence[Term]) -> list[Term]:
     """Four terms in a fixed order: this one, and three of its group, else its neighbours."""
-    others = [other for other in terms if other.id != entry.id]
-    others.sort(key=lambda other: (other.group != entry.group, abs(other.number - entry.number)
-                                   if other.group != entry.group else 0, _rank(entry, other)))  # fmt: skip
+    others = sorted((t for t in terms if t.id != entry.id), key=lambda t: _nearness(entry, t))
     return sorted([entry, *others[: len(LETTERS) - 1]], key=lambda term: _rank(entry, term))
+
+
+def _nearness(entry: Term, other: Term) -> tuple[int, bytes]:
+    """How close a distractor is: any of the group comes first, then the nearest in the list."""
+    far = 0 if other.group == entry.group else abs(other.number - entry.number)
+    return far, _rank(entry, other)
 
 
 def _rank(entry: Term, other: Term) -> bytes:

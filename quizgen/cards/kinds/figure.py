@@ -1,4 +1,4 @@
-"""Figure to term: what does the picture show, and how can you tell?"""
+"""Figure to term: what a picture shows, and how to tell."""
 
 from __future__ import annotations
 

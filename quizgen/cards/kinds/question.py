@@ -71,17 +71,18 @@ def section_of(covers: tuple[str, ...], topic: str) -> str:
 
 def shared(pairs: dict[str, Pair]) -> dict[str, Blocks]:
     """What all languages share: figures, and the worked lines with a sentence per language."""
-    asked = {lang: question.figure for lang, (question, _) in pairs.items()}
+    quiz = {lang: question.figure for lang, (question, _) in pairs.items()}
     solved = {lang: key.figure for lang, (_, key) in pairs.items()}
     template = next(iter(pairs.values()))[0].template
     return {
-        "Figure": _picture(template, asked),
+        "Figure": picture(template, quiz),
         "Work": _work([key for _, key in pairs.values()]),
-        "Answer figure": _picture(template, solved),
+        "Answer figure": picture(template, solved),
     }
 
 
-def _picture(template: str, figures: dict[str, Any]) -> Blocks:
+def picture(template: str, figures: dict[str, Any]) -> Blocks:
+    """The figure of a question, told in every language; nothing if it has none."""
     drawn = [figure for figure in figures.values() if figure is not None]
     if not drawn:
         return ()
@@ -90,13 +91,14 @@ def _picture(template: str, figures: dict[str, Any]) -> Blocks:
 
 def front(question: Question) -> Blocks:
     """The question as it is asked, with its lettered options."""
-    asked: list[Any] = [Label(question.title), *question.stem]
+    said: list[Any] = [Label(question.title), *question.stem]
     for part in question.parts:
-        asked += _asked(part)
-    return tuple(asked)
+        said += asked(part)
+    return tuple(said)
 
 
-def _asked(part: Part) -> Iterator[Any]:
+def asked(part: Part) -> Iterator[Any]:
+    """One part of a question, with its lettered options."""
     body = part.body
     if part.label:
         label = Styled("strong", (Words(f"({part.label}) "),))
@@ -115,7 +117,7 @@ def _asked(part: Part) -> Iterator[Any]:
 
 def answers(key: Key) -> Blocks:
     """The answer of every part."""
-    return tuple(_answer(part) for part in key.solution.parts)
+    return tuple(answer(part) for part in key.solution.parts)
 
 
 def _once(said: dict[str, Blocks]) -> dict[str, Blocks]:
@@ -125,7 +127,8 @@ def _once(said: dict[str, Blocks]) -> dict[str, Blocks]:
     return {main: said[main]} | {lang: blocks for lang, blocks in repeated.items() if blocks}
 
 
-def _answer(part: PartSolution) -> Paragraph:
+def answer(part: PartSolution) -> Paragraph:
+    """The key of one part, with the wording of the right options."""
     label = f"({part.label}) " if part.label else ""
     said: list[Any] = [Styled("strong", (Words(f"{label}{part.answer}".rstrip()),))]
     for place, option in enumerate(part.options):
@@ -137,10 +140,14 @@ def _work(keys: list[Key]) -> Blocks:
     lines: list[Any] = []
     for index, part in enumerate(keys[0].solution.parts):
         lines += [Label(f"({part.label})")] if part.label and part.lines else []
-        whys = zip(*(key.solution.parts[index].lines for key in keys), strict=True)
-        for same in whys:
-            lines += _step(same)
+        lines += steps(keys, index)
     return tuple(lines)
+
+
+def steps(keys: list[Key], index: int) -> Iterator[Any]:
+    """The worked lines of one part: each formula once, with a sentence per language."""
+    for same in zip(*(key.solution.parts[index].lines for key in keys), strict=True):
+        yield from _step(same)
 
 
 def _step(same: tuple[Line, ...]) -> Iterator[Any]:

@@ -1,0 +1,183 @@
+"""Cards of what went wrong: from the marks of a paper to the questions worth another look.
+
+``quizgen check --json`` says which mistake was made; the paper's code makes the questions again, in
+any language. A card shows the question and the learner's answer, and tells on its back what went
+wrong and how it is done.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Literal
+
+import msgspec
+
+from quizgen.bank import Bank
+from quizgen.blueprint import load
+from quizgen.cards.content import words
+from quizgen.cards.deck import Deck
+from quizgen.cards.kinds.question import Pair, answer, asked, picture, section_of, steps
+from quizgen.cards.note import Blocks, Note
+from quizgen.cards.prose import Label
+from quizgen.cards.versions import template_version
+from quizgen.errors import KeyFileError
+from quizgen.exam import REFERENCE, Item, Paper, languages, parse_code, rebuild
+from quizgen.question import Key, put_into_words
+from quizgen.text import Paragraph, Words
+
+LOOKED_AT = frozenset({"wrong", "partial", "blank"})
+"""What becomes a card; an answer that could not be read is not a mistake."""
+
+
+class MarkedPart(msgspec.Struct, frozen=True):
+    """One part of a marked paper, as ``quizgen check --json`` prints it."""
+
+    id: str
+    question: str
+    template: str
+    status: Literal["correct", "partial", "wrong", "unreadable", "ambiguous", "open", "blank"]
+    typed: str = ""
+    read_as: str = ""
+    note: str = ""
+    message: str = ""
+
+
+class Marked(msgspec.Struct, frozen=True):
+    """A marked paper."""
+
+    code: str
+    parts: tuple[MarkedPart, ...]
+
+
+def read_marks(path: Path) -> tuple[Marked, ...]:
+    """Read the output of ``quizgen check --json``, of one paper or of several.
+
+    Raises
+    ------
+    KeyFileError
+        Naming the file and what is wrong in it.
+    """
+    try:
+        table = json.loads(path.read_text(encoding="utf-8"))
+        papers = table if isinstance(table, list) else [table]
+        return tuple(msgspec.convert(paper, Marked) for paper in papers)
+    except OSError as error:
+        raise KeyFileError(f"{path}: {error.strerror or error}") from error
+    except (ValueError, RecursionError) as error:
+        raise KeyFileError(
+            f"{path}: not a result of `quizgen check --json`: {error}"
+        ) from error
+
+
+def from_marks(
+    path: Path, lang: str, *, bank: Bank, blueprint: str | None = None
+) -> Deck:
+    """Make a deck of what went wrong.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        The result of ``quizgen check --json``.
+    lang : str
+        ``en``, ``bn`` or ``both``.
+    bank : Bank
+        The bank that the paper was made from.
+    blueprint : str, optional
+        The blueprint's file, if it is not one that ships with the package.
+
+    Raises
+    ------
+    KeyFileError
+        If the file cannot be read or does not fit the paper.
+    CodeError
+        If the paper cannot be made again with this installation.
+    """
+    langs = languages(lang)
+    notes: dict[str, Note] = {}
+    seed = 0
+    for marked in read_marks(path):
+        drawn = parse_code(marked.code)[1]
+        seed = max(seed, 0 if drawn == REFERENCE else int(drawn))
+        paper = rebuild(bank, marked.code, load(blueprint) if blueprint else None)
+        for found in _notes(marked, paper, langs, path):
+            notes.setdefault(found.key, found)
+    return Deck(tuple(notes.values()), langs, seed)
+
+
+def _notes(
+    marked: Marked, paper: Paper, langs: tuple[str, ...], path: Path
+) -> Iterator[Note]:
+    items = {item.number: item for item in paper.items}
+    for part in marked.parts:
+        if part.status in LOOKED_AT:
+            if part.question not in items or _template(items[part.question]) != part.template:
+                raise KeyFileError(f"{path}: part {part.id!r} is not in the paper {marked.code}")
+            yield _note(part, items[part.question], langs, path)
+
+
+def _template(item: Item) -> str:
+    return item.keys[0].template
+
+
+def _note(part: MarkedPart, item: Item, langs: tuple[str, ...], path: Path) -> Note:
+    drawn = item.keys[0].draw
+    pairs = {lang: put_into_words(drawn, lang, number=item.number) for lang in langs}
+    question, key = next(iter(pairs.values()))
+    places = [i for i, one in enumerate(question.parts) if one.field.id == part.id]
+    if not places:
+        raise KeyFileError(f"{path}: question {item.number} has no part {part.id!r}")
+    index, rules = places[0], drawn.template.rules
+    slip = part.note or part.status
+    return Note(
+        key=f"mistake/{key.template}/{question.parts[index].label or '-'}/{slip}",
+        kind="mistake",
+        form="basic",
+        topic=question.topic,
+        tier=question.tier,
+        section=section_of(rules.covers, question.topic),
+        refs=(key.template,),
+        langs=langs,
+        words={
+            "Front": {lang: _front(pair, index, part, lang) for lang, pair in pairs.items()},
+            "Back": {lang: _back(pair, index, part, lang) for lang, pair in pairs.items()},
+        },
+        shared={
+            "Figure": picture(key.template, {lang: q.figure for lang, (q, _) in pairs.items()}),
+            "Work": tuple(steps([k for _, k in pairs.values()], index)),
+            "Answer figure": picture(
+                key.template, {lang: k.figure for lang, (_, k) in pairs.items()}
+            ),
+        },
+        version=template_version(drawn.template),
+    )
+
+
+def _front(pair: Pair, index: int, part: MarkedPart, lang: str) -> Blocks:
+    question, said = pair[0], words(lang)
+    asks = (Label(question.title), *question.stem, *asked(question.parts[index]))
+    if part.status == "blank":
+        return (*asks, Label(said["start"]))
+    typed = Paragraph((Words(part.read_as or part.typed),))
+    return (*asks, Label(said["answered"]), typed, Label(said["wrongly"]))
+
+
+def _back(pair: Pair, index: int, part: MarkedPart, lang: str) -> Blocks:
+    key = pair[1]
+    return (
+        *_reason(key, index, part),
+        Label(words(lang)["right"]),
+        answer(key.solution.parts[index]),
+    )
+
+
+def _reason(key: Key, index: int, part: MarkedPart) -> Iterator[Paragraph]:
+    """The sentence of the template's mistake in this language, else what the checker said."""
+    name = part.note.removeprefix("trap:")
+    for mistake in key.solution.parts[index].mistakes:
+        if mistake.name == name:
+            yield Paragraph(mistake.sentence)
+            return
+    if part.message:
+        yield Paragraph((Words(part.message),))
