@@ -30,11 +30,13 @@ _DASHES = re.compile(r"[-‐‑‒–—_/]")
 def fold(text: str) -> str:
     """Fold what does not matter in a word answer.
 
-    Case, blanks, hyphens, punctuation at the ends, articles, British spelling, umlauts written out
-    and decomposed letters are folded.
+    Case, blanks, hyphens, punctuation at the ends, articles, British spelling, digits of any
+    script, umlauts written out and decomposed letters are folded.
     """
     text = unicodedata.normalize("NFC", text)
     text = unicodedata.normalize("NFKC", text).casefold()
+    if not text.isascii():
+        text = "".join(str(unicodedata.decimal(c, c)) for c in text)
     text = _DASHES.sub(" ", text)
     text = " ".join(text.split()).strip(" .,;:!?\"'()।")
     text = _ARTICLES.sub("", text)

@@ -31,22 +31,30 @@ class Spec(AnySpec, kw_only=True):
 
     ``symbols`` is a list of names, or a table from names to ``real``, ``positive`` or
     ``[low, high]``. Names such as ``a_1 a_2 a_3`` can be typed together: ``a = (1; 0; 0)``.
+    ``let`` = names with formulas over the symbols, to be used in ``predicate`` and ``where``.
     ``example`` is one right answer to show; typed answers are never compared with it.
     """
 
     predicate: str
     symbols: dict[str, Domain] | list[str]
     where: list[str] = msgspec.field(default_factory=list)
+    let: dict[str, str] = msgspec.field(default_factory=dict)
     example: dict[str, Scalar] = msgspec.field(default_factory=dict)
 
     def names(self) -> tuple[str, ...]:
         """Names to give, in order."""
         return tuple(self.symbols)
 
+    def known(self) -> tuple[str, ...]:
+        """Names that conditions may use."""
+        return (*self.symbols, *self.let)
+
     def validate(self) -> None:
         """The predicate and every constraint must be relations over the names."""
+        for text in self.let.values():
+            author(text, self.known())
         for text in (self.predicate, *self.where):
-            tree = author(text, self.names())
+            tree = author(text, self.known())
             if not isinstance(tree, Call) or tree.op not in RELATIONS:
                 raise FormulaError(f"{text!r} is not a relation")
         if self.example and {*self.example} != {*self.names()}:
@@ -64,25 +72,33 @@ def check(spec: Spec, typed: str, options: Options) -> Verdict:
     env = {name: number.value for name, number in numbers.items()}
     read_as = "; ".join(f"{name} = {number.read_as}" for name, number in numbers.items())
     with flint.ctx.workprec(BITS):
-        verdict = _tested(spec, env, read_as)
+        verdict = _tested(spec, _extended(spec, env), read_as)
     return with_values(verdict, *env.values())
+
+
+def _extended(spec: Spec, env: dict[str, Any]) -> dict[str, Any]:
+    """Add the quantities that ``let`` derives, in order."""
+    full = dict(env)
+    for name, text in spec.let.items():
+        full[name] = _compiled(text, spec.known())(full)
+    return full
 
 
 def _tested(spec: Spec, env: dict[str, Any], read_as: str) -> Verdict:
     for text in (*_domains(spec), *spec.where):
         if _holds(spec, text, env) is not True:
-            return wrong(read_as, "constraint", constraint=text)
+            return wrong(read_as, "constraint", constraint=_filled(spec, text, env))
     held = _holds(spec, spec.predicate, env)
     if held is True:
         return correct(read_as)
     if held is None:
         return ambiguous("undecided", read_as)
-    return wrong(read_as, "predicate", claim=_filled(spec, env))
+    return wrong(read_as, "predicate", claim=_filled(spec, spec.predicate, env))
 
 
 def _holds(spec: Spec, text: str, env: dict[str, Any]) -> bool | None:
     """Whether a relation holds; False where it has no value, None if it cannot be told."""
-    result = _compiled(text, spec.names())(env)
+    result = _compiled(text, spec.known())(env)
     if isinstance(result, type):
         return None
     return bool(result)
@@ -104,13 +120,13 @@ def _signed(text: str) -> str:
     return f"({text})" if text.startswith("-") else text
 
 
-def _filled(spec: Spec, env: dict[str, Any]) -> str:
-    """Return the failing relation with both sides' values: ``x^2 < x: 4 < 2``."""
-    tree = author(spec.predicate, spec.names())
+def _filled(spec: Spec, text: str, env: dict[str, Any]) -> str:
+    """Return a failing relation with both sides' values: ``x^2 < x: 4 < 2``."""
+    tree = author(text, spec.known())
     sides = tree.args if isinstance(tree, Call) and len(tree.args) == 2 else ()
     values = [_side(side, env) for side in sides]
     if not sides or None in values or tree.op in {"and", "or"}:  # type: ignore[union-attr]
-        return spec.predicate
+        return text
     sign = {"lt": "<", "le": "≤", "gt": ">", "ge": "≥", "eq": "=", "ne": "≠"}[tree.op]  # type: ignore[union-attr]
     return f"{to_text(sides[0])} {sign} {to_text(sides[1])}: {values[0]} {sign} {values[1]}"
 
