@@ -12,7 +12,7 @@ from fractions import Fraction
 from functools import cache, reduce
 from typing import Any
 
-from quizgen.expr import Call, Expr, Field, walk
+from quizgen.expr import Call, Expr, Field, Num, walk
 
 _ARITHMETIC: dict[str, Callable[..., Any]] = {
     "add": lambda *args: reduce(operator.add, args),
@@ -98,8 +98,12 @@ def pairs() -> Field:
 
 def fits_pairs(expr: Expr) -> bool:
     """Whether every operator of a formula works on pairs."""
-    ops = {node.op for node in walk(expr) if isinstance(node, Call)}
-    return ops <= PAIR_OPS
+    calls = [node for node in walk(expr) if isinstance(node, Call)]
+    return all(call.op in PAIR_OPS for call in calls) and all(
+        isinstance(call.args[1], Num) and call.args[1].value in {2, 3, 4}
+        for call in calls
+        if call.op == "pow"
+    )
 
 
 @cache

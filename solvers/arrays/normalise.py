@@ -51,6 +51,8 @@ def _whole_line(*ends: float) -> tuple[float, float, float] | None:
     if any(end != round(end) or abs(end) >= _SHORT for end in ends):
         return None
     a, b, c, d = (int(end) for end in ends)
+    if b <= a:
+        return None
     common = math.gcd(d - c, c * b - d * a, b - a)
     return float((d - c) // common), float((c * b - d * a) // common), float((b - a) // common)
 
@@ -59,7 +61,7 @@ def _whole_line(*ends: float) -> tuple[float, float, float] | None:
 def _whole_kernel(*ends: float) -> Kernel | None:
     """Whole intensities between whole ends: one quotient of exactly known numbers."""
     line = _whole_line(*map(float, ends))
-    if line is None or ends[1] <= ends[0]:
+    if line is None:
         return None
     slope, start, width = line
 

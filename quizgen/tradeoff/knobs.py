@@ -1,0 +1,195 @@
+"""Work-precision ladders: what each setting of a tunable approximation costs and buys."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from quizgen.bank import solver_module
+from quizgen.tradeoff.measure import Effort, best_time
+from quizgen.tradeoff.special import fixed_point
+
+
+@dataclass(frozen=True)
+class Point:
+    """One setting: its label, seconds for a fixed piece of work, and the error it leaves."""
+
+    label: str
+    seconds: float
+    error: float
+
+
+@dataclass(frozen=True)
+class Curve:
+    """One line of a work-precision plot."""
+
+    label: str
+    points: tuple[Point, ...]
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return asdict(self)
+
+
+@dataclass(frozen=True)
+class Knob:
+    """A tunable approximation."""
+
+    key: str
+    measure: Callable[[Effort], Iterator[Curve]]
+
+
+def _iterations(effort: Effort) -> Iterator[Curve]:
+    """Fixed-point steps of inverse distortion against the closed form."""
+    import numpy as np
+
+    distortion = solver_module("arrays.distortion")
+    k1 = -0.2
+    fold = float(distortion.fold_radius(k1))
+    largest = fold * (1 + k1 * fold * fold)
+    for share in (0.5, 0.9, 0.99):
+        radii = np.full(4096, share * largest)
+        right = float(distortion.inverse_radius(share * largest, k1))
+        points = []
+        for count in (1, 2, 5, 10, 20, 50, 100, 200):
+            value = float(fixed_point(radii, k1, count)[0])
+            seconds = best_time(lambda n=count: fixed_point(radii, k1, n), effort.repeats)
+            points.append(Point(str(count), seconds, abs(value / right - 1)))
+        seconds = best_time(lambda: distortion.inverse_radius(radii, k1), effort.repeats)
+        value = float(distortion.inverse_radius(radii, k1)[0])
+        yield Curve(f"{share:g}", (*points, Point("=", seconds, abs(value / right - 1))))
+
+
+def _kernel(effort: Effort) -> Iterator[Curve]:
+    """Gaussian kernel cut off at t sigma and renormalised, on a full-contrast edge."""
+    import numpy as np
+
+    tail = solver_module("arrays.gaussian").upper_tail
+    sigma, row = 8.0, np.repeat([0.0, 255.0], 2048)
+    x = np.linspace(0, 6, 2001)
+    for_edge = np.asarray(tail(-x))
+    points = []
+    for t in (1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0):
+        inside = 1 - 2 * tail(t)
+        cut = np.minimum((for_edge - tail(t)) / inside, 1.0)
+        reach = int(t * sigma)
+        taps = np.exp(-(np.arange(-reach, reach + 1) ** 2) / (2 * sigma**2))
+        seconds = best_time(lambda w=taps: np.convolve(row, w, "same"), effort.repeats)
+        points.append(Point(f"{t:g}", seconds, float(255 * np.max(np.abs(cut - for_edge)))))
+    yield Curve("sigma = 8", tuple(points))
+
+
+def coverage(a: Any, b: Any, c: Any) -> Any:
+    """Area of the unit square with a x + b y < c, for a, b > 0."""
+    import numpy as np
+
+    def half(value: Any) -> Any:
+        return np.maximum(value, 0.0) ** 2
+
+    return (half(c) - half(c - a) - half(c - b) + half(c - a - b)) / (2 * a * b)
+
+
+def _supersampling(effort: Effort) -> Iterator[Curve]:
+    """n x n samples per pixel against the exact area under random edges."""
+    import numpy as np
+
+    rng = np.random.default_rng(3)
+    angle = rng.uniform(0.05, 1.5, 400)
+    a, b = np.cos(angle), np.sin(angle)
+    c = rng.uniform(0, 1, 400) * (a + b)
+    right = coverage(a, b, c)
+
+    def sampled(n: int) -> Any:
+        at = (np.arange(n) + 0.5) / n
+        inside = a[:, None, None] * at[:, None] + b[:, None, None] * at < c[:, None, None]
+        return inside.mean(axis=(1, 2))
+
+    points = []
+    for n in (1, 2, 4, 8, 16, 32):
+        seconds = best_time(lambda n=n: sampled(n), effort.repeats)
+        error = 255 * float(np.max(np.abs(sampled(n) - right)))
+        points.append(Point(f"{n}x{n}", seconds, error))
+    yield Curve("n x n", tuple(points))
+
+
+def _layers(effort: Effort) -> Iterator[Curve]:
+    """Depth slices for a blurred picture: largest error of the blur disc in pixels."""
+    import numpy as np
+
+    blur = solver_module("arrays.blur").blur_disc
+    f, N, s, pitch = 50.0, 1.8, 3000.0, 0.005
+    depth = 1 / np.linspace(1 / 1000, 1 / 50000, 4001)
+    picture = np.random.default_rng(1).random((256, 256))
+
+    def signed(z: Any) -> Any:
+        return np.asarray(blur(f, N, s, z)) * np.sign(z - s) / pitch
+
+    def one_pass() -> Any:
+        total = np.cumsum(np.cumsum(picture, axis=0), axis=1)
+        return total[15:, 15:] - total[:-15, 15:] - total[15:, :-15] + total[:-15, :-15]
+
+    once = best_time(one_pass, effort.repeats)
+    for label, of in (("1/z", lambda z: 1 / z), ("z", lambda z: z)):
+        points = []
+        for count in (2, 4, 8, 16, 32, 64):
+            position = of(depth)
+            low, width = position.min(), np.ptp(position) / count
+            index = np.minimum((position - low) // width, count - 1)
+            middle = of(low + (index + 0.5) * width)
+            error = float(np.max(np.abs(signed(middle) - signed(depth))))
+            points.append(Point(str(count), once * count, error))
+        yield Curve(label, tuple(points))
+
+
+def _photons(effort: Effort) -> Iterator[Curve]:
+    """Normal instead of Poisson numbers: largest difference of the distribution functions."""
+    import numpy as np
+
+    lower = solver_module("arrays.poisson").lower
+    tail = solver_module("arrays.gaussian").upper_tail
+    rng = np.random.default_rng(5)
+    exact, normal = [], []
+    for N in (1.0, 10.0, 100.0, 1e3, 1e4, 1e6):
+        k = np.unique(np.floor(np.maximum(N + np.sqrt(N) * np.linspace(-6, 6, 401), 0)))
+        error = np.max(np.abs(np.asarray(lower(k, N)) - tail(-(k - N) / np.sqrt(N))))
+        seconds = best_time(lambda N=N: rng.poisson(N, 4096), effort.repeats)
+        exact.append(Point(f"N = {N:g}", seconds, 0.0))
+        seconds = best_time(lambda N=N: N + N**0.5 * rng.standard_normal(4096), effort.repeats)
+        normal.append(Point(f"N = {N:g}", seconds, float(error)))
+    yield Curve("normal", tuple(normal))
+    yield Curve("Poisson", tuple(exact))
+
+
+def _wavelengths(effort: Effort) -> Iterator[Curve]:
+    """Riemann sums over V(lambda) against the closed form, for lines of two widths."""
+    import numpy as np
+
+    light = solver_module("arrays.luminosity")
+    centre = 532.4
+    for fwhm in (20.0, 1.0):
+        sigma = fwhm / 2.3548200450309493
+        right = float(light.line_flux(1.0, centre, fwhm))
+        points = []
+        for step in (10.0, 5.0, 1.0, 0.1):
+
+            def total(step: float = step, sigma: float = sigma) -> float:
+                at = np.arange(360.0, 830.0, step)
+                line = np.exp(-(((at - centre) / sigma) ** 2) / 2) / (sigma * (2 * np.pi) ** 0.5)
+                return float(light.KM * step * np.sum(line * np.asarray(light.photopic(at))))
+
+            seconds = best_time(total, effort.repeats)
+            points.append(Point(f"{step:g} nm", seconds, abs(total() / right - 1)))
+        seconds = best_time(lambda w=fwhm: light.line_flux(1.0, centre, w), effort.repeats)
+        yield Curve(f"{fwhm:g} nm", (*points, Point("=", seconds, 0.0)))
+
+
+KNOBS = (
+    Knob("iterations", _iterations),
+    Knob("kernel", _kernel),
+    Knob("supersampling", _supersampling),
+    Knob("layers", _layers),
+    Knob("photons", _photons),
+    Knob("wavelengths", _wavelengths),
+)
+"""Every tunable approximation; error units stand with the words."""

@@ -1,0 +1,128 @@
+"""Measure everything once: plain data that the page, the JSON and the SVGs are written from."""
+
+from __future__ import annotations
+
+import platform
+import time
+import warnings
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Any
+
+from quizgen.tradeoff.families import BY_NAME, FAMILIES, Family
+from quizgen.tradeoff.knobs import KNOBS, Curve
+from quizgen.tradeoff.measure import (
+    FULL,
+    QUICK,
+    Accuracy,
+    Bench,
+    Effort,
+    Measured,
+    accuracy,
+    best_time,
+)
+from quizgen.tradeoff.peers import peers
+
+EXACT = {"exact", "arb"}
+"""Rungs whose answer is proven."""
+
+
+@dataclass(frozen=True)
+class FamilyReport:
+    """Measurements of one family."""
+
+    name: str
+    formula: str
+    tolerance: float
+    rungs: tuple[Measured, ...]
+    peers: tuple[tuple[str, Accuracy, Accuracy], ...]
+
+
+@dataclass(frozen=True)
+class Report:
+    """Everything the page shows."""
+
+    families: tuple[FamilyReport, ...]
+    knobs: tuple[tuple[str, tuple[Curve, ...]], ...]
+    effort: Effort
+    ladder_seconds: float
+    figure_seconds: float
+    machine: str
+    seconds: float
+
+
+def measure(names: Iterable[str] = (), *, quick: bool = False) -> Report:
+    """Measure the named families (all of them by default).
+
+    Raises
+    ------
+    OraclesDisagree
+        If two independent references differ.
+    """
+    start = time.perf_counter()
+    effort = QUICK if quick else FULL
+    chosen = [BY_NAME[name] for name in names] or list(FAMILIES)
+    families = tuple(_family(family, effort) for family in chosen)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        curves = () if names else tuple((k.key, tuple(k.measure(effort))) for k in KNOBS)
+    return Report(
+        families, curves, effort, _ladder(families), _figure(), _machine(),
+        time.perf_counter() - start,
+    )  # fmt: skip
+
+
+def _family(family: Family, effort: Effort) -> FamilyReport:
+    bench = Bench(family, effort)
+    others = tuple(_peer(bench, label, call) for label, call in peers(family.name).items())
+    return FamilyReport(
+        family.name, _formula(family), family.tolerance, tuple(bench.run()), others
+    )
+
+
+def _formula(family: Family) -> str:
+    from quizgen.reader import to_text
+
+    return "" if family.formula is None else to_text(family.formula)
+
+
+def _peer(bench: Bench, label: str, call: Callable[..., Any]) -> tuple[str, Accuracy, Accuracy]:
+    import numpy as np
+
+    found = []
+    for name in ("exam", "hard"):
+        columns, _, right = bench.sets[name]
+        with warnings.catch_warnings(), np.errstate(all="ignore"):
+            warnings.simplefilter("ignore")
+            found.append(accuracy(list(call(*columns)), right, bench.family.whole_turn))
+    return label, found[0], found[1]
+
+
+def _ladder(families: Iterable[FamilyReport]) -> float:
+    """Largest sum over a family of all proven rungs, in seconds per question."""
+    sums = [sum(r.nanoseconds for r in f.rungs if r.key in EXACT) for f in families]
+    return max(sums) * 1e-9
+
+
+def _figure() -> float:
+    """Seconds for one warm figure with a new number each time."""
+    from itertools import count
+
+    from quizgen.figures import render
+
+    sigmas = count(20)
+    render("gaussian", {"sigma": 19.0, "k": 2.0}, quiz=False, lang="en")
+
+    def draw() -> None:
+        render("gaussian", {"sigma": float(next(sigmas)), "k": 2.0}, quiz=False, lang="en")
+
+    return best_time(draw, 3)
+
+
+def _machine() -> str:
+    import numpy as np
+
+    return (
+        f"{platform.system()} {platform.machine()}, Python {platform.python_version()}, "
+        f"NumPy {np.__version__}"
+    )
