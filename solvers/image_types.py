@@ -12,7 +12,7 @@ levels, largest, size, after = symbols("L M B A", integer=True)
 
 with evaluate(False):
     MODEL = Model(
-        given={b: "bit", a: ""},
+        given={b: "", a: ""},
         steps=(
             Step(levels, 2**b),
             Step(largest, levels - 1),
