@@ -260,10 +260,12 @@ def _witness(drawn: Draw, _index: int, answer: Mapping[str, Any]) -> Spec:
     known = {n: Num(Fraction(key_text(v)), decimal=v.q != 1) for n, v in drawn.shown.items()}
 
     def stated(text: str) -> str:
-        tree = parse(text, symbols=(*answer["symbols"], *known))
+        tree = parse(text, symbols=(*answer["symbols"], *let, *known))
         return to_text(substitute(tree, known))
 
+    let: Mapping[str, str] = answer.get("let", {})
     return {
+        "let": {name: stated(text) for name, text in let.items()},
         "predicate": stated(answer["predicate"]),
         "where": [stated(text) for text in answer.get("where", ())],
     }
