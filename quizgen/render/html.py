@@ -50,18 +50,24 @@ def block(part: Any, lang: str) -> Markup:
 
 
 def _table(part: Table, lang: str) -> Markup:
-    def row(cells: Any, tag: str) -> Markup:
-        return Markup("<tr>{}</tr>").format(
-            Markup("").join(
-                Markup("<{0}>{1}</{0}>").format(Markup(tag if c else "td"), inline(c, lang))
-                for c in cells
-            )
-        )
+    def row(cells: Any) -> Markup:
+        tags = [Markup("<td>{}</td>").format(inline(cell, lang)) for cell in cells]
+        return Markup("<tr>{}</tr>").format(Markup("").join(tags))
 
-    body = Markup("").join(row(cells, "td") for cells in part.rows)
-    return Markup("<table><thead>{}</thead><tbody>{}</tbody></table>").format(
-        row(part.head, "th"), body
-    )
+    head = Markup("").join(_head_cell(cell, lang) for cell in part.head)
+    body = Markup("").join(row(cells) for cells in part.rows)
+    return Markup("<table><thead><tr>{}</tr></thead><tbody>{}</tbody></table>").format(head, body)
+
+
+def _head_cell(cell: Any, lang: str) -> Markup:
+    """A head cell; a lone formula is spelled out for listeners, and empty is no head."""
+    if not cell:
+        return Markup("<td></td>")
+    if len(cell) == 1 and isinstance(cell[0], Maths):
+        shown = Markup('<span class="hidden">{}</span><span aria-hidden="true">{}</span>')
+        spoken = formula.spoken(cell[0].node, lang)
+        return Markup("<th>{}</th>").format(shown.format(spoken, inline(cell, lang)))
+    return Markup("<th>{}</th>").format(inline(cell, lang))
 
 
 def blocks(parts: Any, lang: str, *, tight: bool = False) -> Markup:
@@ -72,8 +78,9 @@ def blocks(parts: Any, lang: str, *, tight: bool = False) -> Markup:
 
 
 def display(maths: Maths, lang: str) -> Markup:
-    """A worked line on its own."""
-    return Markup(formula.mathml(maths.node, lang, display=True))
+    """A worked line on its own; a long one scrolls, also by keyboard."""
+    body = Markup(formula.mathml(maths.node, lang, display=True))
+    return Markup('<div class="line" tabindex="0">{}</div>').format(body)
 
 
 @cache
