@@ -13,13 +13,17 @@ from quizgen.options import bank_options, open_bank
 
 
 @click.command()
+@click.option("--coverage", is_flag=True, help="What of the curriculum is covered, with holes.")
 @bank_options
-def templates(**options: Any) -> None:
+def templates(*, coverage: bool, **options: Any) -> None:
     """List the templates of the bank: id, tier, topic, pool size, languages."""
     from rich.console import Console
     from rich.table import Table
 
     bank = open_bank(options)
+    if coverage:
+        _print_coverage(bank)
+        return
     table = Table("id", "tier", "topic", "pool", "languages", "title")
     for template in bank:
         rules = template.rules
@@ -30,6 +34,18 @@ def templates(**options: Any) -> None:
         )
     Console().print(table)
     click.echo(f"{len(bank)} templates")
+
+
+def _print_coverage(bank: Any) -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    from quizgen.coverage import coverage
+
+    table = Table("group", "covered", "of", "holes")
+    for row in coverage(bank):
+        table.add_row(row.group, str(len(row.covered)), str(row.total), " ".join(row.holes))
+    Console().print(table)
 
 
 @click.command()
