@@ -7,26 +7,26 @@ from sympy import evaluate, symbols
 
 from quizgen.model import Model, Step
 
-X, Z, f, s, S = symbols("X Z f s S", positive=True)
-h, n, Z_1, q = symbols("h n Z_1 q", positive=True)
+p_y, p_z, f, s, S = symbols("p_y p_z f s S", positive=True)
+h, n, z_1, q = symbols("p'_y n z_1 q", positive=True)
 
 with evaluate(False):
     MODEL = Model(
-        given={X: "m", Z: "m", f: "mm", s: "um/px", S: "mm"},
+        given={p_y: "m", p_z: "m", f: "mm", s: "um/px", S: "mm"},
         steps=(
-            Step(h, f * X / Z, "mm"),
+            Step(h, f * p_y / p_z, "mm"),
             Step(n, h / s, "px"),
-            Step(Z_1, f * X / S, "m"),
-            Step(q, Z / Z_1),
+            Step(z_1, f * p_y / S, "m"),
+            Step(q, p_z / z_1),
         ),
         traps={
-            "size-distance-swapped": Step(h, f * Z / X),
-            "forgot-f": Step(h, X / Z / 1000),
-            "divided-by-f": Step(h, X / (Z * f) / 1000000),
+            "size-distance-swapped": Step(h, f * p_z / p_y),
+            "forgot-f": Step(h, p_y / p_z / 1000),
+            "divided-by-f": Step(h, p_y / (p_z * f) / 1000000),
             "pitch-multiplied": Step(n, (1000000 * h) * (1000000 * s)),
-            "object-over-pitch": Step(n, X / s / 1000),
-            "half-sensor": Step(Z_1, f * X / (S / 2)),
-            "inverted-ratio": Step(Z_1, Z * S / h),
-            "pixels-for-height": Step(Z_1, 1000 * f * X / n),
+            "object-over-pitch": Step(n, p_y / s / 1000),
+            "half-sensor": Step(z_1, f * p_y / (S / 2)),
+            "inverted-ratio": Step(z_1, p_z * S / h),
+            "pixels-for-height": Step(z_1, 1000 * f * p_y / n),
         },
     )
