@@ -1,0 +1,25 @@
+"""The curriculum is covered, and nothing is claimed that it does not have."""
+
+from __future__ import annotations
+
+import pytest
+
+from quizgen.coverage import INVENTORY, coverage, unknown
+
+
+def test_the_inventory_counts_what_the_curriculum_counts():
+    counts = {group: len(items) for group, items in INVENTORY.items()}
+    assert counts == {
+        "formulas": 46, "worked examples": 18, "trial exam": 6, "mock questions": 51,
+        "sections": 24, "figures": 9, "code": 28, "traps": 28, "statements": 3,
+    }  # fmt: skip
+
+
+def test_no_template_claims_what_is_not_there(bank):
+    assert unknown(bank) == []
+
+
+@pytest.mark.parametrize("group", list(INVENTORY))
+def test_nothing_is_left_out(bank, group):
+    (row,) = [row for row in coverage(bank) if row.group == group]
+    assert row.holes == ()
