@@ -33,7 +33,9 @@ def _shape(kind: str, spec: Mapping[str, Any], lang: str) -> str:
         three = len(spec["values"]) > len("ab")
         return word(lang, "ask.point3" if three else "ask.point")
     if kind == "table":
-        return word(lang, "ask.table", names=", ".join(spec["values"]))
+        units = spec.get("units", {})
+        names = [f"{n} ({shown(units[n])})" if n in units else n for n in spec["values"]]
+        return word(lang, "ask.table", names=", ".join(names))
     if kind == "witness":
         return word(lang, "ask.witness", names="; ".join(f"{n} = ..." for n in spec["symbols"]))
     return word(lang, f"ask.{kind}")

@@ -145,6 +145,10 @@ def _table(drawn: Draw, index: int, answer: Mapping[str, Any]) -> Spec:
         return {label: key_text(v) for label, v in zip(labels, values, strict=True)}
 
     spec: Spec = {"values": shape(part_values(drawn, index, drawn.values))}
+    names = zip(labels, answer_names(answer), strict=True)
+    units = {label: _unit_of(drawn, answer, name) for label, name in names}
+    if any(units.values()):
+        spec["units"] = {label: unit for label, unit in units.items() if unit}
     built = _with_traps(drawn, index, spec, shape)
     built["of"] = dict(zip(labels, answer_names(answer), strict=True))
     return built
