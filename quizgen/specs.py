@@ -13,7 +13,7 @@ from typing import Any
 from quizgen.draw import Draw, answer_names, factor, plan_of, shuffled
 from quizgen.errors import BankError
 from quizgen.expr import Num, compile_expr, exact, substitute
-from quizgen.numbers import key_text
+from quizgen.numbers import exact_text, key_text
 from quizgen.text import Code, Formula, Slot, Styled, Words
 
 Spec = dict[str, Any]
@@ -268,11 +268,19 @@ def _witness(drawn: Draw, _index: int, answer: Mapping[str, Any]) -> Spec:
         return to_text(substitute(tree, known))
 
     let: Mapping[str, str] = answer.get("let", {})
+    example: Mapping[str, Any] = answer.get("example", {})
     return {
+        "example": {name: key_text(_computed(drawn, value)) for name, value in example.items()},
         "let": {name: stated(text) for name, text in let.items()},
         "predicate": stated(answer["predicate"]),
         "where": [stated(text) for text in answer.get("where", ())],
+        "example": {n: _short(_computed(drawn, v)) for n, v in answer.get("example", {}).items()},
     }
+
+
+def _short(value: Any) -> str:
+    """A decimal where it is short, else the exact fraction."""
+    return exact_text(value, minus="-") or key_text(value)
 
 
 def _as_written(_drawn: Draw, _index: int, _answer: Mapping[str, Any]) -> Spec:
