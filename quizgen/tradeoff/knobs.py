@@ -110,6 +110,8 @@ def _supersampling(effort: Effort) -> Iterator[Curve]:
         seconds = best_time(lambda n=n: sampled(n), effort.repeats)
         error = 255 * float(np.max(np.abs(sampled(n) - right)))
         points.append(Point(f"{n}x{n}", seconds, error))
+    seconds = best_time(lambda: coverage(a, b, c), effort.repeats)
+    points.append(Point("=", seconds, 0.0))
     yield Curve("n x n", tuple(points))
 
 

@@ -39,14 +39,17 @@ figure{margin:.6rem 0;overflow-x:auto}svg{max-width:none;height:auto;color:inher
 table{border-collapse:collapse;font-size:.86rem;margin:.5rem 0;display:block;overflow-x:auto}
 th,td{padding:.25rem .55rem;text-align:right;border-bottom:1px solid #8885;white-space:nowrap}
 th{font-weight:600;vertical-align:bottom;white-space:normal;min-width:4.5rem}
-td.words,th.words{text-align:left}tr.front td{font-weight:600}
+td.words,th.words{text-align:left}td.words{white-space:normal;min-width:9rem}tr.front td{font-weight:600}
 code{font-size:.88em;overflow-wrap:anywhere}.note{font-size:.86rem;opacity:.85}
 .verdict{border-left:4px solid #0b62c4;padding:.3rem .8rem;font-weight:600}
+.bn,label[lang=bn],.bn .tp text{font-family:"Hind Siliguri","Noto Sans Bengali",system-ui,sans-serif}
 label{margin-right:1rem;cursor:pointer}ul{columns:2;padding-left:1.2rem}
 #en:checked~main .bn,#bn:checked~main .en{display:none}
 @media(prefers-color-scheme:dark){body{color:#e8e8e8;background:#14171a}a{color:#8ab8ff}
-.tp .on{fill:#6aa9ff!important;stroke:#6aa9ff!important}
-.tp .front{stroke:#6aa9ff!important}}
+.tp circle.on,.tp rect.on{fill:#6aa9ff!important}
+.tp .on,.tp .front{stroke:#6aa9ff!important}
+.tp .second{stroke:#ff9d5c!important}.tp circle.second{fill:#ff9d5c!important}
+.tp .third{stroke:#8ad05f!important}.tp circle.third{fill:#8ad05f!important}}
 @media print{label,input{display:none}}
 @media(max-width:40rem){ul{columns:1}}
 """
@@ -130,8 +133,18 @@ def html(report: Report, command: str) -> str:
     return (
         '<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
-        f"<title>{title}</title><style>{CSS}{STYLE}</style></head>"
+        f"<title>{title}</title><style>{_font_face()}{CSS}{STYLE}</style></head>"
         f"<body>{switch}<main>{body}</main></body></html>\n"
+    )
+
+
+def _font_face() -> str:
+    """Bangla letters travel with the page."""
+    from quizgen.render.fonts import bangla_uri
+
+    face = '@font-face{font-family:"Hind Siliguri";font-display:block;font-weight:%s;src:url(%s) format("woff2")}'
+    return "".join(
+        face % (weight, bangla_uri(name)) for name, weight in (("Regular", 400), ("Bold", 700))
     )
 
 
@@ -186,7 +199,9 @@ def family_plot(family: FamilyReport, lang: str) -> str:
         (_bits(HALF_PIXEL), page["pixel"]),
     )
     panels = "".join(
-        accuracy_panel(i * PANEL, page[which], _marks(family.rungs, which), rules)
+        accuracy_panel(
+            i * PANEL, page[which], _marks(family.rungs, which), rules, (page["x"], page["y"])
+        )
         for i, which in enumerate(("exam", "hard"))
     )
     return document(panels, 2 * PANEL, HEIGHT, words(lang)["family"][family.name]["title"])
@@ -248,8 +263,8 @@ def _count(steps: float, lang: str) -> str:
         return escape(words(lang)["page"]["failed"])
     if steps < 10000:
         return f"{steps:.3g}" if steps < 1 else f"{steps:.0f}"
-    exponent = math.floor(math.log10(steps))
-    return f"{steps / 10**exponent:.0f}·10<sup>{exponent}</sup>"
+    leading, exponent = f"{steps:.0e}".split("e+")
+    return f"{leading}·10<sup>{int(exponent)}</sup>"
 
 
 def knob_plot(key: str, curves: tuple[Curve, ...], lang: str) -> str:

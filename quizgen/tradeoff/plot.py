@@ -92,12 +92,18 @@ def _frame(x: Scale, y: Scale) -> str:
 
 
 def accuracy_panel(
-    offset: int, title: str, marks: Sequence[Mark], rules: Sequence[tuple[float, str]]
+    offset: int,
+    title: str,
+    marks: Sequence[Mark],
+    rules: Sequence[tuple[float, str]],
+    axes: tuple[str, str],
 ) -> str:
     """One panel: time per value (log) against bits of error."""
     x = Scale(0.3, 3e7, offset + LEFT, offset + PANEL - 12, log=True)
     y = Scale(0.0, 66.0, HEIGHT - BOTTOM, TOP)
     parts = [_text(offset + PANEL / 2, 15, title, kind="head"), _frame(x, y)]
+    parts.append(_text(x.end, HEIGHT - 8, axes[0], "end"))
+    parts.append(_text(offset + 8, 15, axes[1], "start"))
     for at in (1.0, 1e2, 1e4, 1e6):
         parts.append(_line(x(at), y.start, x(at), y.end, "grid"))
         parts.append(_text(x(at), y.start + 15, time_text(at)))
@@ -121,17 +127,21 @@ def _dot(px: float, py: float, mark: Mark) -> str:
     return f'<circle cx="{px:.1f}" cy="{py:.1f}" r="4.5" class="{kind}"/>'
 
 
+_PLACES = ((0, -8), (11, 4), (-11, 4), (10, -9), (-10, -9), (0, -19), (11, -17), (-11, -17))
+"""Where a number may stand beside its point, best place first."""
+
+
 def _numbers(x: Scale, y: Scale, marks: Sequence[Mark]) -> str:
     """Numbers beside the points, moved apart where points lie close together."""
-    taken: list[tuple[float, float]] = []
+    taken = [(x(mark.x), y(mark.y) + 4) for mark in marks]
     parts = []
     for mark in sorted(marks, key=lambda mark: (mark.x, mark.y)):
         px, py = x(mark.x), y(mark.y)
-        for dx, dy in ((0, -9), (10, 3), (-10, 3), (9, -10), (-9, -10), (0, -21), (18, -6), (0, 18)):
+        for dx, dy in _PLACES:
             spot = (px + dx, py + dy)
-            if all(abs(spot[0] - a) > 10 or abs(spot[1] - b) > 10 for a, b in taken):
+            if all(abs(spot[0] - a) > 9 or abs(spot[1] - b) > 9 for a, b in taken):
                 break
-        taken += [spot, (px, py + 4)]
+        taken.append(spot)
         parts.append(_text(*spot, str(mark.number)))
     return "".join(parts)
 
@@ -151,17 +161,24 @@ def work_panel(curves: Sequence[tuple[str, Sequence[tuple[str, float, float]]]],
     for at in _decades(y):
         parts.append(_line(x.start, y(at), x.end, y(at), "grid"))
         parts.append(_text(x.start - 6, y(at) + 4, f"{at:.0e}", "end"))
-    for kind, (label, line) in zip(("on", "second", "third"), curves, strict=False):
-        parts.append(_curve(x, y, kind, label, line))
+    kinds = ("on", "second", "third")
+    for i, (kind, (label, line)) in enumerate(zip(kinds, curves, strict=False)):
+        parts.append(_curve(x, y, kind, line))
+        parts.append(_legend(x.end - 70, TOP + 8 + 15 * i, kind, label))
     return "".join(parts)
 
 
-def _curve(x: Scale, y: Scale, kind: str, label: str, line: Sequence[tuple[str, float, float]]) -> str:
+def _legend(px: float, py: float, kind: str, label: str) -> str:
+    line = f'<polyline points="{px:.1f},{py:.1f} {px + 16:.1f},{py:.1f}" class="line {kind}"/>'
+    return line + _text(px + 21, py + 4, label, "start", "head")
+
+
+def _curve(x: Scale, y: Scale, kind: str, line: Sequence[tuple[str, float, float]]) -> str:
+    """The settings joined by a line; the closed form stands alone."""
     at = [(name, x(seconds), y(error)) for name, seconds, error in line]
-    path = " ".join(f"{px:.1f},{py:.1f}" for _, px, py in at)
+    path = " ".join(f"{px:.1f},{py:.1f}" for name, px, py in at if name != "=")
     parts = [f'<polyline points="{path}" class="line {kind}" style="fill:none"/>']
     for name, px, py in at:
         parts.append(f'<circle cx="{px:.1f}" cy="{py:.1f}" r="3" class="{kind}"/>')
         parts.append(_text(px + 5, py - 5, name, "start"))
-    parts.append(_text(at[0][1] - 6, at[0][2] + 16, label, "start", "head"))
     return "".join(parts)
