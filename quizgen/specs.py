@@ -270,11 +270,10 @@ def _witness(drawn: Draw, _index: int, answer: Mapping[str, Any]) -> Spec:
     let: Mapping[str, str] = answer.get("let", {})
     example: Mapping[str, Any] = answer.get("example", {})
     return {
-        "example": {name: key_text(_computed(drawn, value)) for name, value in example.items()},
+        "example": {name: _short(_computed(drawn, value)) for name, value in example.items()},
         "let": {name: stated(text) for name, text in let.items()},
         "predicate": stated(answer["predicate"]),
         "where": [stated(text) for text in answer.get("where", ())],
-        "example": {n: _short(_computed(drawn, v)) for n, v in answer.get("example", {}).items()},
     }
 
 
