@@ -6,8 +6,9 @@
     en = "Mock exam"
     bn = "..."
     [[slot]]
-    tier = "A"            # and/or: topic = "optics", templates = ["D17a"]
+    tier = "A"            # and/or: topic = "optics", templates = ["D17a", "S11"]
     count = 5
+    points = 2            # marks of each question, shared out over its parts (default: its own)
 
 ``reference`` lists the templates that make up the notes' own paper. A topic name (``optics``), a
 topic with minutes (``optics.45``) or ``all.90`` is a blueprint without a file: questions of that
@@ -37,6 +38,7 @@ class SlotRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     tier: str | None = None
     topic: str | None = None
     templates: tuple[str, ...] = ()
+    points: float | None = None
 
 
 class Blueprint(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
@@ -128,6 +130,8 @@ def _check(blueprint: Blueprint, where: str) -> None:
     for index, slot in enumerate(blueprint.slot, 1):
         if slot.tier is not None and slot.tier not in tuple("ABCD"):
             raise BlueprintError(f"{where}: slot {index}: tier {slot.tier!r} (allowed: A, B, C, D)")
+        if slot.points is not None and slot.points <= 0:
+            raise BlueprintError(f"{where}: slot {index}: points must be positive")
         if not 1 <= slot.count <= MOST_QUESTIONS:
             raise BlueprintError(f"{where}: slot {index}: count must be 1 to {MOST_QUESTIONS}")
     if "en" not in blueprint.title:

@@ -7,9 +7,10 @@ import json
 import math
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal
 from fractions import Fraction
+from itertools import repeat
 from typing import Any
 
 from quizgen.bank import LANGUAGES, Bank
@@ -127,15 +128,41 @@ def build(
     drawn = list(_draws(bank, blueprint, seed))
     code = f"{blueprint.name}-{seed}-{choice}-{_digest(blueprint, drawn)}"
     items = []
-    for number, one in enumerate(drawn, 1):
-        items.append(_item(one, languages(choice), str(number), figures=figures))
+    weights = _weights(blueprint)
+    for number, (one, points) in enumerate(zip(drawn, weights, strict=False), 1):
+        items.append(_item(one, languages(choice), str(number), points, figures=figures))
         progress(one.template.id)
     return Paper(code, blueprint, languages(choice), tuple(items), variety(bank, blueprint))
 
 
-def _item(one: Draw, langs: tuple[str, ...], number: str, *, figures: bool = True) -> Item:
+def _item(
+    one: Draw,
+    langs: tuple[str, ...],
+    number: str,
+    points: float | None = None,
+    *,
+    figures: bool = True,
+) -> Item:
     pairs = [put_into_words(one, lang, number=number, figures=figures) for lang in langs]
-    return Item(number, tuple(q for q, _ in pairs), tuple(k for _, k in pairs))
+    questions = tuple(_worth(question, points) for question, _ in pairs)
+    return Item(number, questions, tuple(key for _, key in pairs))
+
+
+def _worth(question: Question, points: float | None) -> Question:
+    """Share the marks of a slot out over the parts, as their own marks stand to each other."""
+    if points is None:
+        return question
+    scale = Fraction(str(points)) / question.points
+    return replace(
+        question, parts=tuple(replace(p, points=p.points * scale) for p in question.parts)
+    )
+
+
+def _weights(blueprint: Blueprint) -> Iterator[float | None]:
+    """Marks that the blueprint gives to each question; no end where it gives none."""
+    for slot in blueprint.slot:
+        yield from repeat(slot.points, slot.count)
+    yield from repeat(None)
 
 
 def rebuild(bank: Bank, code: str, blueprint: Blueprint | None = None, **options: Any) -> Paper:

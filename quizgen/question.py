@@ -175,8 +175,6 @@ def identity(drawn: Draw) -> str:
     """Name of the variant: two questions are the same if and only if this is the same."""
     numbers = [f"{name}={key_text(value)}" for name, value in sorted(drawn.shown.items())]
     words = [f"{name}={value}" for name, value in sorted(drawn.words.items())]
-    if not numbers and not words:
-        return f"{drawn.template.id}({drawn.seed}/{drawn.slot})"
     return f"{drawn.template.id}({', '.join(numbers + words)})"
 
 

@@ -8,13 +8,14 @@ import os
 import subprocess
 import sys
 import tomllib
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
 
 from quizgen.blueprint import Blueprint, SlotRule, load, shipped
 from quizgen.errors import BlueprintError, CodeError
-from quizgen.exam import build, form_bytes, key_bytes, parse_code, rebuild
+from quizgen.exam import build, form_bytes, key_bytes, parse_code, rebuild, reference_paper
 from quizgen.render import KINDS, RENDERERS, render
 
 ROOT = Path(__file__).parent.parent
@@ -123,6 +124,23 @@ def test_adding_a_template_changes_no_number_of_another(bank, tmp_path):
     assert [i.keys[0].draw.shown for i in small.items] == [i.keys[0].draw.shown for i in big.items]
 
 
+def test_the_trial_exam_is_the_chapters_ten_points(bank):
+    paper = build(bank, load("trial"), 2, figures=False)
+    assert [item.keys[0].template for item in paper.items][1:] == ["Q1b", "Q1c", "Q1d", "Q4a"]
+    assert paper.points == 10
+    key = json.loads(key_bytes(paper))
+    assert sum(Fraction(p["points"]) for q in key["questions"] for p in q["parts"]) == 10
+
+
+def test_the_reference_paper_is_the_notes_own(bank):
+    paper = reference_paper(bank, load("mock"), "en")
+    answers = {item.keys[0].template: item.keys[0].solution.parts for item in paper.items}
+    assert answers["A3"][0].answer == "(4; 6)"
+    assert answers["D17a"][0].answer.startswith("200/3 mm")
+    assert answers["C11b"][0].answer.startswith("(440; 160)")
+    assert rebuild(bank, paper.code).code == paper.code
+
+
 @pytest.mark.parametrize("name", shipped())
 def test_shipped_blueprints_load(name):
     assert load(name).name == name
@@ -132,10 +150,14 @@ def test_shipped_blueprints_load(name):
     ("text", "message"),
     [
         ("title = {en = 'x'}\n[[slots]]\ncount = 1", "allowed: minutes, reference, slot, title"),
-        ("title = {en = 'x'}\n[[slot]]\nkount = 1", "allowed: count, templates, tier, topic"),
+        (
+            "title = {en = 'x'}\n[[slot]]\nkount = 1",
+            "allowed: count, points, templates, tier, topic",
+        ),
         ("title = {en = 'x'}\n[[slot]]\ntier = 'E'", "allowed: A, B, C, D"),
         ("title = {en = 'x'}\n[[slot]]\ncount = 0", "count must be"),
         ("title = {bn = 'x'}\n[[slot]]\ncount = 1", "title.en"),
+        ("title = {en = 'x'}\n[[slot]]\npoints = 0", "points must be"),
         ("title = {en = 'x'\n", "not valid TOML"),
         ("title = {en = 'x'}\nslot = []", "at least one"),
     ],

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from fractions import Fraction
 from functools import cache
 from importlib.resources import files
 from typing import Any
@@ -30,3 +31,8 @@ def word(lang: str, key: str, **values: object) -> str:
     section, _, name = key.partition(".")
     text: str = table(lang)[section][name]
     return text.format(**values) if values else text
+
+
+def marks(points: Fraction, lang: str) -> str:
+    """Marks with their word: ``1 point``, ``2.5 points``."""
+    return f"{float(points):g} {word(lang, 'paper.point' if points == 1 else 'paper.points')}"

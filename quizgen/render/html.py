@@ -11,7 +11,7 @@ from markupsafe import Markup, escape
 
 from quizgen import formula
 from quizgen.exam import Paper
-from quizgen.locale import word
+from quizgen.locale import marks, word
 from quizgen.render import fonts
 from quizgen.solution import Maths
 from quizgen.text import Code, CodeBlock, Items, Paragraph, Styled, Table, Words
@@ -97,6 +97,7 @@ def _environment() -> jinja2.Environment:
         blocks=blocks,
         display=display,
         word=word,
+        marks=marks,
         svg=lambda figure: Markup(figure.svg.decode()),
     )
     return environment

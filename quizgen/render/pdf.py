@@ -12,7 +12,7 @@ from typing import Any, Final
 from quizgen import formula
 from quizgen.errors import RenderError
 from quizgen.exam import Item, Paper
-from quizgen.locale import word
+from quizgen.locale import marks, word
 from quizgen.question import Field, Part, Question
 from quizgen.render import fonts
 from quizgen.solution import Line, Maths, PartSolution
@@ -134,7 +134,7 @@ class _Sheet:
             _in(lang, f"#text(14pt, {string(self._title(lang))});") for lang in self.langs[1:]
         ]
         total = (
-            f"{_points(paper.points, main)}, {paper.minutes} {word(main, 'paper.minutes')}, "
+            f"{marks(paper.points, main)}, {paper.minutes} {word(main, 'paper.minutes')}, "
             f"{len(paper.items)} {word(main, 'paper.contents')}"
         )
         facts = (
@@ -157,7 +157,7 @@ class _Sheet:
     def _overview(self) -> str:
         """Table of questions and marks, with room for the marks given."""
         rows = [
-            f"[{item.number}], [{self._titles(item)}], [{_plain(item.points)}], []"
+            f"[{item.number}], [{self._titles(item)}], [{float(item.points):g}], []"
             for item in self.paper.items
         ]
         head = (
@@ -185,7 +185,7 @@ class _Sheet:
             body = f"#part[{stem}\n{picture}\n{parts[0]}]"
         if self.kind == "solutions":
             body += self._remarks(item)
-        worth = _points(item.points, self.main)
+        worth = marks(item.points, self.main)
         return f"#question({string(item.number)}, [{self._titles(item)}], {string(worth)})[{body}]"
 
     def _picture(self, item: Item, figures: list[Any]) -> str:
@@ -201,7 +201,7 @@ class _Sheet:
         questions = item.questions
         first = questions[0].parts[index]
         label = f"({first.label}) " if first.label else ""
-        worth = f"#worth({string(label + _points(first.points, self.main))})" if label else ""
+        worth = f"#worth({string(label + marks(first.points, self.main))})" if label else ""
         texts = [blocks(q.parts[index].body, q.lang) for q in questions]
         body = f"{worth}\n{_each(self.langs, texts)}"
         if self.kind == "exam":
@@ -268,14 +268,6 @@ class _Sheet:
                     title = f"#heading(level: 3)[#{string(word(lang, f'solution.{section}'))};]"
                     texts.append(_in(lang, f"{title}\n{blocks(body, lang)}"))
         return "\n" + "\n".join(texts)
-
-
-def _plain(points: Any) -> str:
-    return str(points) if points.denominator == 1 else f"{float(points):g}"
-
-
-def _points(points: Any, lang: str) -> str:
-    return f"{_plain(points)} {word(lang, 'paper.point' if points == 1 else 'paper.points')}"
 
 
 @cache
