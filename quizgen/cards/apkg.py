@@ -184,8 +184,9 @@ def _settings(deck: Deck) -> tuple[dict[str, Any], ...]:
     decks = {str(identity(name)): _deck(identity(name), name) for name in names}
     decks["1"] = _deck(1, "Default")
     models = {str(note_type(form)["id"]): note_type(form) for form in NAMES}
-    conf = {"curDeck": identity(ROOT), "activeDecks": [identity(ROOT)], "nextPos": 1,
-            "curModel": note_type("basic")["id"], "sortType": "noteFld", "newSpread": 0}  # fmt: skip
+    current = {"curDeck": identity(ROOT), "activeDecks": [identity(ROOT)]}
+    conf = {**current, "curModel": note_type("basic")["id"], "nextPos": 1,
+            "sortType": "noteFld", "newSpread": 0}  # fmt: skip
     return conf, models, decks, {"1": _options()}
 
 

@@ -18,7 +18,7 @@ from quizgen.bank import Bank
 from quizgen.blueprint import load
 from quizgen.cards.content import words
 from quizgen.cards.deck import Deck
-from quizgen.cards.kinds.question import Pair, answer, asked, picture, section_of, steps
+from quizgen.cards.kinds.question import Pair, answer, asked, once, picture, section_of, steps
 from quizgen.cards.note import Blocks, Note
 from quizgen.cards.prose import Label
 from quizgen.cards.versions import template_version
@@ -141,7 +141,7 @@ def _note(part: MarkedPart, item: Item, langs: tuple[str, ...], path: Path) -> N
         langs=langs,
         words={
             "Front": {lang: _front(pair, index, part, lang) for lang, pair in pairs.items()},
-            "Back": {lang: _back(pair, index, part, lang) for lang, pair in pairs.items()},
+            "Back": once({lang: _back(pair, index, part, lang) for lang, pair in pairs.items()}),
         },
         shared={
             "Figure": picture(key.template, {lang: q.figure for lang, (q, _) in pairs.items()}),
@@ -179,5 +179,5 @@ def _reason(key: Key, index: int, part: MarkedPart) -> Iterator[Paragraph]:
         if mistake.name == name:
             yield Paragraph(mistake.sentence)
             return
-    if part.message:
+    if part.message and part.status != "blank":
         yield Paragraph((Words(part.message),))

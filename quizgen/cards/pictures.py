@@ -1,4 +1,4 @@
-"""The figures on cards: those of the questions."""
+"""The figures on cards: those of the questions, and a few that only cards use."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from quizgen import figures
+from quizgen.cards import drawings
 from quizgen.figures import Figure
 
 
@@ -15,7 +16,7 @@ def draw(name: str, values: Mapping[str, Any], *, quiz: bool, lang: str) -> Figu
     Parameters
     ----------
     name : str
-        A figure of ``quizgen.figures``.
+        A figure of ``quizgen.figures`` or of ``quizgen.cards.drawings``.
     values : mapping
         Its parameters.
     quiz : bool
@@ -28,4 +29,6 @@ def draw(name: str, values: Mapping[str, Any], *, quiz: bool, lang: str) -> Figu
     BankError
         If the figure or a parameter is unknown.
     """
+    if name in drawings.DRAWINGS:
+        return drawings.draw(name, quiz=quiz, lang=lang)
     return figures.render(name, values, quiz=quiz, lang=lang)

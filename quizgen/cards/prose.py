@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import hashlib
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import singledispatch
 from html import escape
-from typing import Any
+from typing import Any, TypeGuard
 
 from quizgen import formula
 from quizgen.figures import Figure
@@ -67,6 +68,13 @@ class Fold:
 
 
 @dataclass(frozen=True, slots=True)
+class Together:
+    """Inlines that a line must not end between."""
+
+    parts: tuple[Any, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Label:
     """A short line that says what is asked, or what follows."""
 
@@ -89,23 +97,33 @@ def maths(node: Node) -> str:
     str
         HTML, between ``\(`` and ``\)``.
     """
+    if _wraps(node) and len(node.items) > len(("left", "=", "right")):
+        return " ".join(_pieces(node, ""))
     return rf"\({escape(formula.latex(node, LATEX), quote=False)}\)"
+
+
+def _wraps(node: Node) -> TypeGuard[Row]:
+    return isinstance(node, Row) and node.level == RELATION and len(node.items) > 1
 
 
 def chain(node: Node) -> str:
     """A chain of equations as one formula per side, so that a narrow screen can wrap it."""
-    if not (isinstance(node, Row) and node.level == RELATION and len(node.items) > 1):
-        return _large(formula.latex(node, LATEX))
+    style = r"\displaystyle "
+    if not _wraps(node):
+        return _piece(style, formula.latex(node, LATEX))
+    return " ".join(_pieces(node, style))
+
+
+def _pieces(node: Row, style: str) -> Iterator[str]:
     first, *rest = node.items
-    pieces = [_large(formula.latex(first, LATEX))]
+    yield _piece(style, formula.latex(first, LATEX))
     for sign, side in zip(rest[::2], rest[1::2], strict=True):
         empty = "{}" if side == Row(()) else ""  # keeps the space after a sign at the end
-        pieces.append(_large("{}" + formula.latex(Row((sign, side), RELATION), LATEX) + empty))
-    return " ".join(pieces)
+        yield _piece(style, "{}" + formula.latex(Row((sign, side), RELATION), LATEX) + empty)
 
 
-def _large(text: str) -> str:
-    return rf"\(\displaystyle {escape(text, quote=False)}\)"
+def _piece(style: str, text: str) -> str:
+    return rf"\({style}{escape(text, quote=False)}\)"
 
 
 @singledispatch
@@ -130,7 +148,34 @@ def html(part: Any, lang: str, *, ask: bool | None = None) -> str:
 
 @html.register
 def _(part: tuple, lang: str, *, ask: bool | None = None) -> str:  # type: ignore[type-arg]
-    return "".join(html(item, lang, ask=ask) for item in part)
+    return "".join(html(item, lang, ask=ask) for item in _tied(part))
+
+
+def _tied(parts: tuple[Any, ...]) -> Iterator[Any]:
+    """Keep a symbol and the value that follows it, as in f = 50 mm, on one line."""
+    rest = list(parts)
+    while rest:
+        part = rest.pop(0)
+        if not isinstance(part, Maths) or not (rest and _sticks(rest[0])):
+            yield part
+            continue
+        text = ""
+        while rest and isinstance(rest[0], Words) and " " not in text:
+            text += rest.pop(0).text
+        stuck, blank, loose = text.partition(" ")
+        yield Together((part, Words(stuck)))
+        if blank:
+            rest.insert(0, Words(blank + loose))
+
+
+def _sticks(part: Any) -> bool:
+    return isinstance(part, Words) and part.text.startswith("\u00a0")
+
+
+@html.register
+def _(part: Together, lang: str, *, ask: bool | None = None) -> str:
+    inside = "".join(html(item, lang, ask=ask) for item in part.parts)
+    return f'<span class="qg-together">{inside}</span>'
 
 
 @html.register

@@ -53,7 +53,7 @@ def note(template: Template, wish: Wish) -> Note:
         langs=wish.langs,
         words={
             "Front": {lang: front(question) for lang, (question, _) in pairs.items()},
-            "Back": _once({lang: answers(key) for lang, (_, key) in pairs.items()}),
+            "Back": once({lang: answers(key) for lang, (_, key) in pairs.items()}),
             "More": {lang: _more(key) for lang, (_, key) in pairs.items()},
         },
         shared=shared(pairs),
@@ -120,11 +120,12 @@ def answers(key: Key) -> Blocks:
     return tuple(answer(part) for part in key.solution.parts)
 
 
-def _once(said: dict[str, Blocks]) -> dict[str, Blocks]:
-    """Answers that read the same in every language, such as numbers, stand there once."""
+def once(said: dict[str, Blocks]) -> dict[str, Blocks]:
+    """Leave out of the further languages what reads the same in the first, such as numbers."""
     main, *others = said
-    repeated = {lang: tuple(b for b in said[lang] if b not in said[main]) for lang in others}
-    return {main: said[main]} | {lang: blocks for lang, blocks in repeated.items() if blocks}
+    own = {lang: tuple(b for b in said[lang] if b not in said[main]) for lang in others}
+    kept = {lang: own[lang] for lang in others if not all(isinstance(b, Label) for b in own[lang])}
+    return {main: said[main]} | kept
 
 
 def answer(part: PartSolution) -> Paragraph:

@@ -1,0 +1,238 @@
+"""The files themselves: reproducible, well-formed, and right for programs other than Anki."""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+import io
+import json
+import os
+import re
+import sqlite3
+import subprocess
+import sys
+import zipfile
+from dataclasses import replace
+from html.parser import HTMLParser
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import pytest
+from click.testing import CliRunner
+
+from quizgen.cards import build
+from quizgen.cards.tables import COLUMNS, HEADER, as_csv, tsv
+from quizgen.cards.versions import BASE, STEP, modified, raised
+from quizgen.cli import group
+from quizgen.text import Paragraph, Words
+
+ROOT = Path(__file__).parent.parent.parent
+SCRIPT = """
+import hashlib
+from quizgen.cards import build
+from quizgen.cards.apkg import package
+from quizgen.cards.tables import as_csv, tsv
+deck = build("both", seed=1, kinds=("vocab", "formula", "figure", "trap"))
+for data in (package(deck), tsv(deck), as_csv(deck)):
+    print(hashlib.sha256(data).hexdigest())
+"""
+VOID = {"img", "br", "hr"}
+
+
+def digests(hash_seed):
+    run = subprocess.run(
+        [sys.executable, "-c", SCRIPT], capture_output=True, text=True, check=True, cwd=ROOT,
+        env={**os.environ, "PYTHONHASHSEED": hash_seed},
+    )  # fmt: skip
+    return run.stdout.split()
+
+
+def test_the_same_bytes_in_every_process():
+    one, other = digests("1"), digests("2")
+    assert len(one) == 3
+    assert one == other
+
+
+def test_nothing_of_the_machine_is_in_the_package(packed):
+    with zipfile.ZipFile(io.BytesIO(packed)) as archive:
+        assert {entry.date_time for entry in archive.infolist()} == {(1980, 1, 1, 0, 0, 0)}
+        assert {entry.compress_type for entry in archive.infolist()} == {zipfile.ZIP_STORED}
+        database = archive.read("collection.anki2")
+    assert database[:16] == b"SQLite format 3\0"
+    assert int.from_bytes(database[96:100], "big") == 3_040_000
+
+
+def test_the_database_is_sound(packed, tmp_path):
+    with zipfile.ZipFile(io.BytesIO(packed)) as archive:
+        path = tmp_path / "collection.anki2"
+        path.write_bytes(archive.read("collection.anki2"))
+    with sqlite3.connect(path) as connection:
+        assert connection.execute("PRAGMA integrity_check").fetchone() == ("ok",)
+        assert connection.execute("SELECT count(DISTINCT guid) = count(*) FROM notes").fetchone()[0]
+    connection.close()
+
+
+def test_media_of_a_deck_are_listed_once_and_all_named_for_us(packed, deck):
+    with zipfile.ZipFile(io.BytesIO(packed)) as archive:
+        listed = json.loads(archive.read("media"))
+        assert set(archive.namelist()) == {"collection.anki2", "media", *listed}
+    assert all(name.lstrip("_").startswith("qg_") for name in listed.values())
+    assert set(deck.media) == {name for name in listed.values() if name.endswith(".svg")}
+
+
+def test_pictures_have_alt_texts_and_parse(deck):
+    for note in deck.notes:
+        for picture in note.media():
+            assert len(picture.alt) > 40
+            ET.fromstring(picture.data)
+            assert b"http" not in picture.data.replace(b"http://www.w3.org/", b"")
+
+
+class Balance(HTMLParser):
+    """Complains about tags that are not closed in order."""
+
+    def __init__(self):
+        super().__init__()
+        self.open = []
+
+    def handle_starttag(self, tag, attrs):
+        if tag not in VOID:
+            self.open.append(tag)
+        if tag == "img":
+            assert dict(attrs)["alt"]
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+
+def test_every_field_is_well_formed_html(deck):
+    for note in deck.notes:
+        for text in note.fields():
+            parser = Balance()
+            parser.feed(text)
+            assert not parser.open, note.key
+            assert not re.search(r"&(?!amp;|lt;|gt;|quot;|#x27;)", text), note.key
+
+
+def test_guids_depend_on_the_key_alone(deck):
+    other = {note.key: note.guid for note in build("bn", seed=9).notes}
+    for note in deck.notes:
+        assert other[note.key] == note.guid
+        assert note.guid == hashlib.sha256(f"quizgen/{note.key}".encode()).hexdigest()[:20]
+
+
+def test_times_rise_with_version_then_seed_then_languages(deck):
+    note = next(note for note in deck.notes if note.kind == "question")
+    term = next(note for note in deck.notes if note.kind == "vocab")
+    alone = replace(note, langs=("en",))
+    assert modified(note, 0) < modified(note, 1) < modified(replace(note, version=note.version + 1), 0)
+    assert modified(alone, 3) < modified(note, 3) < modified(alone, 4)
+    assert modified(note, 10**9) < modified(replace(note, version=note.version + 1), 0)
+    assert modified(term, 0) == modified(term, 5)
+    assert BASE + 1000 * STEP < 1_700_000_000, "a thousand versions stay in the past"
+
+
+def test_a_change_raises_only_its_own_version():
+    old = {"a": (3, "x"), "b": (1, "y"), "gone": (2, "z")}
+    new = raised(old, {"a": "x", "b": "changed", "c": "new"})
+    assert new == {"a": (3, "x"), "b": (2, "changed"), "c": (1, "new"), "gone": (2, "z")}
+
+
+def nasty(deck):
+    """A deck of one note that holds everything a table might trip over."""
+    text = 'tab\there, "quotes", comma, line\nbreak; # <b>&amp;'
+    note = next(note for note in deck.notes if note.kind == "trap")
+    words = {name: {"en": (Paragraph((Words(text),)),)} for name in ("Front", "Back")}
+    return text, replace(deck, notes=(replace(note, words=words, langs=("en",)),))
+
+
+def test_csv_gives_every_text_back(deck):
+    text, single = nasty(deck)
+    data = as_csv(single).decode("utf-8-sig")
+    head, row = csv.reader(io.StringIO(data, newline=""))
+    assert tuple(head) == COLUMNS
+    assert row[3] == row[4] == text
+
+
+def test_csv_has_a_row_per_card_and_typed_formulas(deck):
+    rows = list(csv.DictReader(io.StringIO(as_csv(deck).decode("utf-8-sig"), newline="")))
+    sides = sum(1 if note.form == "cloze" else len(note.cards()) for note in deck.notes)
+    assert len(rows) == sides
+    assert len({row["id"] for row in rows}) == sides
+    projection = next(row for row in rows if "p'_x = f*p_x/p_z" in row["back"])
+    assert "p'_x = [...]" in projection["front"]
+    assert not any(re.search(r"\\\(|<p>|<div", row["front"] + row["back"]) for row in rows)
+
+
+def test_tsv_stays_one_line_per_card(deck):
+    text, single = nasty(deck)
+    lines = tsv(single).decode().splitlines()
+    assert tuple(lines[: len(HEADER)]) == HEADER
+    (row,) = csv.reader(lines[len(HEADER) :], delimiter="\t")
+    assert len(row) == len(COLUMNS)
+    assert "&lt;b&gt;&amp;amp;" in row[3]
+    assert text.split("\n")[0].split("\t")[1] in row[3]
+
+
+def test_anki_reads_the_tsv(deck, collection, tmp_path):
+    """Anki takes the header lines as they are: deck, tags and stable ids."""
+    from anki.import_export_pb2 import ImportCsvRequest
+
+    path = tmp_path / "quizgen.tsv"
+    path.write_bytes(tsv(deck))
+
+    def bring_in():
+        metadata = collection.get_csv_metadata(path=str(path), delimiter=None)
+        return collection.import_csv(ImportCsvRequest(path=str(path), metadata=metadata)).log
+
+    rows = len(tsv(deck).decode().splitlines()) - len(HEADER)
+    first = bring_in()
+    assert len(first.new) == rows
+    assert collection.find_cards("deck:Quizgen::Noise")
+    assert collection.find_notes("tag:quizgen::kind::trap")
+    again = bring_in()
+    assert not again.new
+    assert len(collection.find_notes("")) == rows
+
+
+def run(*arguments):
+    return CliRunner().invoke(group, ["cards", *map(str, arguments)])
+
+
+def test_the_command_writes_what_is_asked(tmp_path):
+    result = run("--lang", "bn", "--topic", "noise", "--kind", "vocab,trap", "--format",
+                 "apkg,tsv,csv", "--out", tmp_path / "out")  # fmt: skip
+    assert result.exit_code == 0, result.output
+    assert {p.name for p in (tmp_path / "out").iterdir()} == {
+        "quizgen.apkg", "quizgen.tsv", "quizgen.csv"
+    }  # fmt: skip
+    text = (tmp_path / "out" / "quizgen.csv").read_text("utf-8-sig")
+    assert "Quizgen::Noise" in text
+    assert "Quizgen::Colour" not in text
+    assert "quizgen::lang::en" not in text
+
+
+def test_pictures_of_a_table_lie_beside_it(tmp_path):
+    result = run("--kind", "figure", "--format", "tsv", "--out", tmp_path)
+    assert result.exit_code == 0, result.output
+    used = set(re.findall(r'src=""(.*?)""', (tmp_path / "quizgen.tsv").read_text("utf-8")))
+    assert used == {path.name for path in (tmp_path / "media").iterdir()}
+    assert used
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--format", "pdf"], ["pdf", "apkg, tsv, csv"]),
+        (["--kind", "terms"], ["terms", "vocab"]),
+        (["--topic", "cooking"], ["cooking", "noise"]),
+        (["--from-marks", "missing.json"], ["missing.json"]),
+    ],
+)
+def test_bad_wishes_get_one_clear_line(arguments, words, tmp_path):
+    result = run(*arguments, "--out", tmp_path / "out")
+    assert result.exit_code != 0
+    message = result.output + str(result.exception)
+    for word in words:
+        assert word in message
+    assert not (tmp_path / "out").exists()
