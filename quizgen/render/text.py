@@ -59,6 +59,7 @@ def _solution(part: PartSolution, lang: str) -> Iterator[str]:
     for line in part.lines:
         yield f"   {line.maths.typed}"
         yield f"      {inline(line.why)}"
-    yield f"{word(lang, 'solution.answer')}: {part.answer}"
+    yield f"{word(lang, 'solution.answer')}: {part.answer}".rstrip()
+    yield from (f"   - {inline(option)}" for option in part.options)
     for mistake in part.mistakes:
         yield f"   ! {mistake.value}  {mistake.name}: {inline(mistake.sentence)}"
