@@ -227,7 +227,9 @@ class _Sheet:
                 inline(getattr(f, side)[place][1], lang)
                 for f, lang in zip(fields, self.langs, strict=True)
             ]
-            rows.append(f"#option({string(mark)}, [{_joined(self.langs, texts)}])")
+            box = self.kind == "exam" and fields[0].kind in {"choice", "multi"}
+            name = "tick" if box else "option"
+            rows.append(f"#{name}({string(mark)}, [{_joined(self.langs, texts)}])")
         return rows
 
     def _solution(self, item: Item, index: int) -> str:
