@@ -127,8 +127,8 @@ def _report(folder: Path, paper: Paper, contents: dict[str, bytes], *, kept: boo
         click.echo(f"  {folder / name}")
     if kept:
         click.echo(f"  {folder / FORM} holds answers and was left as it is")
-    count = len(paper.items)
-    click.echo(f"{count} question{'s' if count != 1 else ''}, {float(paper.points):g} points, {paper.minutes} min")
+    count = f"{len(paper.items)} question{'s' if len(paper.items) != 1 else ''}"
+    click.echo(f"{count}, {float(paper.points):g} points, {paper.minutes} min")
     if paper.variety:
         click.echo(f"One of {paper.variety_text} papers that this blueprint can make")
     click.echo(f"Code: {paper.code}   (quizgen exam --code {paper.code} makes this paper again)")
