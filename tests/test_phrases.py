@@ -1,0 +1,131 @@
+"""Phrases that follow from numbers, key points, examples and one-step tolerances of templates."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+from quizgen.bank import Bank
+from quizgen.check import mark
+from quizgen.draw import admissible, draw, plan_of, reference
+from quizgen.numbers import rational
+from quizgen.question import compose
+from quizgen.specs import build, plain
+
+SIZES = """
+topic = "projection"
+tier = "A"
+[draw]
+height = { pick = [2, 12], unit = "m" }
+thing = { words = ["person", "tree"], by = "piecewise(0, height < 5, 1)" }
+[[part]]
+answer = { kind = "tf", true = "height < 5" }
+"""
+PAGE = """# T
+Here is {{ thing }}.
+## words
+- person: a person
+- tree: a tree of {{ height }}
+"""
+
+
+@pytest.fixture
+def sizes(tmp_path: Path):
+    folder = tmp_path / "templates" / "topic" / "sizes"
+    folder.mkdir(parents=True)
+    (folder / "template.toml").write_text(SIZES, encoding="utf-8")
+    (folder / "en.md").write_text(PAGE, encoding="utf-8")
+    return Bank(tmp_path).template("sizes")
+
+
+def test_a_phrase_follows_from_a_number(sizes):
+    drawn = [draw(sizes, seed) for seed in range(30)]
+    found = {(str(one.shown["height"]), one.words["thing"]) for one in drawn}
+    assert found == {("2", "person"), ("12", "tree")}
+
+
+def test_a_phrase_may_contain_a_drawn_value(sizes):
+    stems = {plain(compose(sizes, seed)[0].stem[0].children) for seed in range(30)}
+    assert stems == {"Here is a person.", "Here is a tree of 12\u00a0m."}
+
+
+@pytest.mark.parametrize(("template", "low", "high"), [("C14", "1.5", "2"), ("C14", "70", "150")])
+def test_named_objects_have_plausible_sizes(bank, template, low, high):
+    fitting = {"person", "statue"} if Fraction(high) < 5 else {"tower", "mast"}
+    for seed in range(300):
+        one = draw(bank.template(template), seed)
+        if Fraction(low) <= Fraction(str(one.shown["p_y"])) <= Fraction(high):
+            assert one.words["thing"] in fitting
+
+
+def verdict_of(template, value):
+    shown = {"I": value, "I_min": "0", "I_max": "255", "N_min": "-1", "N_max": "1"}
+    return admissible(plan_of(template), {name: rational(text) for name, text in shown.items()})
+
+
+def test_dividing_by_256_is_told_apart_as_it_would_be_written(bank):
+    """64/255 = 0.25098 is 0.251, 64/256 is 0.250; 20/255 and 20/256 both round to 0.078."""
+    _, traps = verdict_of(bank.template("A4"), "64")
+    assert "one-more" in traps[0]
+    assert verdict_of(bank.template("A4"), "20") == "trap 'one-more' cannot be told from 'the key'"
+
+
+def test_half_a_unit_is_accepted_in_one_step(bank):
+    spec = build(reference(bank.template("A4")), 0)
+    assert mark(spec, "0.251").verdict == "correct"
+    assert mark(spec, "64/255").verdict == "correct"
+    assert mark(spec, "0.25").note == "trap:one-more"
+
+
+def test_percent_tolerances_are_in_percent(bank):
+    spec = build(reference(bank.template("C12")), 3)
+    assert mark(spec, "56.25 %").verdict == "correct"
+    assert mark(spec, "56.7 %").verdict == "correct"
+    assert mark(spec, "57 %").verdict == "wrong"
+    assert mark(spec, "93.75 %").note == "trap:inner-for-outer"
+
+
+@pytest.mark.parametrize(
+    ("typed", "found"),
+    [
+        ("The eye is most sensitive to green, and green carries the luminance", {"eye", "detail"}),
+        ("চোখ সবুজে সবচেয়ে সংবেদনশীল", {"eye"}),
+    ],
+)
+def test_key_points_are_found_in_both_languages(bank, typed, found):
+    verdict = mark(build(draw(bank.template("B6"), 0), 0), typed)
+    assert verdict.note == "self-mark"
+    assert set(verdict.fields["found"]) == found
+
+
+def test_the_solution_of_a_text_question_shows_its_key_points(bank):
+    _, key = compose(bank.template("B6"), 0, "bn")
+    assert [plain(point)[:3] for point in key.solution.parts[0].options] == ["চোখ", "lum"]
+
+
+@pytest.mark.parametrize(
+    ("typed", "verdict"),
+    [
+        ("q_x = 12; q_y = 18; q_z = 6", "correct"),
+        ("2; 3; 1", "correct"),
+        ("6; 9; 3", "wrong"),
+        ("-6; -9; -3", "wrong"),
+        ("12; 18; 3", "wrong"),
+    ],
+)
+def test_any_other_point_of_the_ray_in_front_of_the_camera_counts(bank, typed, verdict):
+    spec = build(reference(bank.template("A3ray")), 1)
+    assert mark(spec, typed).verdict == verdict
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_the_letters_asked_for_are_those_of_the_picture(bank, seed):
+    """The figure's own table of permutations decides where each edit stands."""
+    from quizgen.figures.hsv_edits import edit_order
+
+    one = draw(bank.template("Q1a"), seed)
+    order = edit_order(float(int(one.shown["order"].p)))
+    expected = [["ABCD"[order.index(edit)]] for edit in ("V", "S", "H")]
+    assert [gap[:1] for gap in build(one, 0)["accept"]] == expected
