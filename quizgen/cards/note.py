@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from quizgen.cards.prose import Hole, Picture, html, pictures, plain
+from quizgen.cards.prose import Hole, Picture, Said, html, pictures, plain
 
 Blocks = tuple[Any, ...]
 Words = Mapping[str, Blocks]
@@ -135,7 +135,7 @@ class Note:
     def said(self, name: str) -> Blocks:
         """A field in every language of the note, one after the other."""
         words = self.words.get(name, {})
-        return tuple(part for lang in self.langs for part in words.get(lang, ()))
+        return tuple(Said(lang, words[lang]) for lang in self.langs if lang in words)
 
 
 def side_html(blocks: Blocks, lang: str, *, ask: bool) -> str:

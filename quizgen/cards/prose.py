@@ -75,6 +75,14 @@ class Together:
 
 
 @dataclass(frozen=True, slots=True)
+class Said:
+    """Blocks in one language, marked as such for screen readers and fonts."""
+
+    lang: str
+    body: tuple[Any, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Label:
     """A short line that says what is asked, or what follows."""
 
@@ -267,6 +275,12 @@ def _(part: Fold, lang: str, *, ask: bool | None = None) -> str:
 
 
 @html.register
+def _(part: Said, lang: str, *, ask: bool | None = None) -> str:
+    del lang
+    return f'<div lang="{part.lang}">{html(part.body, part.lang, ask=ask)}</div>'
+
+
+@html.register
 def _(part: Label, lang: str, *, ask: bool | None = None) -> str:
     del lang, ask
     return f'<div class="qg-label">{escape(part.text, quote=False)}</div>'
@@ -359,11 +373,16 @@ def _(part: Fold, *, ask: bool = False) -> str:
     return f"{part.title}: {plain(part.body, ask=ask)}"
 
 
+@plain.register
+def _(part: Said, *, ask: bool = False) -> str:
+    return plain(part.body, ask=ask)
+
+
 def pictures(part: Any) -> tuple[Picture, ...]:
     """Every picture in blocks."""
     if isinstance(part, Picture):
         return (part,)
-    inside = part.body if isinstance(part, Fold) else part
+    inside = part.body if isinstance(part, Fold | Said) else part
     if isinstance(inside, tuple):
         return tuple(found for item in inside for found in pictures(item))
     return ()

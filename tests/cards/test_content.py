@@ -162,6 +162,31 @@ def test_no_bangla_inside_mathjax(deck):
                 assert not BENGALI.search(formula), note.key
 
 
+COMMANDS = {
+    "\\" + name
+    for line in (
+        "alpha approx arctan bar begin beta bmod boldsymbol cdot chi circ cos delta Delta det",
+        "displaystyle dots ell end eta exp frac gamma ge gg hat in int kappa lambda lceil le left",
+        "lfloor lim ll ln log mathbf mathcal mathrm mathsf max mid min mu neq nu omega Omega",
+        "operatorname phi Phi pi pm prod propto psi rceil rfloor rho right Rightarrow sigma Sigma",
+        "sim sin sqrt sum tan tau text theta Theta tilde times to underset varepsilon varphi xi",
+        "zeta arcsin arccos leq geq",
+    )
+    for name in line.split()
+}
+
+
+def test_mathjax_knows_every_command(deck):
+    """Commands that MathJax 3 has in the configuration that Anki ships; braces in balance."""
+    for note in deck.notes:
+        for text in note.fields():
+            for formula in re.findall(r"\\\((.*?)\\\)", text):
+                assert set(re.findall(r"\\[A-Za-z]+", formula)) <= COMMANDS, (note.key, formula)
+                bare = re.sub(r"\\[{}]", "", formula)
+                assert bare.count("{") == bare.count("}"), (note.key, formula)
+                assert "}}" not in bare, (note.key, formula)
+
+
 def test_cloze_braces_close_only_once(authored):
     for note in authored.notes:
         if note.form == "cloze":

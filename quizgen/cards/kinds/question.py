@@ -8,11 +8,11 @@ from typing import Any
 from quizgen.cards.content import entries, words
 from quizgen.cards.deck import Wish
 from quizgen.cards.note import Blocks, Note
-from quizgen.cards.prose import Display, Fold, Label, Picture
+from quizgen.cards.prose import Display, Fold, Label, Picture, Said
 from quizgen.cards.versions import template_version
 from quizgen.locale import word
 from quizgen.question import Key, Part, Question, instance, put_into_words
-from quizgen.solution import Line, PartSolution
+from quizgen.solution import PartSolution
 from quizgen.template import Template
 from quizgen.text import Items, Paragraph, Styled, Words
 
@@ -147,14 +147,11 @@ def _work(keys: list[Key]) -> Blocks:
 
 def steps(keys: list[Key], index: int) -> Iterator[Any]:
     """The worked lines of one part: each formula once, with a sentence per language."""
+    langs = [key.solution.lang for key in keys]
     for same in zip(*(key.solution.parts[index].lines for key in keys), strict=True):
-        yield from _step(same)
-
-
-def _step(same: tuple[Line, ...]) -> Iterator[Any]:
-    yield Display(same[0].maths)
-    for line in same:
-        yield Paragraph(line.why)
+        yield Display(same[0].maths)
+        for lang, line in zip(langs, same, strict=True):
+            yield Said(lang, (Paragraph(line.why),))
 
 
 def _more(key: Key) -> Blocks:
