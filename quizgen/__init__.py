@@ -30,12 +30,15 @@ _HOMES = {
     "build": "quizgen.exam",
     "rebuild": "quizgen.exam",
     "load": "quizgen.blueprint",
-    "render": "quizgen.render",
+    "render_paper": "quizgen.render",
     "mark": "quizgen.check",
     "show": "quizgen.check",
-    "lint": "quizgen.lint",
+    "lint_template": "quizgen.lint",
     "QuizgenError": "quizgen.errors",
 }
+
+_NAMES = {"render_paper": "render", "lint_template": "lint"}
+"""Names that a submodule would hide, and what they are called at home."""
 
 __all__ = [  # noqa: RUF022 - in the order of the line
     "Bank",
@@ -46,10 +49,10 @@ __all__ = [  # noqa: RUF022 - in the order of the line
     "build",
     "rebuild",
     "load",
-    "render",
+    "render_paper",
     "mark",
     "show",
-    "lint",
+    "lint_template",
     "QuizgenError",
 ]
 
@@ -57,4 +60,4 @@ __all__ = [  # noqa: RUF022 - in the order of the line
 def __getattr__(name: str) -> Any:
     if name not in _HOMES:
         raise AttributeError(f"module 'quizgen' has no attribute {name!r}")
-    return getattr(import_module(_HOMES[name]), name)
+    return getattr(import_module(_HOMES[name]), _NAMES.get(name, name))

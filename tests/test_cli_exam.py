@@ -51,7 +51,7 @@ def test_the_code_rebuilds_the_same_bytes(made):
 def test_a_filled_in_form_is_never_overwritten(made, tmp_path):
     run("exam", "--seed", "4", "--blueprint", "trial", "--format", "html", cwd=tmp_path)
     form = tmp_path / "exam" / "answers.toml"
-    form.write_text(form.read_text().replace('"1" = ""', '"1" = "6,67"', 1))
+    form.write_text(form.read_text().replace('"2" = ""', '"2" = "6,67"', 1))
     kept = form.read_bytes()
     assert b"6,67" in kept
     result = run("exam", "--seed", "5", "--blueprint", "trial", "--format", "html", cwd=tmp_path)
