@@ -50,7 +50,7 @@ def from_families(rng: np.random.Generator) -> Iterator[Case]:
 
 
 SCALARS = {
-    "gaussian-tail": (), "thin-lens": (0,), "blur-disc": (0, 1, 2), "far-limit": (0, 1, 2),
+    "gaussian-tail": (), "thin-lens": (0,), "blur-disc": (0, 1, 2), "far-limit": (2,),
     "stops": (), "inverse-distortion": (1, 2), "hue": (), "normalisation": (1, 2, 3, 4),
     "pixel": (0, 1, 4), "weak-perspective": (1,), "snr-loss": (1,), "poisson": (),
     "gamma-gap": (), "vignetting": (1,),

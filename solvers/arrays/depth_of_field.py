@@ -54,38 +54,39 @@ def _limited(formula: Any) -> Any:
     return compute
 
 
-_FAR_AWAY = 0.25
-"""Below this share of the hyperfocal distance plain doubles keep their digits."""
+def _share(f: Any, N: Any, c: Any, s: Any) -> Any:
+    """q = N c (s - f)/f**2, the distance in focus in hyperfocal distances."""
+    return (N * c / (f * f)) * (s - f)
 
 
 def _far_short(f: Any, N: Any, c: Any, s: Any) -> Any:
-    q = N * c * (s - f) / (f * f)
-    return _or_long(s / (1 - q), q, _FAR, (f, N, c, s))
+    q = _share(f, N, c, s)
+    return _or_long(s / (1 - q), q, 0.3, _FAR, (f, N, c, s))
 
 
 def _near_short(f: Any, N: Any, c: Any, s: Any) -> Any:
-    q = N * c * (s - f) / (f * f)
-    return _or_long(s / (1 + q), q, _NEAR, (f, N, c, s))
+    q = _share(f, N, c, s)
+    if q.max() < 0.7:
+        q += 1
+        return s / q
+    return _or_long(s / (1 + q), q, 0.7, _NEAR, (f, N, c, s))
 
 
 def _total_short(f: Any, N: Any, c: Any, s: Any) -> Any:
-    """2 s q/(1 - q**2) with q = B/A to twice the precision."""
-    f, N, c, s = pairs(f, N, c, s)
-    q = (N * c / (f * f)) * (s - f)
-    square = q.high * q.high
-    value = 2 * s.high * q.high / (1 - square)
-    value += value * (q.low / np.maximum(q.high, _LEAST))
-    return _or_long(value, q.high, _TOTAL, (f.high, N.high, c.high, s.high))
+    """2 s q/(1 - q**2), with what rounding N c/f**2 lost put back."""
+    f_pair, N_pair, c_pair = pairs(f, N, c)
+    rate = N_pair * c_pair / (f_pair * f_pair)
+    q = rate.high * (s - f)
+    value = 2 * s * q / (1 - q * q)
+    value += value * (rate.low / rate.high)
+    return _or_long(value, q, 0.6, _TOTAL, (f, N, c, s))
 
 
-_LEAST = 2.0**-900
-
-
-def _or_long(value: Any, q: Any, kernel: Kernel, args: Any) -> Any:
+def _or_long(value: Any, q: Any, limit: float, kernel: Kernel, args: Any) -> Any:
     """Replace elements closer to the hyperfocal distance by the careful way."""
-    if q.max() < _FAR_AWAY:
+    if q.max() < limit:
         return value
-    where = np.flatnonzero(q >= _FAR_AWAY)
+    where = np.flatnonzero(q >= limit)
     some = [arg.take(where) if arg.size > 1 else arg for arg in args]
     careful, doubtful = kernel.compute(*some)
     value[where] = careful

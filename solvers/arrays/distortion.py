@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from .distortion_exact import beyond_exactly, fold_exactly, invert_exactly
-from .domain import NONNEGATIVE, REAL, Array, Flags, Kernel, Numbers, Result, Rule, extreme
+from .domain import NONNEGATIVE, REAL, Array, Flags, Kernel, Numbers, Result, Rule, extreme, nearest
 from .double_double import Pair, pair, pairs
 
 _REACH = 2.0**60
@@ -44,6 +44,25 @@ def _distort(x: Array, y: Array, k1: Array, k2: Array) -> Any:
     if k2.any():
         doubtful |= np.abs(slope.high) < 2.0**-40 * np.abs(k1)
     return ((x_pair * scale).rounded(), (y_pair * scale).rounded()), doubtful
+
+
+def _distort_short(x: Array, y: Array, k1: Array, k2: Array) -> Any:
+    """Plain doubles while the factor is next to 1, pairs for the rest."""
+    r2 = x * x + y * y
+    change = r2 * (k1 + k2 * r2) if k2.any() else r2 * k1
+    scale = 1 + change
+    x_d, y_d = x * scale, y * scale
+    if change.max() > _LARGE_CHANGE or change.min() < -_LARGE_CHANGE:
+        where = np.flatnonzero(np.abs(change) > _LARGE_CHANGE)
+        some = [a.take(where) if a.size > 1 else a for a in (x, y, k1, k2)]
+        (x_d[where], y_d[where]), doubtful = _distort(*some)
+        for i in where[doubtful]:
+            exact = (Fraction(float(a[i if a.size > 1 else 0])) for a in (x, y, k1, k2))
+            x_d[i], y_d[i] = map(nearest, _forward(*exact))
+    return x_d, y_d
+
+
+_LARGE_CHANGE = 0.25
 
 
 def _displacement(r: Array, k1: Array, k2: Array) -> Any:
@@ -184,7 +203,9 @@ def _beyond(r_d: Array, k1: Array, k2: Array) -> Any:
 
 
 _BEYOND = (Rule("beyond-fold", _beyond),)
-_DISTORT = Kernel(_distort, (REAL,) * 4, exact=_forward, reach=2.0**100, outputs=2)
+_DISTORT = Kernel(
+    _distort, (REAL,) * 4, exact=_forward, reach=2.0**100, outputs=2, fast=_distort_short
+)
 _DISPLACEMENT = Kernel(_displacement, (NONNEGATIVE, REAL, REAL), exact=_displacement_exact)
 _FOLD = Kernel(_fold, (REAL, REAL), exact=fold_exactly)
 _INVERSE = Kernel(

@@ -30,8 +30,12 @@ Numbers = npt.ArrayLike
 Result = Any
 """A float for scalar arguments, else an array (masked where there is no answer)."""
 
-BLOCK = 16384
+BLOCK = 12288
 """Elements per block: small enough for the level-2 cache, large enough to hide the loop."""
+
+
+Limits = tuple[float, float]
+"""Least and largest value of a block (NaN when there is one)."""
 
 
 class DomainError(ValueError):
@@ -105,7 +109,9 @@ class Kernel:
     outputs : int
         Number of result arrays.
     fast : callable, optional
-        Shorter way for blocks whose arguments are all positive and within ``reach``.
+        Shorter way for blocks whose arguments are all zero or within ``reach``.
+    watched : sequence of int, optional
+        The arguments for which that matters (all of them by default).
     """
 
     compute: Callable[..., Any]
@@ -115,6 +121,7 @@ class Kernel:
     reach: float = 2.0**120
     outputs: int = 1
     fast: Callable[..., Any] | None = None
+    watched: Sequence[int] | None = None
 
     def __call__(self, *args: Numbers) -> Result:
         """Run the kernel on scalars or arrays that broadcast together."""
@@ -146,8 +153,13 @@ class Kernel:
     def _array(self, args: list[Array], shape: tuple[int, ...]) -> Result:
         columns = [np.empty(math.prod(shape)) for _ in range(self.outputs)]
         masks: list[tuple[int, Flags]] = []
+        fixed = [_limits(arg) if arg.size == 1 else None for arg in args]
+        checks = [self._check(i) for i in range(len(args))]
         for start, block in _blocks(args, columns[0].size):
-            values, bad = self._block(block)
+            limits = [
+                known or check(arg) for known, check, arg in zip(fixed, checks, block, strict=True)
+            ]
+            values, bad = self._block(block, limits)
             stop = start + max(arg.size for arg in block)
             for column, value in zip(
                 columns, values if isinstance(values, tuple) else (values,), strict=True
@@ -158,13 +170,15 @@ class Kernel:
         results = tuple(_with_mask(column, masks).reshape(shape) for column in columns)
         return results if self.outputs > 1 else results[0]
 
-    def _block(self, args: list[Array]) -> tuple[Any, Flags | None]:
-        limits = [(arg.min(), arg.max()) for arg in args]
+    def _check(self, i: int) -> Callable[[Array], Limits]:
+        """How an argument is looked at: only finite, or with its limits."""
+        watched = self.fast is None or self.watched is None or i in self.watched
+        return _limits if watched or self.spans[i] != REAL else _finite_limits
+
+    def _block(self, args: list[Array], limits: list[Limits]) -> tuple[Any, Flags | None]:
         bad = self._bad(args, limits)
         if bad is None:
-            if self.fast is not None and all(
-                low >= 1 / self.reach and high <= self.reach for low, high in limits
-            ):
+            if self.fast is not None and self._moderate(args, limits):
                 return self.fast(*args), None
             return self._checked(args), None
         good = ~bad
@@ -172,7 +186,11 @@ class Kernel:
             return self._checked([arg[good] if arg.size > 1 else arg for arg in args]), bad
         return ((np.empty(0),) * self.outputs if self.outputs > 1 else np.empty(0)), bad
 
-    def _bad(self, args: list[Array], limits: list[tuple[Any, Any]]) -> Flags | None:
+    def _moderate(self, args: list[Array], limits: list[Limits]) -> bool:
+        chosen = range(len(args)) if self.watched is None else self.watched
+        return not any(_may_be_odd(args[i], limits[i], self.reach) for i in chosen)
+
+    def _bad(self, args: list[Array], limits: list[Limits]) -> Flags | None:
         spans = list(zip(self.spans, args, strict=True))
         inside = all(
             span.holds(*limit) for span, limit in zip(self.spans, limits, strict=True)
@@ -218,6 +236,27 @@ def extreme(args: Sequence[Array], reach: float) -> Flags | None:
         if odd.any():
             flags = odd if flags is None else flags | odd
     return flags
+
+
+def _limits(arg: Array) -> Limits:
+    return float(arg.min()), float(arg.max())
+
+
+def _finite_limits(arg: Array) -> Limits:
+    """Any limits will do for finite values, and a finite sum proves them finite."""
+    total = float(arg.sum())
+    return (0.0, 0.0) if math.isfinite(total) else _limits(arg)
+
+
+def _may_be_odd(arg: Array, limits: Limits, reach: float) -> bool:
+    """Whether a block has a value that is neither zero nor within 1/reach .. reach."""
+    low, high = limits
+    if (low >= 1 / reach and high <= reach) or (high <= -1 / reach and low >= -reach):
+        return False
+    if high > reach or low < -reach:
+        return True
+    size = np.abs(arg) if low < 0 else arg
+    return bool(((size < 1 / reach) & (size > 0)).any())
 
 
 def nearest(value: Any) -> float:

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import decimal
 import math
-from collections.abc import Sequence
+import operator
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any
@@ -109,6 +110,8 @@ def _power_kernel(exponent: Fraction) -> Kernel:
 _SLOPE = Pair(12.92, float(Fraction("12.92") - Fraction(12.92)))
 _STRETCH = Pair(1.055, float(Fraction("1.055") - Fraction(1.055)))
 _OFFSET = Pair(0.055, float(Fraction("0.055") - Fraction(0.055)))
+_SHRINK = Pair(0.8794154614021299, 2.4981572779044743e-17)
+"""1.055**-2.4."""
 _ENCODE = _halves(Fraction(5, 12))
 _DECODE = _halves(Fraction(12, 5))
 _KNEE_LINEAR = 0.0031308
@@ -118,13 +121,18 @@ _OVERFLOWS = 2.0**600
 
 
 def _srgb_encode(x: Array) -> Array:
-    bright = (_STRETCH * _power(np.maximum(x, _KNEE_LINEAR), _ENCODE) - _OFFSET).rounded()
+    power = _power(np.maximum(x, _KNEE_LINEAR), _ENCODE)
+    bright = power * _STRETCH.high - _OFFSET.high
+    bright += power * _STRETCH.low - _OFFSET.low
     return _with_toe(bright, x, x <= _KNEE_LINEAR, lambda toe: toe * _SLOPE, 12.92)
 
 
 def _srgb_decode(x: Array) -> Array:
-    base = (pairs(np.clip(x, _KNEE_ENCODED, _OVERFLOWS))[0] + _OFFSET) / _STRETCH
-    bright = _power(base.high, _DECODE) * (1 + 2.4 * (base.low / base.high))
+    base, lost = two_sum(np.minimum(x, _OVERFLOWS), _OFFSET.high)
+    lost += _OFFSET.low
+    lost /= base
+    bright = _power(base, _DECODE) * _SHRINK.high
+    bright += bright * (2.4 * lost + _SHRINK.low / _SHRINK.high)
     return _with_toe(bright, x, x <= _KNEE_ENCODED, lambda toe: toe / _SLOPE, 1 / 12.92)
 
 
@@ -186,51 +194,50 @@ def srgb_decode(encoded: Numbers) -> Result:
 
 
 # The gap enc(mean) - mean(enc). With m the mean and d = |b - a|/(a + b) it is m**e g(d**2),
-# g(q) = 1 - ((1 + d)**e + (1 - d)**e)/2 = sum of c_j q**j with all c_j of one sign.
+# g(q) = 1 - ((1 + d)**e + (1 - d)**e)/2: a polynomial in q = d**2 while d <= 3/4.
 
 _SERIES = 0.5
 _SHIFTED = 0.75
-_CENTRE = 0.4
-_DIGITS = decimal.Context(prec=50)
+_CENTRE = 0.40625
+_DIGITS = decimal.Context(prec=60)
+
+Exactly = Callable[[decimal.Decimal], decimal.Decimal]
 
 
-def _series(e: Fraction) -> list[Fraction]:
-    """Coefficients -C(e, 2j) for j = 1, 2, ... far enough for q <= 0.5625."""
-    coefficients, binomial = [], Fraction(1)
-    for j in range(1, 161):
-        binomial *= (e - 2 * j + 2) * (e - 2 * j + 1) / ((2 * j - 1) * (2 * j))
-        binomial = binomial.limit_denominator(10**60)
-        coefficients.append(-binomial)
-    return coefficients
-
-
-def _around_centre(e: Fraction) -> list[float]:
-    """Taylor coefficients of g around q = 0.4."""
-    values = [_DIGITS.divide(*map(decimal.Decimal, c.as_integer_ratio())) for c in _series(e)]
-    values.insert(0, decimal.Decimal(0))
-    centre = decimal.Decimal(_CENTRE)
-    result = []
-    for n in range(30):
-        total = decimal.Decimal(0)
-        for c in reversed(values):
-            total = _DIGITS.fma(total, centre, c)
-        result.append(float(total))
-        values = [
-            _DIGITS.divide(_DIGITS.multiply(c, decimal.Decimal(j)), decimal.Decimal(n + 1))
-            for j, c in enumerate(values)
-        ][1:]
+def _interpolate(function: Exactly, low: float, high: float, centre: float, count: int) -> Any:
+    """Coefficients, in powers of x - centre, of the polynomial through Chebyshev points."""
+    middle, half = (low + high) / 2, (high - low) / 2
+    angles = (math.pi * (i + 0.5) / count for i in range(count))
+    nodes = [decimal.Decimal(middle + half * math.cos(angle)) for angle in angles]
+    table = [function(node) for node in nodes]
+    for order in range(1, count):  # divided differences
+        for i in range(count - 1, order - 1, -1):
+            rise = _DIGITS.subtract(table[i], table[i - 1])
+            table[i] = _DIGITS.divide(rise, _DIGITS.subtract(nodes[i], nodes[i - order]))
+    result = [Fraction(0)] * count
+    for value, node in zip(reversed(table), reversed(nodes), strict=True):
+        shift = Fraction(centre) - Fraction(node)
+        shifted = [shift * c for c in result]
+        result = [shifted[0] + Fraction(value), *map(operator.add, shifted[1:], result)]
     return result
 
 
-def _one_sided(e: Fraction) -> list[Fraction]:
-    """Taylor coefficients of 1 - (1 + d)**e/2 around d = 7/8."""
+def _direct(e: Fraction) -> tuple[Exactly, Exactly, Exactly]:
+    """g(q)/q, g(q) and 1 - (1 + d)**e/2 in sixty-digit decimals."""
     exponent = _DIGITS.divide(*map(decimal.Decimal, e.as_integer_ratio()))
-    base = Fraction(_DIGITS.power(decimal.Decimal("1.875"), exponent))
-    coefficients, binomial = [1 - base / 2], Fraction(1)
-    for j in range(1, 16):
-        binomial *= (e - j + 1) / j
-        coefficients.append(-binomial * base / Fraction("1.875") ** j / 2)
-    return coefficients
+
+    def power(x: decimal.Decimal) -> decimal.Decimal:
+        return _DIGITS.power(x, exponent)
+
+    def gap_of(q: decimal.Decimal) -> decimal.Decimal:
+        d = _DIGITS.sqrt(q)
+        pair = power(_DIGITS.add(1, d)), power(_DIGITS.subtract(1, d))
+        return _DIGITS.subtract(1, _DIGITS.divide(_DIGITS.add(*pair), 2))
+
+    def smooth(d: decimal.Decimal) -> decimal.Decimal:
+        return _DIGITS.subtract(1, _DIGITS.divide(power(_DIGITS.add(1, d)), 2))
+
+    return (lambda q: _DIGITS.divide(gap_of(q), q)), gap_of, smooth
 
 
 def _horner(coefficients: Sequence[float], x: Array) -> Array:
@@ -247,10 +254,12 @@ class _Gap:
     def __init__(self, e: Fraction) -> None:
         self.fraction = e
         self.exponent = _halves(e)
-        first, *rest = _series(e)[:29]
+        over_q, of_q, smooth = _direct(e)
+        first, *rest = _interpolate(over_q, 0.0, _SERIES**2, 0.0, 16)
         self.start, self.series = Pair(*_halves(first)), [float(c) for c in rest]
-        self.around = _around_centre(e)
-        first, *rest = _one_sided(e)
+        around = _interpolate(of_q, _SERIES**2, _SHIFTED**2, _CENTRE, 20)
+        self.around = [float(c) for c in around]
+        first, *rest = _interpolate(smooth, _SHIFTED, 1.0, 0.875, 13)
         self.smooth_start, self.smooth = Pair(*_halves(first)), [float(c) for c in rest]
 
     def __call__(self, a: Array, b: Array) -> Array:

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from .domain import NONNEGATIVE, POSITIVE, REAL, Array, Kernel, Numbers, Result, Rule, Span
-from .double_double import two_product, two_sum
+from .double_double import split, two_product, two_sum
 from .tables import CENTRAL, MILLS, MILLS_SCALE, MILLS_SHIFT
 
 _PEAK = 0.3989422804014327
@@ -115,14 +115,44 @@ def _log_tail(k: Array) -> Array:
 
 
 def _pdf(x: Array, mu: Array, sigma: Array) -> Array:
-    largest = max(np.abs(x).max(), np.abs(mu).max(), sigma.max())
+    largest = max(x.max(), -x.min(), mu.max(), -mu.min(), sigma.max())
     if largest < _TOP and sigma.min() > 1 / _TOP:
-        return _bell(*two_sum(x, -mu), sigma, None)
+        short = _pdf_short(x, mu, sigma)
+        return short if short is not None else _bell(*two_sum(x, -mu), sigma, None)
     scale = np.where(np.maximum(np.abs(x), np.abs(mu)) > 2.0**1000, 0.25, 1.0)
     size, shift = np.frexp(sigma)
     distance, lost = two_sum(x * scale, -mu * scale)
     by = 2 * (scale < 1) - shift
     return _bell(np.ldexp(distance, by), np.ldexp(lost, by), size, shift)
+
+
+_QUANTUM = 1.5 * 2.0**32
+"""Adding and taking away this rounds a number below 2**31 to a multiple of 2**-20."""
+
+
+def _pdf_short(x: Array, mu: Array, sigma: Array) -> Array | None:
+    """With z = h + y and h in 26 bits, h**2 is exact and the rest is a short series."""
+    distance, lost = two_sum(x, -mu) if mu.any() else (x, 0.0)
+    z = distance / sigma
+    if not (z.max() < _SHORT and z.min() > -_SHORT):
+        return None
+    h = z + _QUANTUM
+    h -= _QUANTUM
+    upper, lower = split(sigma)
+    y = (distance - h * upper) - h * lower + lost
+    y /= sigma
+    rest = y * (h + 0.5 * y)
+    h *= h
+    h *= -0.5
+    value: Array = np.exp(h)
+    value *= _PEAK / sigma
+    rest *= 1 - rest * (0.5 - rest / 6)
+    rest -= _PEAK_LOST
+    value -= value * rest
+    return value
+
+
+_SHORT = 36.0
 
 
 def _bell(distance: Array, lost: Array, sigma: Array, shift: Any) -> Array:

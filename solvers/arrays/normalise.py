@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from .domain import REAL, Array, Kernel, Numbers, Result, Rule, nearest
+from .domain import BLOCK, REAL, Array, Kernel, Numbers, Result, Rule, nearest
 from .double_double import Pair, pairs
 
 _CANCELLED = 2.0**-48
@@ -48,7 +48,7 @@ def _along_line(I: Array, *ends: float) -> Any:
 @lru_cache(maxsize=64)
 def _whole_line(*ends: float) -> tuple[float, float, float] | None:
     """Whole numbers with N = (slope I + start)/width exactly, when the ends are whole."""
-    if any(end != round(end) or abs(end) >= _SHORT for end in ends):
+    if not all(abs(end) < _SHORT and end == round(end) for end in ends):
         return None
     a, b, c, d = (int(end) for end in ends)
     if b <= a:
@@ -57,24 +57,23 @@ def _whole_line(*ends: float) -> tuple[float, float, float] | None:
     return float((d - c) // common), float((c * b - d * a) // common), float((b - a) // common)
 
 
-@lru_cache(maxsize=64)
-def _whole_kernel(*ends: float) -> Kernel | None:
-    """Whole intensities between whole ends: one quotient of exactly known numbers."""
-    line = _whole_line(*map(float, ends))
-    if line is None:
+def _by_whole_numbers(I: Any, ends: tuple[Any, ...]) -> Any:
+    """Whole intensities between whole ends: one quotient of exactly known numbers, or None."""
+    line = _whole_line(*map(float, ends)) if all(np.ndim(end) == 0 for end in ends) else None
+    if line is None or np.ndim(I) == 0:
         return None
     slope, start, width = line
-
-    def compute(I: Array) -> Any:
-        if np.array_equal(np.rint(I), I):
-            top = slope * I
-            top += start
-            if max(abs(top.min()), abs(top.max())) < _LARGEST:
-                top /= width
-                return top
-        return np.ma.getdata(_NORMALISE(I, *ends))
-
-    return Kernel(compute, (REAL,))
+    flat = np.asarray(I, dtype=np.float64).reshape(-1)
+    out = np.empty(flat.size)
+    for first in range(0, flat.size, BLOCK):
+        block = flat[first : first + BLOCK]
+        top = block * slope
+        top += start
+        whole = bool((np.rint(block) == block).all())
+        if not (whole and float(top.max()) < _LARGEST and float(top.min()) > -_LARGEST):
+            return None
+        np.divide(top, width, out=out[first : first + BLOCK])
+    return out.reshape(np.shape(I))
 
 
 @lru_cache(maxsize=64)
@@ -131,8 +130,10 @@ def normalise(
         ``empty-range`` (high <= low), ``not-finite`` (arrays: masked).
     """
     ends = (low, high, new_low, new_high)
-    whole = _whole_kernel(*ends) if all(np.ndim(end) == 0 for end in ends) else None
-    value = _NORMALISE(I, *ends) if whole is None else whole(I)
+    with np.errstate(all="ignore"):
+        value = _by_whole_numbers(I, ends)
+    if value is None:
+        value = _NORMALISE(I, *ends)
     return _clamped(value, new_low, new_high) if clamp else value
 
 

@@ -7,7 +7,7 @@ tails by summing terms away from the mean, and by Temme's uniform expansion (SIA
 
 from __future__ import annotations
 
-from typing import Any
+import math
 
 import numpy as np
 
@@ -49,6 +49,24 @@ def _density(k: Array, lam: Array) -> Array:
 
 
 def _pmf(k: Array, lam: Array) -> Array:
+    most, least = lam.max(), lam.min()
+    if k.max() <= _FACTORIALS.size - 1 and least >= _SMALL_MEAN and most <= _LARGE_MEAN:
+        if k.max() * max(math.log(most), -math.log(least), 1.0) < _LARGE_MEAN:
+            return _pmf_short(k, lam)
+    return _pmf_long(k, lam)
+
+
+_FACTORIALS = np.array([float(math.factorial(k)) for k in range(171)])
+_SMALL_MEAN, _LARGE_MEAN = 1e-4, 690.0
+
+
+def _pmf_short(k: Array, lam: Array) -> Array:
+    """The definition, where neither power nor factorial leaves the range."""
+    value: Array = lam**k * np.exp(-lam) / _FACTORIALS.take(k.astype(np.intp))
+    return value
+
+
+def _pmf_long(k: Array, lam: Array) -> Array:
     k, lam = np.broadcast_arrays(k, lam)
     inside = (k > 0) & (lam > 0) & (k < _LARGEST) & (lam < _LARGEST)
     inside &= lam > k / _LARGEST

@@ -9,16 +9,18 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from .domain import POSITIVE, REAL, Array, Kernel, Numbers, Result, Rule
+from .domain import BLOCK, POSITIVE, REAL, Array, Kernel, Numbers, Result, Rule
 from .double_double import pairs
 
 _LARGEST = 2.0**53
-_SCALES = (1, 10**3, 10**6, 10**9)
+_SCALES = (1, 10, 10**3, 10**6, 10**9)
 _NEXT_TO_HALF = 2.0**-20
+_SAMPLE = 64
 
 
 class Projected(NamedTuple):
@@ -29,13 +31,25 @@ class Projected(NamedTuple):
     behind: Any
 
 
-_ON_PLANE = Rule("on-camera-plane", lambda _f, _x, z: z == 0)
+def _project(f: Any, x: Any, y: Any, z: Any) -> Any:
+    return f * x / z, f * y / z
+
+
+def _project_short(f: Any, x: Any, y: Any, z: Any) -> Any:
+    """f/z first: it is neither huge nor tiny, so only the results round."""
+    scale = f / z
+    return x * scale, y * scale
+
+
 _PROJECT = Kernel(
-    lambda f, x, z: (f * x / z, None),
-    (POSITIVE, REAL, REAL),
-    (_ON_PLANE,),
-    exact=lambda f, x, z: f * x / z,
+    lambda *args: (_project(*args), None),
+    (POSITIVE, REAL, REAL, REAL),
+    (Rule("on-camera-plane", lambda _f, _x, _y, z: z == 0),),
+    exact=_project,
     reach=2.0**300,
+    outputs=2,
+    fast=_project_short,
+    watched=(0, 3),
 )
 
 
@@ -59,7 +73,8 @@ def project(f: Numbers, p_x: Numbers, p_y: Numbers, p_z: Numbers) -> Projected:
     DomainError
         ``on-camera-plane`` (p_z = 0), ``not-positive``, ``not-finite`` (arrays: masked).
     """
-    return Projected(_PROJECT(f, p_x, p_z), _PROJECT(f, p_y, p_z), behind(p_z))
+    x, y = _PROJECT(f, p_x, p_y, p_z)
+    return Projected(x, y, behind(p_z))
 
 
 def behind(p_z: Numbers) -> Any:
@@ -88,41 +103,70 @@ def _decimal_pixel(*args: Fraction) -> Fraction:
 
 
 def _pixels(f: Array, pitch: Array, x: Array, z: Array, o: Array) -> Any:
-    exact = _by_integers(f, pitch, x, z, o)
-    if exact is not None:
-        return exact, None
     value = _pixel(*pairs(f, pitch, x, z, o)).rounded()
     twice = 2 * value
     cancelled = np.abs(value) < np.abs(value - o)
     return value, cancelled | (np.abs(twice - np.rint(twice)) < _NEXT_TO_HALF)
 
 
-def _by_integers(*columns: Array) -> Array | None:
+def _by_integers(f: float, pitch: float, x: Array, z: Array, o: float) -> Array | None:
     """o + f x/(pitch z) as one quotient of exactly known integers, or None if they are long."""
-    found = [_integers(column) for column in columns]
-    known = [one for one in found if one is not None]
-    if len(known) < len(columns):
+    scaled_x, scaled_z = _integers(x), _integers(z)
+    if scaled_x is None or scaled_z is None:
         return None
-    (f, pitch, x, z, o), (by_f, by_pitch, by_x, by_z, by_o) = zip(*known, strict=True)
-    left, right = by_f * by_x, by_o * by_pitch * by_z
-    common = math.gcd(left, right)
-    left, right = left // common, right // common
-    largest = [float(np.abs(column).max()) for column in (f, pitch, x, z, o)]
-    depth = largest[1] * largest[3] * left
-    if max(depth * by_o, depth * largest[4] + largest[0] * largest[2] * right) >= _LARGEST:
+    (x, by_x), (z, by_z) = scaled_x, scaled_z
+    of_z, of_x, below = _factors(f, pitch, o, by_x, by_z)
+    widest = max(float(x.max()), -float(x.min()))
+    deepest = max(float(z.max()), -float(z.min()))
+    if max(abs(of_z) * deepest + of_x * widest, below * deepest) >= _LARGEST:
         return None
-    below = pitch * z * float(left)
-    result: Array = (o * below + f * x * float(right)) / (below * float(by_o))
+    result: Array = z * float(of_z)
+    result += x * float(of_x)
+    result /= z * float(below)
     return result
+
+
+@lru_cache(maxsize=64)
+def _factors(f: float, pitch: float, o: float, by_x: int, by_z: int) -> tuple[int, int, int]:
+    """Integers a, b, c with u = (a z + b x)/(c z) for whole x and z."""
+    g, start = Fraction(repr(f)) / Fraction(repr(pitch)), Fraction(repr(o))
+    factors = (
+        start.numerator * g.denominator * by_x,
+        start.denominator * g.numerator * by_z,
+        start.denominator * g.denominator * by_x,
+    )
+    common = math.gcd(*factors)
+    a, b, c = (factor // common for factor in factors)
+    return a, b, c
 
 
 def _integers(values: Array) -> tuple[Array, int] | None:
     """Integers m and a power of ten with values = m/10**k, all read as decimals."""
+    few = values[:_SAMPLE]
     for scale in _SCALES:
-        whole = np.rint(values * float(scale))
-        if np.array_equal(whole / float(scale), values):
-            return whole, scale
+        if (np.rint(few * scale) / scale == few).all():
+            whole = np.rint(values * float(scale)) if scale > 1 else np.rint(values)
+            if ((whole / float(scale) if scale > 1 else whole) == values).all():
+                return whole, scale
     return None
+
+
+def _by_blocks(f: Numbers, pitch: Numbers, x: Numbers, z: Numbers, o: Numbers) -> Array | None:
+    """The short decimals of an exam, or None when anything needs a closer look."""
+    if any(np.ndim(arg) for arg in (f, pitch, o)) or np.ndim(x) == 0 or np.shape(x) != np.shape(z):
+        return None
+    camera = [float(np.asarray(arg, dtype=np.float64)) for arg in (f, pitch, o)]
+    if not (all(map(math.isfinite, camera)) and camera[0] > 0 and camera[1] > 0):
+        return None
+    columns = [np.asarray(arg, dtype=np.float64).reshape(-1) for arg in (x, z)]
+    out = np.empty(columns[0].size)
+    for start in range(0, out.size, BLOCK):
+        across, depth = (column[start : start + BLOCK] for column in columns)
+        part = _by_integers(camera[0], camera[1], across, depth, camera[2])
+        if part is None or not depth.all():
+            return None
+        out[start : start + BLOCK] = part
+    return out.reshape(np.shape(x))
 
 
 _PIXEL = Kernel(
@@ -160,7 +204,9 @@ def pixel(f: Numbers, pitch: Numbers, x: Numbers, z: Numbers, o: Numbers) -> Res
     """
     if all(np.ndim(arg) == 0 for arg in (f, pitch, x, z, o)):
         return _pixel_scalar(f, pitch, x, z, o)
-    return _PIXEL(f, pitch, x, z, o)
+    with np.errstate(all="ignore"):
+        short = _by_blocks(f, pitch, x, z, o)
+    return _PIXEL(f, pitch, x, z, o) if short is None else short
 
 
 _PIXEL_SCALAR = Kernel(

@@ -12,13 +12,19 @@ import numpy as np
 from .domain import NONNEGATIVE, POSITIVE, Kernel, Numbers, Result, extreme
 
 _REACH = 2.0**300
+_LEAST = 5e-324
 
 
 def _snr(N: Any, sigma: Any) -> Any:
-    value = N / np.sqrt(N + sigma * sigma)
+    value = _snr_short(N, sigma)
     odd = extreme((N, sigma), _REACH)
     if odd is not None:
-        value = np.where(odd, N / np.hypot(np.sqrt(N), sigma), value)
+        value = np.where(odd, N / np.maximum(np.hypot(np.sqrt(N), sigma), _LEAST), value)
+    return value
+
+
+def _snr_short(N: Any, sigma: Any) -> Any:
+    value = N / np.sqrt(N + sigma * sigma)
     return np.where(N == 0, 0.0, value) if N.min() == 0 else value
 
 
@@ -39,7 +45,7 @@ _SNR = Kernel(
     _snr,
     (NONNEGATIVE, NONNEGATIVE),
     reach=_REACH,
-    fast=lambda N, sigma: N / np.sqrt(N + sigma * sigma),
+    fast=_snr_short,
 )
 _LOSS = Kernel(_loss, (POSITIVE, NONNEGATIVE))
 _PHOTONS = Kernel(_photons, (NONNEGATIVE, NONNEGATIVE))

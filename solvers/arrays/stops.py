@@ -21,18 +21,22 @@ _MODERATE = 2.0**1000
 
 def _stops(N1: Any, N2: Any) -> Any:
     ratio = N2 / N1
-    near = (ratio > 0.5) & (ratio < 2)
-    # N2 - N1 is exact when the ratio is below 2; log2 of the ratio loses it near 1.
     value = 2 * np.log2(ratio)
-    if near.any():
-        value = np.where(near, np.log1p((N2 - N1) / N1) * _PER_LN2, value)
+    # Near 1 log2 loses the digits of N2 - N1, which is exact there.
+    where = np.flatnonzero((ratio > 0.5) & (ratio < 2))
+    if where.size:
+        a, b = (N.take(where) if N.size > 1 else N for N in (N1, N2))
+        value[where] = np.log1p((b - a) / a) * _PER_LN2
+    if ratio.min() > 1 / _MODERATE and ratio.max() < _MODERATE:
+        return value
     far = ~((ratio > 1 / _MODERATE) & (ratio < _MODERATE))
-    return np.where(far, 2 * (np.log2(N2) - np.log2(N1)), value) if far.any() else value
+    return np.where(far, 2 * (np.log2(N2) - np.log2(N1)), value)
 
 
 def _light(N1: Any, N2: Any) -> Any:
     ratio = N2 / N1
-    return ratio * ratio
+    ratio *= ratio
+    return ratio
 
 
 _STOPS = Kernel(_stops, (POSITIVE, POSITIVE))
