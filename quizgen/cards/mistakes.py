@@ -18,7 +18,7 @@ from quizgen.bank import Bank
 from quizgen.blueprint import load
 from quizgen.cards.content import words
 from quizgen.cards.deck import Deck
-from quizgen.cards.kinds.question import Pair, answer, asked, once, picture, section_of, steps
+from quizgen.cards.kinds.question import Pair, answer, front, once, section_of, shared
 from quizgen.cards.note import Blocks, Note
 from quizgen.cards.prose import Label
 from quizgen.cards.versions import template_version
@@ -143,20 +143,14 @@ def _note(part: MarkedPart, item: Item, langs: tuple[str, ...], path: Path) -> N
             "Front": {lang: _front(pair, index, part, lang) for lang, pair in pairs.items()},
             "Back": once({lang: _back(pair, index, part, lang) for lang, pair in pairs.items()}),
         },
-        shared={
-            "Figure": picture(key.template, {lang: q.figure for lang, (q, _) in pairs.items()}),
-            "Work": tuple(steps([k for _, k in pairs.values()], index)),
-            "Answer figure": picture(
-                key.template, {lang: k.figure for lang, (_, k) in pairs.items()}
-            ),
-        },
+        shared=shared(pairs, index),
         version=template_version(drawn.template),
     )
 
 
 def _front(pair: Pair, index: int, part: MarkedPart, lang: str) -> Blocks:
     question, said = pair[0], words(lang)
-    asks = (Label(question.title), *question.stem, *asked(question.parts[index]))
+    asks = front(question, index)
     if part.status == "blank":
         return (*asks, Label(said["start"]))
     typed = Paragraph((Words(part.read_as or part.typed),))

@@ -23,42 +23,49 @@ Pair = tuple[Question, Key]
 
 
 def notes(wish: Wish) -> Iterator[Note]:
-    """One note per template of the bank that is written in the languages asked for."""
+    """Notes of every template of the bank that is written in the languages asked for."""
     for name in wish.bank.paths:
         if wish.wants(wish.bank.rules(name).topic):
             template = wish.bank.template(name)
             if set(wish.langs) <= set(template.languages):
-                yield note(template, wish)
+                yield from of_template(template, wish)
 
 
-def note(template: Template, wish: Wish) -> Note:
-    """The worked question of one template.
+def of_template(template: Template, wish: Wish) -> Iterator[Note]:
+    """One note per part of a question: the stem with that part, its answer and its steps.
 
     Parameters
     ----------
     template : Template
     wish : Wish
-        Its seed fixes the numbers; the note's identity does not depend on them.
+        Its seed fixes the numbers; the notes' identity does not depend on them.
     """
     drawn = instance(template, wish.seed, SLOT)
     pairs = {lang: put_into_words(drawn, lang, number="") for lang in wish.langs}
-    return Note(
-        key=f"question/{template.id}",
-        kind="question",
-        form="basic",
-        topic=template.rules.topic,
-        tier=template.rules.tier,
-        section=section_of(template.rules.covers, template.rules.topic),
-        refs=tuple(dict.fromkeys((template.id, *template.rules.covers))),
-        langs=wish.langs,
-        words={
-            "Front": {lang: front(question) for lang, (question, _) in pairs.items()},
-            "Back": once({lang: answers(key) for lang, (_, key) in pairs.items()}),
-            "More": {lang: _more(key) for lang, (_, key) in pairs.items()},
-        },
-        shared=shared(pairs),
-        version=template_version(template),
-    )
+    rules = template.rules
+    for index, label in enumerate(template.labels):
+        yield Note(
+            key=f"question/{template.id}" + (f"/{label}" if label else ""),
+            kind="question",
+            form="basic",
+            topic=rules.topic,
+            tier=rules.tier,
+            section=section_of(rules.covers, rules.topic),
+            refs=tuple(dict.fromkeys((template.id, *rules.covers))),
+            langs=wish.langs,
+            words={
+                "Front": {lang: front(pair[0], index) for lang, pair in pairs.items()},
+                "Back": once(
+                    {
+                        lang: (answer(key.solution.parts[index]),)
+                        for lang, (_, key) in pairs.items()
+                    }
+                ),
+                "More": {lang: _more(key, index) for lang, (_, key) in pairs.items()},
+            },
+            shared=shared(pairs, index),
+            version=template_version(template),
+        )
 
 
 def section_of(covers: tuple[str, ...], topic: str) -> str:
@@ -69,14 +76,14 @@ def section_of(covers: tuple[str, ...], topic: str) -> str:
     return str((found or by_topic or [""])[0])
 
 
-def shared(pairs: dict[str, Pair]) -> dict[str, Blocks]:
+def shared(pairs: dict[str, Pair], index: int) -> dict[str, Blocks]:
     """What all languages share: figures, and the worked lines with a sentence per language."""
     quiz = {lang: question.figure for lang, (question, _) in pairs.items()}
     solved = {lang: key.figure for lang, (_, key) in pairs.items()}
     template = next(iter(pairs.values()))[0].template
     return {
         "Figure": picture(template, quiz),
-        "Work": _work([key for _, key in pairs.values()]),
+        "Work": tuple(steps([key for _, key in pairs.values()], index)),
         "Answer figure": picture(template, solved),
     }
 
@@ -89,12 +96,9 @@ def picture(template: str, figures: dict[str, Any]) -> Blocks:
     return (Picture(template, drawn[0], " / ".join(figure.alt for figure in drawn)),)
 
 
-def front(question: Question) -> Blocks:
-    """The question as it is asked, with its lettered options."""
-    said: list[Any] = [Label(question.title), *question.stem]
-    for part in question.parts:
-        said += asked(part)
-    return tuple(said)
+def front(question: Question, index: int) -> Blocks:
+    """The question as it is asked, with one of its parts and its lettered options."""
+    return (Label(question.title), *question.stem, *asked(question.parts[index]))
 
 
 def asked(part: Part) -> Iterator[Any]:
@@ -115,11 +119,6 @@ def asked(part: Part) -> Iterator[Any]:
         yield Items(tuple(targets), ordered=True)
 
 
-def answers(key: Key) -> Blocks:
-    """The answer of every part."""
-    return tuple(answer(part) for part in key.solution.parts)
-
-
 def once(said: dict[str, Blocks]) -> dict[str, Blocks]:
     """Leave out of the further languages what reads the same in the first, such as numbers."""
     main, *others = said
@@ -137,14 +136,6 @@ def answer(part: PartSolution) -> Paragraph:
     return Paragraph(tuple(said))
 
 
-def _work(keys: list[Key]) -> Blocks:
-    lines: list[Any] = []
-    for index, part in enumerate(keys[0].solution.parts):
-        lines += [Label(f"({part.label})")] if part.label and part.lines else []
-        lines += steps(keys, index)
-    return tuple(lines)
-
-
 def steps(keys: list[Key], index: int) -> Iterator[Any]:
     """The worked lines of one part: each formula once, with a sentence per language."""
     langs = [key.solution.lang for key in keys]
@@ -154,19 +145,18 @@ def steps(keys: list[Key], index: int) -> Iterator[Any]:
             yield Said(lang, (Paragraph(line.why),))
 
 
-def _more(key: Key) -> Blocks:
+def _more(key: Key, index: int) -> Blocks:
     """What is worth a look after the answer: how to check it, and the known mistakes."""
     lang, solution = key.solution.lang, key.solution
     found: list[Any] = []
     if solution.check:
         found.append(Fold(word(lang, "solution.check"), solution.check))
-    mistakes = [
+    mistakes = tuple(
         (Paragraph((Words(f"{mistake.value} – "), *mistake.sentence)),)
-        for part in solution.parts
-        for mistake in part.mistakes
-    ]
+        for mistake in solution.parts[index].mistakes
+    )
     if mistakes:
-        found.append(Fold(word(lang, "solution.mistakes"), (Items(tuple(mistakes)),)))
+        found.append(Fold(word(lang, "solution.mistakes"), (Items(mistakes),)))
     if solution.note:
         found.append(Fold(words(lang)["notes"], solution.note))
     return tuple(found)
