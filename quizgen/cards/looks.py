@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import hashlib
+import json
 from functools import cache
 from importlib.resources import files
 from typing import Any
 
 from quizgen.cards.content import words
 from quizgen.cards.note import FIELDS
-from quizgen.cards.versions import BASE
+from quizgen.cards.versions import BASE, STEP, registry
 
 NAMES = {"basic": "Quizgen", "term": "Quizgen term", "cloze": "Quizgen formula"}
 FONT = "_qg_hind_siliguri.woff2"
 """Bangla font as a media file; the underscore tells Anki that note types use it."""
-VERSION = 1
-"""Rises when fields, templates or style sheet change."""
-
 
 def identity(name: str) -> int:
     """A fixed number for a note type or a deck, from its name."""
@@ -106,7 +104,7 @@ def note_type(form: str) -> dict[str, Any]:
         "id": identity(NAMES[form]),
         "name": NAMES[form],
         "type": int(form == "cloze"),
-        "mod": BASE + VERSION,
+        "mod": BASE + STEP * registry().get(f"looks/{form}", (1, ""))[0],
         "usn": -1,
         "sortf": 1,
         "did": 1,
@@ -120,6 +118,12 @@ def note_type(form: str) -> dict[str, Any]:
         "tags": [],
         "vers": [],
     }
+
+
+def digest_of(form: str) -> str:
+    """Digest of everything that a note type consists of."""
+    table = {key: value for key, value in note_type(form).items() if key != "mod"}
+    return hashlib.sha256(json.dumps(table, sort_keys=True).encode()).hexdigest()[:12]
 
 
 def _template(index: int, name: str, front: str, back: str) -> dict[str, Any]:

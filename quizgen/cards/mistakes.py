@@ -162,7 +162,7 @@ def _back(pair: Pair, index: int, part: MarkedPart, lang: str) -> Blocks:
     return (
         *_reason(key, index, part),
         Label(words(lang)["right"]),
-        answer(key.solution.parts[index]),
+        *answer(key.solution.parts[index]),
     )
 
 

@@ -72,13 +72,13 @@ def digest_of(note: Note) -> str:
 
 
 def current() -> dict[str, str]:
-    """Digest of every note as the content stands now, in both languages."""
+    """Digest of every note and note type as the content stands now, in both languages."""
     from quizgen.bank import builtin
+    from quizgen.cards import looks
     from quizgen.cards.deck import build
 
-    digests = {
-        note.key: digest_of(note) for note in build("both", kinds=_authored()).notes
-    }
+    digests = {note.key: digest_of(note) for note in build("both", kinds=_authored()).notes}
+    digests |= {f"looks/{form}": looks.digest_of(form) for form in looks.NAMES}
     return digests | {f"question/{t.id}": t.digest[:12] for t in builtin()}
 
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 from anki.collection import ImportAnkiPackageOptions, ImportAnkiPackageRequest
 
-from quizgen.cards import build
+from quizgen.cards import apkg, build, looks
 from quizgen.cards.apkg import package
 from quizgen.text import Paragraph, Words
 
@@ -176,6 +176,19 @@ def test_a_second_language_joins_the_same_notes(lang, deck, packed, collection, 
     report = collection.media.check()
     assert not report.missing
     assert not report.unused
+
+
+def test_a_new_look_arrives_with_a_re_import(deck, packed, collection, tmp_path, monkeypatch):
+    bring_in(collection, packed, tmp_path)
+    better = {**looks.note_type("term"), "css": ".card { color: red; }"}
+    better["mod"] += 100_000
+    monkeypatch.setattr(
+        apkg, "note_type", lambda form: better if form == "term" else looks.note_type(form)
+    )
+    bring_in(collection, package(deck), tmp_path)
+    assert collection.models.by_name("Quizgen term")["css"] == better["css"]
+    assert "qg-term" in collection.models.by_name("Quizgen")["css"]
+    assert collection.card_count() == deck.cards
 
 
 def test_a_learners_own_change_is_kept(packed, deck, collection, tmp_path):

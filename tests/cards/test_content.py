@@ -13,7 +13,7 @@ from fractions import Fraction
 import pytest
 from fontTools.ttLib import TTFont
 
-from quizgen.cards import build, content
+from quizgen.cards import build, content, looks
 from quizgen.cards.content import KINDS, Cheat, Statement, Term, entries, load, passage, read
 from quizgen.cards.deck import known_topics
 from quizgen.cards.equations import inline, side, sides
@@ -215,6 +215,13 @@ def test_every_authored_card_is_in_the_list_of_versions(authored):
         assert (note.version, digest_of(note)) == (version, digest), (
             f"{note.key} changed: run `python -m quizgen.cards.versions`"
         )
+
+
+@pytest.mark.parametrize("form", list(looks.NAMES))
+def test_every_note_type_is_in_the_list_of_versions(form):
+    assert registry()[f"looks/{form}"][1] == looks.digest_of(form), (
+        "fields, card templates or style changed: run `python -m quizgen.cards.versions`"
+    )
 
 
 GOOD = 'id = "x"\ntopic = "noise"\ntier = "A"\nsection = "1"\n'

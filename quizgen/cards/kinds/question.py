@@ -56,10 +56,7 @@ def of_template(template: Template, wish: Wish) -> Iterator[Note]:
             words={
                 "Front": {lang: front(pair[0], index) for lang, pair in pairs.items()},
                 "Back": once(
-                    {
-                        lang: (answer(key.solution.parts[index]),)
-                        for lang, (_, key) in pairs.items()
-                    }
+                    {lang: answer(key.solution.parts[index]) for lang, (_, key) in pairs.items()}
                 ),
                 "More": {lang: _more(key, index) for lang, (_, key) in pairs.items()},
             },
@@ -127,13 +124,20 @@ def once(said: dict[str, Blocks]) -> dict[str, Blocks]:
     return {main: said[main]} | kept
 
 
-def answer(part: PartSolution) -> Paragraph:
-    """The key of one part, with the wording of the right options."""
+def answer(part: PartSolution) -> Blocks:
+    """The key of one part, with the wording of the right options (or of the key points)."""
+    if len(part.options) > 1:
+        points = tuple((Paragraph(option),) for option in part.options)
+        return (*_keyed(part, ()), Items(points))
+    return _keyed(part, part.options)
+
+
+def _keyed(part: PartSolution, options: tuple[Any, ...]) -> Blocks:
     label = f"({part.label}) " if part.label else ""
     said: list[Any] = [Styled("strong", (Words(f"{label}{part.answer}".rstrip()),))]
-    for place, option in enumerate(part.options):
-        said += [Words(" – " if part.answer or place else " "), *option]
-    return Paragraph(tuple(said))
+    for option in options:
+        said += [Words(" – " if part.answer else " "), *option]
+    return (Paragraph(tuple(said)),) if label or part.answer or options else ()
 
 
 def steps(keys: list[Key], index: int) -> Iterator[Any]:
