@@ -71,7 +71,7 @@ def others(rng: np.random.Generator) -> Iterator[Case]:
     yield Case("upper tail", textbook_tail, gaussian.upper_tail, [k], peer_tail)
     yield Case("near limit", textbook_near, field.near_limit, [50.0, 8.0, 0.03, s])
     yield Case("total depth", textbook_total, field.total_depth, [50.0, 8.0, 0.03, s])
-    yield Case("magnification", lambda f, z: (1 / (1 / f - 1 / z)) / z, lens.magnification, [50.0, s])
+    yield Case("magnification", textbook_magnification, lens.magnification, [50.0, s])
     yield Case("light ratio", lambda a, b: (b / a) ** 2, stops.light_ratio, [2.0, k + 1])
     yield Case("snr", lambda N, r: N / np.sqrt(N + r**2), snr.snr, [s, 5.0])
     yield Case("encode", lambda x: x ** (1 / GAMMA), gamma.encode, [unit])
@@ -88,6 +88,10 @@ def others(rng: np.random.Generator) -> Iterator[Case]:
 
 def textbook_pdf(x: Any, mu: float, sigma: float) -> Any:
     return np.exp(-((x - mu) ** 2) / (2 * sigma**2)) / (np.sqrt(2 * np.pi) * sigma)
+
+
+def textbook_magnification(f: float, z: Any) -> Any:
+    return (1 / (1 / f - 1 / z)) / z
 
 
 def textbook_tail(k: Any) -> Any:
@@ -165,7 +169,8 @@ def opencv_inverse(r_d: Any, k1: float, k2: float) -> Any:
 def opencv_hue(R: Any, G: Any, B: Any) -> Any:
     import cv2
 
-    return cv2.cvtColor(np.stack([R, G, B], axis=-1)[None].astype(np.float32), cv2.COLOR_RGB2HSV)
+    picture = np.stack([R, G, B], axis=-1)[None].astype(np.float32)
+    return cv2.cvtColor(picture, cv2.COLOR_RGB2HSV)
 
 
 def scipy_two_sided(k: Any) -> Any:
@@ -202,7 +207,9 @@ def main() -> int:
         textbook, stable, *peer = least(case)
         ratio = stable / textbook
         shown = f"{peer[0]:9.1f}" if peer else f"{'':9}"
-        print(f"{case.name:20} {textbook:9.2f} {stable:9.2f} {ratio:6.2f} {case.limit:6.0f} {shown}")
+        print(
+            f"{case.name:20} {textbook:9.2f} {stable:9.2f} {ratio:6.2f} {case.limit:6.0f} {shown}"
+        )
         if ratio > case.limit:
             slow.append(case.name)
     if slow:

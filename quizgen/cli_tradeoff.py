@@ -31,4 +31,5 @@ def tradeoff(family: str | None, out: str, *, quick: bool, only_list: bool) -> N
     words = ["quizgen", "tradeoff", *([family] if family else []), *(["--quick"] if quick else [])]
     report = measure([family] if family else [], quick=quick)
     write(report, Path(out), " ".join(words))
-    click.echo(f"{Path(out) / 'tradeoff.html'}: {len(report.families)} families, {report.seconds:.1f} s")
+    page = Path(out) / "tradeoff.html"
+    click.echo(f"{page}: {len(report.families)} families, {report.seconds:.1f} s")

@@ -220,6 +220,11 @@ def _poisson_hard(rng: Any, n: int) -> list[Any]:
     return [np.floor(lam + rng.uniform(-3, 3, n) * np.sqrt(lam)), lam]
 
 
+def _depths_hard(rng: Any, n: int) -> list[Any]:
+    zbar = rng.integers(5, 60, n) * 1.0
+    return [_near(rng, zbar), zbar]
+
+
 def _gap_exam(rng: Any, n: int) -> list[Any]:
     return [rng.integers(1, 5, n) / 10, rng.integers(5, 10, n) / 10]
 
@@ -273,7 +278,7 @@ FAMILIES = (
         "weak-perspective", ("z", "zbar"), "(1/z - 1/zbar)/(1/z)",
         ("weak_perspective", "scale_error"),
         lambda rng, n: [rng.integers(90, 99, n) / 10, rng.integers(100, 111, n) / 10],
-        lambda rng, n: (lambda z: [_near(rng, z), z])(rng.integers(5, 60, n) * 1.0),
+        _depths_hard,
     ),
     Family(
         "snr-loss", ("N", "s"), "1 - (N/sqrt(N + s^2))/sqrt(N)", ("snr", "snr_loss"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass
+from functools import partial
 from typing import Any
 
 from quizgen.bank import solver_module
@@ -54,9 +55,11 @@ def _iterations(effort: Effort) -> Iterator[Curve]:
         points = []
         for count in (1, 2, 5, 10, 20, 50, 100, 200):
             value = float(fixed_point(radii, k1, count)[0])
-            seconds = best_time(lambda n=count: fixed_point(radii, k1, n), effort.repeats)
+            work = partial(fixed_point, radii, k1, count)
+            seconds = best_time(work, effort.repeats)
             points.append(Point(str(count), seconds, abs(value / right - 1)))
-        seconds = best_time(lambda: distortion.inverse_radius(radii, k1), effort.repeats)
+        closed = partial(distortion.inverse_radius, radii, k1)
+        seconds = best_time(closed, effort.repeats)
         value = float(distortion.inverse_radius(radii, k1)[0])
         yield Curve(f"{share:g}", (*points, Point("=", seconds, abs(value / right - 1))))
 
@@ -75,7 +78,7 @@ def _kernel(effort: Effort) -> Iterator[Curve]:
         cut = np.minimum((for_edge - tail(t)) / inside, 1.0)
         reach = int(t * sigma)
         taps = np.exp(-(np.arange(-reach, reach + 1) ** 2) / (2 * sigma**2))
-        seconds = best_time(lambda w=taps: np.convolve(row, w, "same"), effort.repeats)
+        seconds = best_time(partial(np.convolve, row, taps, "same"), effort.repeats)
         points.append(Point(f"{t:g}", seconds, float(255 * np.max(np.abs(cut - for_edge)))))
     yield Curve("sigma = 8", tuple(points))
 
@@ -91,7 +94,7 @@ def coverage(a: Any, b: Any, c: Any) -> Any:
 
 
 def _supersampling(effort: Effort) -> Iterator[Curve]:
-    """n x n samples per pixel against the exact area under random edges."""
+    """Samples in an n x n grid per pixel against the exact area under random edges."""
     import numpy as np
 
     rng = np.random.default_rng(3)
@@ -107,7 +110,7 @@ def _supersampling(effort: Effort) -> Iterator[Curve]:
 
     points = []
     for n in (1, 2, 4, 8, 16, 32):
-        seconds = best_time(lambda n=n: sampled(n), effort.repeats)
+        seconds = best_time(partial(sampled, n), effort.repeats)
         error = 255 * float(np.max(np.abs(sampled(n) - right)))
         points.append(Point(f"{n}x{n}", seconds, error))
     seconds = best_time(lambda: coverage(a, b, c), effort.repeats)
@@ -132,7 +135,8 @@ def _layers(effort: Effort) -> Iterator[Curve]:
         return total[15:, 15:] - total[:-15, 15:] - total[15:, :-15] + total[:-15, :-15]
 
     once = best_time(one_pass, effort.repeats)
-    for label, of in (("1/z", lambda z: 1 / z), ("z", lambda z: z)):
+    maps: dict[str, Callable[[Any], Any]] = {"1/z": np.reciprocal, "z": np.positive}
+    for label, of in maps.items():
         points = []
         for count in (2, 4, 8, 16, 32, 64):
             position = of(depth)
@@ -155,9 +159,9 @@ def _photons(effort: Effort) -> Iterator[Curve]:
     for N in (1.0, 10.0, 100.0, 1e3, 1e4, 1e6):
         k = np.unique(np.floor(np.maximum(N + np.sqrt(N) * np.linspace(-6, 6, 401), 0)))
         error = np.max(np.abs(np.asarray(lower(k, N)) - tail(-(k - N) / np.sqrt(N))))
-        seconds = best_time(lambda N=N: rng.poisson(N, 4096), effort.repeats)
+        seconds = best_time(partial(rng.poisson, N, 4096), effort.repeats)
         exact.append(Point(f"N = {N:g}", seconds, 0.0))
-        seconds = best_time(lambda N=N: N + N**0.5 * rng.standard_normal(4096), effort.repeats)
+        seconds = best_time(partial(rng.normal, N, N**0.5, 4096), effort.repeats)
         normal.append(Point(f"N = {N:g}", seconds, float(error)))
     yield Curve("normal", tuple(normal))
     yield Curve("Poisson", tuple(exact))
@@ -182,7 +186,7 @@ def _wavelengths(effort: Effort) -> Iterator[Curve]:
 
             seconds = best_time(total, effort.repeats)
             points.append(Point(f"{step:g} nm", seconds, abs(total() / right - 1)))
-        seconds = best_time(lambda w=fwhm: light.line_flux(1.0, centre, w), effort.repeats)
+        seconds = best_time(partial(light.line_flux, 1.0, centre, fwhm), effort.repeats)
         yield Curve(f"{fwhm:g} nm", (*points, Point("=", seconds, 0.0)))
 
 

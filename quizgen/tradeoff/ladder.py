@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -43,7 +43,7 @@ class Rung:
     key: str
     kind: str
     run: Callable[..., Any]
-    prepare: Callable[[Sequence[float]], Any] = tuple
+    prepare: Callable[[Any], Any] = tuple
     finish: Callable[[Any], Any] = float
 
 
@@ -189,7 +189,10 @@ def _symbolic(family: Family, formula: Expr) -> Rung:
         q = rational(value, decimal=family.decimal)
         return sympy.Rational(int(q.p), int(q.q))
 
-    return Rung("sympy", "scalar", lambda inputs: compiled(inputs).evalf(DIGITS), _environment(family, convert))
+    def run(inputs: Any) -> Any:
+        return compiled(inputs).evalf(DIGITS)
+
+    return Rung("sympy", "scalar", run, _environment(family, convert))
 
 
 class OraclesDisagree(QuizgenError):

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import time
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -85,7 +85,7 @@ def bits_of(count: float) -> float:
     return WORST_BITS if math.isinf(count) else min(WORST_BITS, math.log2(count + 1))
 
 
-def accuracy(values: Sequence[float], right: Sequence[float], turn: float = 0.0) -> Accuracy:
+def accuracy(values: Iterable[Any], right: Sequence[float], turn: float = 0.0) -> Accuracy:
     """Summarise errors against correctly rounded values."""
     errors = [steps(float(v), r, turn) for v, r in zip(values, right, strict=True)]
     bits = [bits_of(error) for error in errors]

@@ -39,13 +39,16 @@ figure{margin:.6rem 0;overflow-x:auto}svg{max-width:none;height:auto;color:inher
 table{border-collapse:collapse;font-size:.86rem;margin:.5rem 0;display:block;overflow-x:auto}
 th,td{padding:.25rem .55rem;text-align:right;border-bottom:1px solid #8885;white-space:nowrap}
 th{font-weight:600;vertical-align:bottom;white-space:normal;min-width:4.5rem}
-td.words,th.words{text-align:left}td.words{white-space:normal;min-width:9rem}tr.front td{font-weight:600}
+td.words,th.words{text-align:left}td.words{white-space:normal;min-width:9rem}
+tr.front td{font-weight:600}
 code{font-size:.88em;overflow-wrap:anywhere}.note{font-size:.86rem;opacity:.85}
 .verdict{border-left:4px solid #0b62c4;padding:.3rem .8rem;font-weight:600}
-.bn,label[lang=bn],.bn .tp text{font-family:"Hind Siliguri","Noto Sans Bengali",system-ui,sans-serif}
+.bn,label[lang=bn],.bn .tp text{
+font-family:"Hind Siliguri","Noto Sans Bengali",system-ui,sans-serif}
 label{margin-right:1rem;cursor:pointer}ul{columns:2;padding-left:1.2rem}
 #en:checked~main .bn,#bn:checked~main .en{display:none}
-@media(prefers-color-scheme:dark){body{color:#e8e8e8;background:#14171a}a{color:#8ab8ff}
+@media(prefers-color-scheme:dark){
+body{color:#e8e8e8;background:#14171a}a{color:#8ab8ff}
 .tp circle.on,.tp rect.on{fill:#6aa9ff!important}
 .tp .on,.tp .front{stroke:#6aa9ff!important}
 .tp .second{stroke:#ff9d5c!important}.tp circle.second{fill:#ff9d5c!important}
@@ -142,7 +145,10 @@ def _font_face() -> str:
     """Bangla letters travel with the page."""
     from quizgen.render.fonts import bangla_uri
 
-    face = '@font-face{font-family:"Hind Siliguri";font-display:block;font-weight:%s;src:url(%s) format("woff2")}'
+    face = (
+        '@font-face{font-family:"Hind Siliguri";font-display:block;font-weight:%s;'
+        'src:url(%s) format("woff2")}'
+    )
     return "".join(
         face % (weight, bangla_uri(name)) for name, weight in (("Regular", 400), ("Bold", 700))
     )
@@ -157,9 +163,7 @@ def _body(report: Report, command: str, lang: str) -> str:
     verdict = page["verdict"].format(
         ladder=time_text(report.ladder_seconds * 1e9), figure=time_text(report.figure_seconds * 1e9)
     )
-    measure = page["measure"].format(
-        exam=effort.inputs, hard=effort.inputs, scalars=effort.scalars
-    )
+    measure = page["measure"].format(exam=effort.inputs, hard=effort.inputs, scalars=effort.scalars)
     parts = [
         f"<h1>{escape(page['title'])}</h1><p>{intro}</p>",
         f'<p class="verdict">{escape(verdict)}</p><p>{escape(page["reading"])}</p>',

@@ -9,7 +9,7 @@ Peer = Callable[..., Any]
 
 
 def _gaussian() -> dict[str, Peer]:
-    import scipy.special as special
+    from scipy import special
 
     return {
         "SciPy 2 ndtr(-k)": lambda k: 2 * special.ndtr(-k),
@@ -79,8 +79,8 @@ def _normalise() -> dict[str, Peer]:
     def rescale(*columns: Any) -> Any:
         rows = zip(*columns, strict=True)
         return [
-            rescale_intensity(np.array([I]), in_range=(low, high), out_range=(a, b))[0]
-            for I, low, high, a, b in rows
+            rescale_intensity(np.array([value]), in_range=(low, high), out_range=(a, b))[0]
+            for value, low, high, a, b in rows
         ]
 
     return {"scikit-image rescale_intensity": rescale}

@@ -73,7 +73,8 @@ def time_text(nanoseconds: float) -> str:
 
 
 def _text(x: float, y: float, text: str, anchor: str = "middle", kind: str = "small") -> str:
-    return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}" class="{kind}">{escape(text)}</text>'
+    at = f'x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}" class="{kind}"'
+    return f"<text {at}>{escape(text)}</text>"
 
 
 def _line(x1: float, y1: float, x2: float, y2: float, kind: str) -> str:

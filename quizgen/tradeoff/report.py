@@ -75,9 +75,7 @@ def measure(names: Iterable[str] = (), *, quick: bool = False) -> Report:
 def _family(family: Family, effort: Effort) -> FamilyReport:
     bench = Bench(family, effort)
     others = tuple(_peer(bench, label, call) for label, call in peers(family.name).items())
-    return FamilyReport(
-        family.name, _formula(family), family.tolerance, tuple(bench.run()), others
-    )
+    return FamilyReport(family.name, _formula(family), family.tolerance, tuple(bench.run()), others)
 
 
 def _formula(family: Family) -> str:

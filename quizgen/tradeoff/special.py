@@ -13,7 +13,7 @@ Row = Sequence[float]
 
 
 def fixed_point(r_d: Any, k1: Any, count: int) -> Any:
-    """r := r_d/(1 + k1 r**2), as OpenCV does it."""
+    """Repeat r := r_d/(1 + k1 r**2), as OpenCV does it."""
     r = r_d
     for _ in range(count):
         r = r_d / (1 + k1 * r * r)

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from .domain import POSITIVE, Kernel, Numbers, Result, Rule, nearest
-from .double_double import pairs
+from .double_double import pairs, two_product, two_sum
 
 _CLOSE = 2.0**-40
 """Relative distance from the hyperfocal distance below which A - B is settled exactly."""
@@ -55,7 +55,7 @@ def _limited(formula: Any) -> Any:
 
 
 def _share(f: Any, N: Any, c: Any, s: Any) -> Any:
-    """q = N c (s - f)/f**2, the distance in focus in hyperfocal distances."""
+    """Distance in focus in hyperfocal distances, q = N c (s - f)/f**2."""
     return (N * c / (f * f)) * (s - f)
 
 
@@ -72,13 +72,19 @@ def _near_short(f: Any, N: Any, c: Any, s: Any) -> Any:
     return _or_long(s / (1 + q), q, 0.7, _NEAR, (f, N, c, s))
 
 
+_LEAST = 2.0**-900
+
+
 def _total_short(f: Any, N: Any, c: Any, s: Any) -> Any:
     """2 s q/(1 - q**2), with what rounding N c/f**2 lost put back."""
     f_pair, N_pair, c_pair = pairs(f, N, c)
     rate = N_pair * c_pair / (f_pair * f_pair)
-    q = rate.high * (s - f)
+    way, way_lost = two_sum(s, -f)
+    q, lost = two_product(way, rate.high)
+    lost += way * rate.low
+    lost += way_lost * rate.high
     value = 2 * s * q / (1 - q * q)
-    value += value * (rate.low / rate.high)
+    value += value * (lost / np.maximum(q, _LEAST))
     return _or_long(value, q, 0.6, _TOTAL, (f, N, c, s))
 
 
@@ -121,9 +127,7 @@ _HYPERFOCAL = Kernel(
     fast=lambda f, N, c: f * (f / (N * c)) + f,
 )
 _NEAR = Kernel(_plain(_near), (POSITIVE,) * 4, _RULES, exact=_near, fast=_near_short)
-_FAR = Kernel(
-    _limited(_far), (POSITIVE,) * 4, _RULES, exact=_limited_exact(_far), fast=_far_short
-)
+_FAR = Kernel(_limited(_far), (POSITIVE,) * 4, _RULES, exact=_limited_exact(_far), fast=_far_short)
 _TOTAL = Kernel(
     _limited(_total), (POSITIVE,) * 4, _RULES, exact=_limited_exact(_total), fast=_total_short
 )

@@ -172,7 +172,7 @@ def _inverse(r_d: Array, k1: Array, k2: Array) -> Any:
 
 
 def _correction(r_d: Array, k1: Array, k2: Array) -> Any:
-    """r - r_d = -r**3 (k1 + k2 r**2) at the refined r."""
+    """R - r_d = -r**3 (k1 + k2 r**2) at the refined r."""
     r, flat = _inverse_pair(r_d, k1, k2)
     r2 = r * r
     slope = pair(k1) + pair(k2) * r2
@@ -208,9 +208,7 @@ _DISTORT = Kernel(
 )
 _DISPLACEMENT = Kernel(_displacement, (NONNEGATIVE, REAL, REAL), exact=_displacement_exact)
 _FOLD = Kernel(_fold, (REAL, REAL), exact=fold_exactly)
-_INVERSE = Kernel(
-    _inverse, (NONNEGATIVE, REAL, REAL), _BEYOND, exact=invert_exactly, reach=_REACH
-)
+_INVERSE = Kernel(_inverse, (NONNEGATIVE, REAL, REAL), _BEYOND, exact=invert_exactly, reach=_REACH)
 _CORRECTION = Kernel(
     _correction, (NONNEGATIVE, REAL, REAL), _BEYOND, exact=_correction_exact, reach=_REACH
 )
@@ -327,5 +325,3 @@ def correction(r_d: Numbers, k1: Numbers, k2: Numbers = 0.0) -> Result:
         As ``inverse_radius``.
     """
     return _CORRECTION(r_d, k1, k2)
-
-

@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
-
 import numpy as np
 
 from .domain import Array, Flags, nearest
@@ -92,7 +91,7 @@ def _by_doubles(
         else:
             last = middle
     low = Fraction(float(np.int64(first).view(np.float64)))
-    return low, min(high, Fraction(float(np.int64(last).view(np.float64)))) if last > first else high
+    return low, min(high, Fraction(float(np.int64(last).view(np.float64))))
 
 
 def _ceiling(r_d: Fraction, k1: Fraction, k2: Fraction) -> Fraction:
@@ -101,5 +100,3 @@ def _ceiling(r_d: Fraction, k1: Fraction, k2: Fraction) -> Fraction:
     while _distorted(high, k1, k2) < r_d:
         high *= 2
     return high
-
-

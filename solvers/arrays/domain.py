@@ -192,9 +192,7 @@ class Kernel:
 
     def _bad(self, args: list[Array], limits: list[Limits]) -> Flags | None:
         spans = list(zip(self.spans, args, strict=True))
-        inside = all(
-            span.holds(*limit) for span, limit in zip(self.spans, limits, strict=True)
-        )
+        inside = all(span.holds(*limit) for span, limit in zip(self.spans, limits, strict=True))
         broken = [rule.broken(*args) for rule in self.rules] if inside else []
         if inside and not any(np.any(flags) for flags in broken):
             return None

@@ -257,8 +257,8 @@ class _Gap:
         over_q, of_q, smooth = _direct(e)
         first, *rest = _interpolate(over_q, 0.0, _SERIES**2, 0.0, 16)
         self.start, self.series = Pair(*_halves(first)), [float(c) for c in rest]
-        around = _interpolate(of_q, _SERIES**2, _SHIFTED**2, _CENTRE, 20)
-        self.around = [float(c) for c in around]
+        first, *rest = _interpolate(of_q, _SERIES**2, _SHIFTED**2, _CENTRE, 20)
+        self.around_start, self.around = Pair(*_halves(first)), [float(c) for c in rest]
         first, *rest = _interpolate(smooth, _SHIFTED, 1.0, 0.875, 13)
         self.smooth_start, self.smooth = Pair(*_halves(first)), [float(c) for c in rest]
 
@@ -283,7 +283,7 @@ class _Gap:
             total = Pair(np.maximum(total.high, _TOE), total.low)
         d = (pairs(b)[0] - a) / total
         size = np.abs(d.high)
-        shape = np.empty_like(size)
+        shape, rest = np.empty_like(size), np.empty_like(size)
         small = size <= _SERIES
         wide = size > _SHIFTED
         for part, flags in (
@@ -293,20 +293,26 @@ class _Gap:
         ):
             where = np.flatnonzero(flags)
             if where.size:
-                shape[where] = part(Pair(d.high.take(where), d.low.take(where)))
-        shape *= _power(total.high / 2, self.exponent)
-        shape += shape * (self.exponent[0] * (total.low / total.high))
+                found = part(Pair(d.high.take(where), d.low.take(where)))
+                shape[where], rest[where] = found.high, found.low
+        power = _power(total.high / 2, self.exponent)
+        rest += shape * (self.exponent[0] * (total.low / total.high))
+        shape *= power
+        rest *= power
+        shape += rest
         return shape
 
-    def small(self, d: Pair) -> Array:
+    def small(self, d: Pair) -> Pair:
         q = d * d
-        return (q * (self.start + q.high * _horner(self.series, q.high))).rounded()
+        return q * (self.start + q.high * _horner(self.series, q.high))
 
-    def middle(self, d: Pair) -> Array:
+    def middle(self, d: Pair) -> Pair:
         q = d * d
-        return _horner(self.around, (q.high - _CENTRE) + q.low)
+        x = (q.high - _CENTRE) + q.low
+        high, low = two_sum(self.around_start.high, x * _horner(self.around, x))
+        return Pair(high, low + self.around_start.low)
 
-    def wide(self, d: Pair) -> Array:
+    def wide(self, d: Pair) -> Pair:
         sign = np.where(d.high < 0, -1.0, 1.0)
         d = Pair(d.high * sign, d.low * sign)
         x = (d.high - 0.875) + d.low
@@ -314,8 +320,7 @@ class _Gap:
         left, below = two_sum(1 - d.high, -d.low)
         power = _power(left, self.exponent)
         lost = power * (self.exponent[0] * (below / np.maximum(left, _TOE)))
-        result: Array = (smooth - power / 2) + (error + self.smooth_start.low - lost / 2)
-        return result
+        return Pair(smooth - power / 2, error + self.smooth_start.low - lost / 2)
 
 
 @lru_cache(maxsize=16)
@@ -347,4 +352,3 @@ def gap(a: Numbers, b: Numbers, gamma: float = 2.2) -> Result:
     if exponent > 1:
         raise DomainError("not-positive")
     return _gap_kernel(exponent)(a, b)
-

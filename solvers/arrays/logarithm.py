@@ -21,7 +21,7 @@ _ROOT_HALF = 0.7071067811865476
 
 
 def atanh_series(s2: Pair) -> Pair:
-    """atanh(s)/s - 1 = s**2/3 + s**4/5 + ... for s**2 below 0.03."""
+    """Series atanh(s)/s - 1 = s**2/3 + s**4/5 + ... for s**2 below 0.03."""
     rest = np.full_like(s2.high, _TAIL[-1])
     for c in reversed(_TAIL[:-1]):
         rest *= s2.high
@@ -40,7 +40,7 @@ def log_pair(x: Any) -> Pair:
 
 
 def ratio_excess(x: Array, y: Array) -> Pair:
-    """x ln(x/y) - (x - y) >= 0 for positive x and y, without cancellation where they are close.
+    """Excess x ln(x/y) - (x - y) >= 0 for positive x and y, close ones too.
 
     Source: Loader (2000), "Fast and accurate computation of binomial probabilities": with
     v = (x - y)/(x + y) it is v (x - y) + 2 x v (v**2/3 + v**4/5 + ...).

@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from .domain import NONNEGATIVE, Array, Kernel, Numbers, Result, Rule
-from .gaussian import _horner, _mills
+from .gaussian_kernels import horner, mills
 from .logarithm import ratio_excess
 from .tables import STIRLING, TEMME
 
@@ -29,7 +29,7 @@ _UNIFORM_TO = 0.5
 
 
 def _stirling_error(k: Array) -> Array:
-    """ln k! - ln(sqrt(2 pi k) (k/e)**k)."""
+    """Difference ln k! - ln(sqrt(2 pi k) (k/e)**k)."""
     inverse = 1 / np.maximum(k, 1.0)
     square = inverse * inverse
     total = np.full_like(inverse, _SERIES[-1])
@@ -50,9 +50,9 @@ def _density(k: Array, lam: Array) -> Array:
 
 def _pmf(k: Array, lam: Array) -> Array:
     most, least = lam.max(), lam.min()
-    if k.max() <= _FACTORIALS.size - 1 and least >= _SMALL_MEAN and most <= _LARGE_MEAN:
-        if k.max() * max(math.log(most), -math.log(least), 1.0) < _LARGE_MEAN:
-            return _pmf_short(k, lam)
+    ordinary = k.max() < _FACTORIALS.size and least >= _SMALL_MEAN and most <= _LARGE_MEAN
+    if ordinary and k.max() * max(math.log(most), -math.log(least), 1.0) < _LARGE_MEAN:
+        return _pmf_short(k, lam)
     return _pmf_long(k, lam)
 
 
@@ -116,9 +116,9 @@ def _uniform(a: Array, x: Array, *, upper: bool) -> Array:
     eta = np.where(above, 1.0, -1.0) * root / np.sqrt(a)
     rest = np.zeros_like(a)
     for row in reversed(TEMME):
-        rest = rest / a + _horner(row, eta)
+        rest = rest / a + horner(row, eta)
     rest = np.where(above, rest, -rest) / (np.sqrt(a) * _ROOT_TWO_PI)
-    ratio, skew = _mills(root)
+    ratio, skew = mills(root)
     bell = np.exp(-np.minimum(excess.high, _CERTAIN))
     total = ratio + rest
     small = bell * total
@@ -227,5 +227,3 @@ def lower(k: Numbers, lam: Numbers) -> Result:
         As ``pmf``.
     """
     return _LOWER(k, lam)
-
-

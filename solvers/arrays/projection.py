@@ -110,7 +110,7 @@ def _pixels(f: Array, pitch: Array, x: Array, z: Array, o: Array) -> Any:
 
 
 def _by_integers(f: float, pitch: float, x: Array, z: Array, o: float) -> Array | None:
-    """o + f x/(pitch z) as one quotient of exactly known integers, or None if they are long."""
+    """One quotient of exactly known integers, or None if they are too long."""
     scaled_x, scaled_z = _integers(x), _integers(z)
     if scaled_x is None or scaled_z is None:
         return None
@@ -210,7 +210,7 @@ def pixel(f: Numbers, pitch: Numbers, x: Numbers, z: Numbers, o: Numbers) -> Res
 
 
 _PIXEL_SCALAR = Kernel(
-    lambda *args: (np.zeros(1), np.ones(1, dtype=bool)),
+    lambda *_args: (np.zeros(1), np.ones(1, dtype=bool)),
     _PIXEL.spans,
     _PIXEL.rules,
     exact=_decimal_pixel,
@@ -220,5 +220,3 @@ _PIXEL_SCALAR = Kernel(
 def _pixel_scalar(*args: Any) -> float:
     result: float = _PIXEL_SCALAR(*args)
     return result
-
-

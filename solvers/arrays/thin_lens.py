@@ -26,7 +26,7 @@ def _magnification(f: Any, z: Any) -> Any:
 
 
 def _from_focus(f: Any, z: Any) -> Any:
-    """z - f, where equal values give a positive zero: the pole is plus infinity."""
+    """Distance z - f, where equal values give a positive zero: the pole is plus infinity."""
     return z - f
 
 

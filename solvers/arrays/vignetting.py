@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from .domain import NONNEGATIVE, POSITIVE, Kernel, Numbers, Result
-from .double_double import pairs
+from .double_double import pairs, two_product, two_sum
 
 
 def _cos4(r: Any, f: Any) -> Any:
@@ -28,13 +28,22 @@ def _on_pairs(formula: Any) -> Any:
 
 
 def _cos4_short(r: Any, f: Any) -> Any:
-    A = f * f
-    q = A / (r * r + A)
-    return q * q
+    """What rounding the squares and their sum loses is put back; it would count twice."""
+    A, A_lost = two_product(f, f)
+    B, B_lost = two_product(r, r)
+    S, lost = two_sum(A, B)
+    lost += B_lost
+    lost += A_lost
+    q = A / S
+    lost /= S
+    lost -= A_lost / A
+    q *= q
+    q -= 2 * q * lost
+    return q
 
 
 def _falloff_short(r: Any, f: Any) -> Any:
-    """p (2 - p) with p = r**2/(r**2 + f**2): no difference of nearly equal values."""
+    """Product p (2 - p) with p = r**2/(r**2 + f**2): no difference of nearly equal values."""
     B = r * r
     p = B / (B + f * f)
     return p * (2 - p)

@@ -3,6 +3,8 @@
 Each generator yields ``(function, args, origin)``. No value here depends on the code under test.
 """
 
+# ruff: noqa: N806, C901 - mathematics and tables of inputs
+
 from __future__ import annotations
 
 import math
@@ -34,14 +36,27 @@ def gaussian():
         yield "inverse_tail", (p,), "tail"
     for p in (0.5 + 2**-53, 0.75, 0.975, 1 - 2**-53, 1 - 1e-12):
         yield "inverse_tail", (p,), "complement"
-    for a, b in ((10, 10.0001), (20, 20 + 1e-12), (5, 6), (2, 2.9), (0, 1e-300), (37, 39), (38, 40)):
+    for a, b in (
+        (10, 10.0001),
+        (20, 20 + 1e-12),
+        (5, 6),
+        (2, 2.9),
+        (0, 1e-300),
+        (37, 39),
+        (38, 40),
+    ):
         yield "interval", (a, b), "far or narrow"
         yield "interval", (-b, -a), "far or narrow, left"
     for a, b in ((-1, 1), (-40, 1e-9), (-1e-12, 1e-12), (-3, 8), (0.5, 0.5)):
         yield "interval", (a, b), "across the mean"
     for z, sigma in product((0, 0.1, 5, 20, 37, 38.3), (1e-170, 1e-3, 0.1, 1, 1e160)):
         yield "pdf", (z * sigma, 0.0, sigma), "sigma squared leaves the range"
-    for args in ((1e308, -1e308, 1e308), (50.1, 49.9, 0.03), (TINY, 0.0, TINY), (52e-308, 0, 1e-308)):
+    for args in (
+        (1e308, -1e308, 1e308),
+        (50.1, 49.9, 0.03),
+        (TINY, 0.0, TINY),
+        (52e-308, 0, 1e-308),
+    ):
         yield "pdf", args, "overflow, subnormal"
     for step in (*STEPS, 0.5, 1.0):
         yield "determinant", (3.0, 0.7, 1 - step), "correlation near 1"
@@ -52,7 +67,10 @@ def gaussian():
 
 
 def thin_lens():
-    pairs = [(50.0, after(50.0, n)) for n in (1, 2, 3)] + [(50.0, 50 - 2**-47), (0.05, 0.05 * (1 + 1e-12))]
+    pairs = [(50.0, after(50.0, n)) for n in (1, 2, 3)] + [
+        (50.0, 50 - 2**-47),
+        (0.05, 0.05 * (1 + 1e-12)),
+    ]
     pairs += [(f, f * (1 + s)) for f in (3.0, 0.05) for s in STEPS]
     pairs += [(50.0, 1e308), (1e-320, 1e-300), (1e308, 1.5e308), (1e300, 1e-10), (LARGE, TINY)]
     pairs += [(50.0, 200.0), (0.035, 7.3), (50.0, 20.0), (SMALL, after(SMALL)), (3.0, 1.7e308)]
@@ -80,7 +98,12 @@ def depth_of_field():
         yield "far_limit", (50.0, 2.0, 0.025, s), "hyperfocal distance"
         yield "total_depth", (50.0, 2.0, 0.025, s), "hyperfocal distance"
     yield "far_limit", (50.0, 2.0, 0.03125, 40050.0), "tie with the hyperfocal distance"
-    for args in ((1e-170, 1e3, 1e-5), (50.0, 8.0, 0.03), (1e200, 1e-150, 1e-100), (1e155, 1e3, 1e8)):
+    for args in (
+        (1e-170, 1e3, 1e-5),
+        (50.0, 8.0, 0.03),
+        (1e200, 1e-150, 1e-100),
+        (1e155, 1e3, 1e8),
+    ):
         yield "hyperfocal", args, "overflow"
     for s in (60.0, 1000.0):
         yield "total_depth", (50.0, 1e-12, 0.03, s), "tiny depth"
@@ -99,16 +122,37 @@ def distortion():
     for r in (0.6928203230275509, 0.7698003589187312, 0.76980035, 0.1, 1e-9, 1e-300, 0.5):
         yield "inverse_radius", (r, -0.25, 0.0), "up to the fold"
         yield "correction", (r, -0.25, 0.0), "up to the fold"
-    for r, k in ((1.0, 5.0), (1e3, 5.0), (1.0, 1e-14), (1.0, -1e-14), (1e150, 1e-300), (1e100, 1e300)):
+    for r, k in (
+        (1.0, 5.0),
+        (1e3, 5.0),
+        (1.0, 1e-14),
+        (1.0, -1e-14),
+        (1e150, 1e-300),
+        (1e100, 1e300),
+    ):
         yield "inverse_radius", (r, k, 0.0), "pincushion, tiny and huge coefficient"
         yield "correction", (r, k, 0.0), "pincushion, tiny and huge coefficient"
         yield "displacement", (r, k, 0.0), "tiny coefficient"
-    for k1, k2 in ((-0.3, 0.1), (-0.3, 0.0202), (-0.3, 0.041), (0.2, -0.1), (-0.2, -0.05), (0.1, 0.1), (0.0, -0.2)):
+    for k1, k2 in (
+        (-0.3, 0.1),
+        (-0.3, 0.0202),
+        (-0.3, 0.041),
+        (0.2, -0.1),
+        (-0.2, -0.05),
+        (0.1, 0.1),
+        (0.0, -0.2),
+    ):
         yield "fold_radius", (k1, k2), "tie of two folds"
         for r in (0.2, 0.5, 0.6):
             yield "inverse_radius", (r, k1, k2), "two coefficients"
             yield "displacement", (r, k1, k2), "two coefficients"
-    for k1, k2 in ((-0.3, 0.0405), (-0.3, after(0.0405, 3)), (1e-9, -1e-20), (-1e200, 1e300), (1e-300, -TINY)):
+    for k1, k2 in (
+        (-0.3, 0.0405),
+        (-0.3, after(0.0405, 3)),
+        (1e-9, -1e-20),
+        (-1e200, 1e300),
+        (1e-300, -TINY),
+    ):
         yield "fold_radius", (k1, k2), "discriminant near 0, extreme"
     for x, y, k1, k2 in (
         (1.0, 0.0, -1 + 1e-12, 0.0), (0.5, 0.5, -2.0 + 1e-9, 0.0), (0.3, 0.4, -4.000000001, 0.0),
@@ -119,32 +163,88 @@ def distortion():
 
 
 def hsv():
-    colours = [(0.2, 0.8, 0.4), (1.0, 0.0, 1e-20), (1.0, 1e-20, 0.0), (0.5, 0.5, after(0.5)), (0.5, after(0.5), 0.5)]
-    colours += [(1e-320, 2e-320, 3e-320), (1e308, -1e308, 0.0), (LARGE, 1e308, -LARGE), (0.0, 0.0, -1e-5 + 1)]
-    colours += [(-0.2, 0.5, 1.3), (-1.0, -0.5, -0.25), (0.1, 0.3, 0.2), (255.0, 254.0, 253.0), (0.7, 0.2, after(0.7))]
+    colours = [
+        (0.2, 0.8, 0.4),
+        (1.0, 0.0, 1e-20),
+        (1.0, 1e-20, 0.0),
+        (0.5, 0.5, after(0.5)),
+        (0.5, after(0.5), 0.5),
+    ]
+    colours += [
+        (1e-320, 2e-320, 3e-320),
+        (1e308, -1e308, 0.0),
+        (LARGE, 1e308, -LARGE),
+        (0.0, 0.0, -1e-5 + 1),
+    ]
+    colours += [
+        (-0.2, 0.5, 1.3),
+        (-1.0, -0.5, -0.25),
+        (0.1, 0.3, 0.2),
+        (255.0, 254.0, 253.0),
+        (0.7, 0.2, after(0.7)),
+    ]
     for rgb in colours:
         yield "hue", rgb, "near gray, near 360, subnormal, out of gamut"
         yield "saturation", rgb, "near gray, subnormal, out of gamut"
-    turns = [(-30.0, 0.8, 1.0), (720.0, 0.75, 0.8), (1e16, 0.75, 0.8), (-1e-300, 0.5, 0.5), (60.0, 1.0, 1.0)]
-    turns += [(120 - 2**-46, 1.0, 0.7), (59.99999999999999, 1 - 2**-53, 0.3), (359.99999999999994, 0.5, 1.0)]
-    turns += [(17.0, 1.5, 0.4), (200.0, -0.3, 0.4), (40.0, 1.5, 0.7), (10.0, 3.0, 1e308), (300.0, 0.5, 1e-310)]
+    turns = [
+        (-30.0, 0.8, 1.0),
+        (720.0, 0.75, 0.8),
+        (1e16, 0.75, 0.8),
+        (-1e-300, 0.5, 0.5),
+        (60.0, 1.0, 1.0),
+    ]
+    turns += [
+        (120 - 2**-46, 1.0, 0.7),
+        (59.99999999999999, 1 - 2**-53, 0.3),
+        (359.99999999999994, 0.5, 1.0),
+    ]
+    turns += [
+        (17.0, 1.5, 0.4),
+        (200.0, -0.3, 0.4),
+        (40.0, 1.5, 0.7),
+        (10.0, 3.0, 1e308),
+        (300.0, 0.5, 1e-310),
+    ]
     for args in turns:
         for name in ("red", "green", "blue"):
             yield name, args, "many turns, sector edges, out of gamut"
 
 
 def normalise():
-    cases = [(128.0, 0.0, 255.0, 0.0, 1.0), (64.0, 0.0, 255.0, -1.0, 1.0), (300.0, 0.0, 255.0, 0.0, 1.0)]
+    cases = [
+        (128.0, 0.0, 255.0, 0.0, 1.0),
+        (64.0, 0.0, 255.0, -1.0, 1.0),
+        (300.0, 0.0, 255.0, 0.0, 1.0),
+    ]
     cases += [(127.5 + s, 0.0, 255.0, -1.0, 1.0) for s in (2**-46, 1e-9, 1e-3)]
-    cases += [(0.7, 0.1, 0.7, 0.0, 0.9), (0.3, 0.1, 0.7, -0.3, 0.3), (1e308, -1e308, 1e308, 0.0, 1.0)]
-    cases += [(2e-320, 1e-320, 3e-320, 0.0, 1.0), (50.0, 50.0, after(50.0), 0.0, 255.0), (1e-300, 0.0, 1.0, 5.0, 5.0)]
-    cases += [(0.1 + 0.2, 0.1, 0.3, -1e-3, 1e-3), (LARGE, -LARGE, LARGE, -LARGE, LARGE), (1.0, 0.0, 3.0, 1.0, -2.0)]
+    cases += [
+        (0.7, 0.1, 0.7, 0.0, 0.9),
+        (0.3, 0.1, 0.7, -0.3, 0.3),
+        (1e308, -1e308, 1e308, 0.0, 1.0),
+    ]
+    cases += [
+        (2e-320, 1e-320, 3e-320, 0.0, 1.0),
+        (50.0, 50.0, after(50.0), 0.0, 255.0),
+        (1e-300, 0.0, 1.0, 5.0, 5.0),
+    ]
+    cases += [
+        (0.1 + 0.2, 0.1, 0.3, -1e-3, 1e-3),
+        (LARGE, -LARGE, LARGE, -LARGE, LARGE),
+        (1.0, 0.0, 3.0, 1.0, -2.0),
+    ]
     for args in cases:
         yield "normalise", args, "cancellation, overflow, subnormal range"
 
 
 def projection():
-    for args in ((2.0, 10.0, 3.0), (1e200, 1e200, 1e150), (1e-200, 1e-200, 1e-300), (50.0, 1.0, TINY), (2.0, -1.0, -3.0), (3.0, TINY, 7.0)):
+    for args in (
+        (2.0, 10.0, 3.0),
+        (1e200, 1e200, 1e150),
+        (1e-200, 1e-200, 1e-300),
+        (50.0, 1.0, TINY),
+        (2.0, -1.0, -3.0),
+        (3.0, TINY, 7.0),
+    ):
         yield "project_x", args, "overflow, subnormal, behind"
     for args in (
         (0.002, 5e-6, -1.0, 2.0, 320.0), (0.005, 5e-6, 0.2, 2.0, 320.0), (0.0035, 2.5e-6, 0.3, 0.7, 319.5),
@@ -154,37 +254,122 @@ def projection():
 
 
 def weak_perspective():
-    for z, zbar in ((99.0, 100.0), (after(100.0), 100.0), (100 * (1 + 1e-10), 100.0), (TINY, 1.0), (1e308, 1e-5), (1e-310, 2e-310), (0.1, 0.3)):
+    for z, zbar in (
+        (99.0, 100.0),
+        (after(100.0), 100.0),
+        (100 * (1 + 1e-10), 100.0),
+        (TINY, 1.0),
+        (1e308, 1e-5),
+        (1e-310, 2e-310),
+        (0.1, 0.3),
+    ):
         yield "scale_error", (z, zbar), "z near zbar, extreme"
         yield "scale_error_of_weak", (z, zbar), "z near zbar, extreme"
 
 
 def snr():
-    for N, sigma in ((1e4, 0.0), (1e12, 2.0), (1e18, 1e-3), (1e-3, 10.0), (100.0, 5.0), (1e308, 1e160), (TINY, 1e-170), (1e-300, 1e-170), (1.0, LARGE)):
+    for N, sigma in (
+        (1e4, 0.0),
+        (1e12, 2.0),
+        (1e18, 1e-3),
+        (1e-3, 10.0),
+        (100.0, 5.0),
+        (1e308, 1e160),
+        (TINY, 1e-170),
+        (1e-300, 1e-170),
+        (1.0, LARGE),
+    ):
         for name in ("snr", "snr_loss", "photons_for"):
             yield name, (N, sigma), "loss near 0, extreme"
 
 
 def poisson():
-    for k, lam in ((0, 1e-10), (0, 700.0), (1, 1e-300), (3, 2.5), (100, 100.0), (80, 100.0), (200, 100.0), (1e6, 1e6), (1e9, 1e9), (1e12, 1e12), (1e15, 1e15 + 3e7), (718, 1464.9643890384557), (1000, 3.0)):
+    for k, lam in (
+        (0, 1e-10),
+        (0, 700.0),
+        (1, 1e-300),
+        (3, 2.5),
+        (100, 100.0),
+        (80, 100.0),
+        (200, 100.0),
+        (1e6, 1e6),
+        (1e9, 1e9),
+        (1e12, 1e12),
+        (1e15, 1e15 + 3e7),
+        (718, 1464.9643890384557),
+        (1000, 3.0),
+    ):
         yield "pmf", (k, lam), "mode, far tail, large mean"
-    for k, lam in ((80, 100.0), (120, 100.0), (1, 1e-12), (5, 30.0), (30, 5.0), (9600, 1e4), (10500, 1e4), (59, 60.0), (62, 60.0), (300, 64.8), (90, 180.5), (0, 2.0)):
+    for k, lam in (
+        (80, 100.0),
+        (120, 100.0),
+        (1, 1e-12),
+        (5, 30.0),
+        (30, 5.0),
+        (9600, 1e4),
+        (10500, 1e4),
+        (59, 60.0),
+        (62, 60.0),
+        (300, 64.8),
+        (90, 180.5),
+        (0, 2.0),
+    ):
         yield "upper", (k, lam), "either side, seams of the methods"
         yield "lower", (k, lam), "either side, seams of the methods"
 
 
 def gamma():
-    for x in (0.0, TINY, 1e-310, 1e-5, 0.001, 0.0031308, after(0.0031308), 0.04045, after(0.04045), 0.18, 0.5, 1.0, 1e100, 1e300):
+    for x in (
+        0.0,
+        TINY,
+        1e-310,
+        1e-5,
+        0.001,
+        0.0031308,
+        after(0.0031308),
+        0.04045,
+        after(0.04045),
+        0.18,
+        0.5,
+        1.0,
+        1e100,
+        1e300,
+    ):
         for name in ("encode", "decode", "srgb_encode", "srgb_decode"):
             yield name, (x,), "knee, subnormal, rounded exponent"
-    pairs = [(0.2, 0.8), (0.25, 0.25 + 1e-8), (0.0, 1.0), (0.0, TINY), (1e308, 1.7e308), (0.3, after(0.3)), (1.0, 3.0)]
-    pairs += [(0.5, 0.5 * (1 + s)) for s in STEPS] + [(1.0, 7.0), (1.0, 7.000001), (1.0, 15.0), (1e-300, 1.0), (TINY, 1e-320)]
+    pairs = [
+        (0.2, 0.8),
+        (0.25, 0.25 + 1e-8),
+        (0.0, 1.0),
+        (0.0, TINY),
+        (1e308, 1.7e308),
+        (0.3, after(0.3)),
+        (1.0, 3.0),
+    ]
+    pairs += [(0.5, 0.5 * (1 + s)) for s in STEPS] + [
+        (1.0, 7.0),
+        (1.0, 7.000001),
+        (1.0, 15.0),
+        (1e-300, 1.0),
+        (TINY, 1e-320),
+    ]
     for a, b in pairs:
         yield "gap", (a, b), "near-equal, seams of the series"
 
 
 def vignetting():
-    for r, f in ((0.0, 50.0), (1e-8, 1.0), (21.6, 50.0), (1e-200, 1.0), (1e80, 1.0), (1e200, 1e-3), (TINY, LARGE), (50.0, 50.0), (3.0, 1e-310), (1e-4, 0.35)):
+    for r, f in (
+        (0.0, 50.0),
+        (1e-8, 1.0),
+        (21.6, 50.0),
+        (1e-200, 1.0),
+        (1e80, 1.0),
+        (1e200, 1e-3),
+        (TINY, LARGE),
+        (50.0, 50.0),
+        (3.0, 1e-310),
+        (1e-4, 0.35),
+    ):
         yield "cos4", (r, f), "small angle, overflow"
         yield "falloff", (r, f), "small angle, overflow"
 

@@ -91,9 +91,7 @@ def temme(orders, terms):
     for k in range(1, orders):
         derivative = [(n + 1) * c[n + 1] for n in range(len(c) - 1)]
         # c_k = (1/eta) c_{k-1}' + gamma_k/mu, whose terms in 1/eta cancel.
-        c = [
-            derivative[n + 1] + gammas[k] * over_mu[n + 1] for n in range(len(derivative) - 1)
-        ]
+        c = [derivative[n + 1] + gammas[k] * over_mu[n + 1] for n in range(len(derivative) - 1)]
         result.append(c)
     return [row[:terms] for row in result]
 

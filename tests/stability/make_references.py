@@ -33,7 +33,9 @@ def tolerance(name, args):
 def row(name, args, origin):
     """One line of the file."""
     text = mp.nstr(reference(name, args), 40, strip_zeros=False)
-    return "\t".join((name, " ".join(arg.hex() for arg in args), text, str(tolerance(name, args)), origin))
+    return "\t".join(
+        (name, " ".join(arg.hex() for arg in args), text, str(tolerance(name, args)), origin)
+    )
 
 
 def write():

@@ -4,6 +4,8 @@ Nothing here uses the code under test. ``reference(name, args)`` takes doubles, 
 binary numbers they are, and returns an ``mpf`` with at least 45 correct digits.
 """
 
+# ruff: noqa: N803, E741 - mathematics and tables of inputs
+
 from __future__ import annotations
 
 from fractions import Fraction

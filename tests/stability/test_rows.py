@@ -35,12 +35,15 @@ def error(name, value, truth):
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: f"{row[0]}({row[1]})")
-def test_scalar(row):
+def test_alone_and_in_an_array(row):
+    """Arrays of ordinary values take shorter ways than scalars and mixed arrays do."""
     name, args, truth, tolerance = read(row)
     assert error(name, function(name)(*args), truth) <= tolerance
+    pair = function(name)(*[np.array([arg, arg]) for arg in args])
+    assert error(name, float(pair[0]), truth) <= tolerance
 
 
-def test_arrays_agree_with_scalars():
+def test_all_rows_of_a_function_in_one_array():
     by_name = {}
     for row in ROWS:
         name, args, truth, tolerance = read(row)

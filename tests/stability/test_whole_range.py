@@ -49,13 +49,17 @@ def test_any_finite_input(name, data):
         try:
             scalars = columns(call(*args))
         except DomainError as error:
-            assert error.reason not in {"", "not-finite"}
-            assert not all(answered(value)[0] for value in values)
-            return
+            refused = error.reason
+        else:
+            refused = ""
+    if refused:
+        assert refused != "not-finite"
+        assert not all(answered(value)[0] for value in values)
+        return
     for value, scalar in zip(values, scalars, strict=True):
         assert answered(value)[0]
         assert not math.isnan(scalar)
-        assert float(value[0]) == scalar or abs(float(value[0]) - scalar) <= 2 * math.ulp(scalar)
+        assert float(value[0]) == scalar or abs(float(value[0]) - scalar) <= 8 * math.ulp(scalar)
 
 
 @settings(max_examples=100, deadline=2000)

@@ -1,0 +1,169 @@
+"""The demonstration stays true: textbook forms fail, stable ones do not, oracles agree."""
+
+from __future__ import annotations
+
+import json
+import math
+import xml.etree.ElementTree as ET
+
+import mpmath as mp
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from quizgen.cli_tradeoff import tradeoff
+from quizgen.expr import compile_expr
+from quizgen.tradeoff import fields, ladder
+from quizgen.tradeoff.families import BY_NAME, FAMILIES
+from quizgen.tradeoff.knobs import KNOBS, coverage
+from quizgen.tradeoff.measure import QUICK, Bench, bits_of, pareto, steps
+from quizgen.tradeoff.page import LANGUAGES, words
+
+SAFE = {"hue"}
+"""Families whose printed formula is safe in float64 (the page says so)."""
+
+PROVEN = {"exact", "arb"}
+
+
+@pytest.fixture(scope="module")
+def measured():
+    return {family.name: {m.key: m for m in Bench(family, QUICK).run()} for family in FAMILIES}
+
+
+@pytest.mark.parametrize("name", list(BY_NAME))
+def test_stable_rung_holds(measured, name):
+    stable = measured[name]["stable"]
+    assert stable.exam.max_steps <= 4
+    assert stable.hard.max_steps <= 4
+
+
+@pytest.mark.parametrize("name", [name for name in BY_NAME if name not in SAFE])
+def test_textbook_rung_fails_where_the_page_says_so(measured, name):
+    rung = measured[name]["float64"]
+    assert rung.hard.max_steps > 1e9
+    assert measured[name]["float32"].hard.lost > 0.5
+
+
+@pytest.mark.parametrize("name", SAFE)
+def test_safe_family_is_safe_in_float64_and_not_in_float32(measured, name):
+    assert measured[name]["float64"].hard.max_steps <= 4
+    assert math.isinf(measured[name]["float32"].hard.max_steps)
+
+
+@pytest.mark.parametrize("name", list(BY_NAME))
+def test_proven_rungs_are_correctly_rounded(measured, name):
+    rungs = [measured[name][key] for key in PROVEN & set(measured[name])]
+    assert rungs
+    for rung in rungs:
+        assert rung.exam.max_steps == rung.hard.max_steps == 0
+
+
+def test_ladder_of_a_question_costs_less_than_a_millisecond(measured):
+    for rungs in measured.values():
+        assert sum(rungs[key].nanoseconds for key in PROVEN & set(rungs)) < 1e6
+
+
+def test_disagreeing_oracles_are_an_error(monkeypatch):
+    family = BY_NAME["thin-lens"]
+    first, second = ladder.oracles(family)
+    with mp.workdps(80):
+        slip = 1 + mp.mpf(2) ** -60  # in the 19th digit
+        monkeypatch.setattr(ladder, "oracles", lambda _: (first, lambda row: second(row) * slip))
+    with pytest.raises(ladder.OraclesDisagree, match="thin-lens"):
+        ladder.truths(family, [(50.0, 60.0)])
+
+
+def test_truth_of_the_lens_is_the_printed_one():
+    z = math.nextafter(50, 60)
+    assert ladder.truths(BY_NAME["thin-lens"], [(50.0, z)]) == [351843720888320050.0]
+
+
+@pytest.mark.parametrize(
+    ("value", "truth", "count"),
+    [
+        (1.0, 1.0, 0),
+        (-0.0, 0.0, 0),
+        (math.nextafter(1, 2), 1.0, 1),
+        (5e-324, -5e-324, 2),
+        (math.inf, 1.7976931348623157e308, 1),
+        (math.nan, 1.0, math.inf),
+    ],
+)
+def test_steps_between_doubles(value, truth, count):
+    assert steps(value, truth) == count
+
+
+def test_bits_are_herbies():
+    assert [bits_of(count) for count in (0, 1, 3, math.inf)] == [0, 1, 2, 64]
+
+
+def test_pareto_keeps_what_nothing_beats():
+    assert pareto([(1, 9), (2, 5), (3, 7), (4, 5), (5, 0)]) == [0, 1, 4]
+
+
+def test_every_field_computes_the_same():
+    import sympy
+
+    formula = BY_NAME["far-limit"].formula
+    inputs = {"f": 50, "N": 8, "c": 0.03125, "s": 3000}
+    expected = 3000 * 10000 / (10000 + 50 - 3000)
+    array = compile_expr(formula, fields.arrays(64))({k: np.float64(v) for k, v in inputs.items()})
+    precise = compile_expr(formula, fields.multiprecision())(
+        {k: mp.mpf(v) for k, v in inputs.items()}
+    )
+    symbol = compile_expr(formula, fields.symbolic())(
+        {k: sympy.Rational(v) for k, v in inputs.items()}
+    )
+    for value in (array, precise, symbol):
+        assert float(value) == pytest.approx(expected, rel=1e-12)
+
+
+def test_coverage_is_the_area_under_an_edge():
+    assert coverage(1.0, 1.0, 1.0) == 0.5
+    assert coverage(1.0, 1.0, 0.5) == 0.125
+    assert coverage(1.0, 2.0, 3.0) == 1.0
+
+
+def test_work_precision_curves_fall():
+    curves = {knob.key: list(knob.measure(QUICK)) for knob in KNOBS}
+    kernel = [p.error for p in curves["kernel"][0].points]
+    assert kernel == sorted(kernel, reverse=True)
+    assert kernel[4] == pytest.approx(0.31, abs=0.06)  # three sigma
+    inverse_z, in_z = curves["layers"]
+    assert [round(p.error, -1) for p in inverse_z.points][:3] == [70, 30, 20]
+    assert all(a.error < b.error for a, b in zip(inverse_z.points, in_z.points, strict=True))
+    normal = [p.error for p in curves["photons"][0].points]
+    assert normal == sorted(normal, reverse=True)
+
+
+def test_words_are_complete_in_both_languages():
+    shapes = []
+    for lang in LANGUAGES:
+        text = words(lang)
+        assert set(text["family"]) == set(BY_NAME)
+        assert set(text["knob"]) == {knob.key for knob in KNOBS}
+        shapes.append({key: sorted(value) for key, value in text.items()})
+    assert shapes[0] == shapes[1]
+
+
+def test_command_writes_page_plots_and_data(tmp_path):
+    done = CliRunner().invoke(tradeoff, ["thin-lens", "--quick", "--out", str(tmp_path)])
+    assert done.exit_code == 0, done.output
+    page = (tmp_path / "tradeoff.html").read_text("utf-8")
+    assert "http" not in page.replace("http://www.w3.org/2000/svg", "")
+    assert "<script" not in page
+    assert page.count("<svg") == 2
+    data = json.loads((tmp_path / "tradeoff.json").read_text("utf-8"))
+    assert [rung["key"] for rung in data["families"][0]["rungs"]][:3] == [
+        "float32",
+        "float64",
+        "stable",
+    ]
+    svg = ET.parse(tmp_path / "thin-lens.svg").getroot()
+    assert svg.find("{http://www.w3.org/2000/svg}title").text
+
+
+def test_unknown_family_is_one_line():
+    done = CliRunner().invoke(tradeoff, ["thin-lense"])
+    assert done.exit_code != 0
+    assert "thin-lens" in str(done.exception)
