@@ -232,7 +232,9 @@ def printed_answer(spec: Mapping[str, Any], lang: str) -> str:
     """The answer as the solution states it: exact first where that says more."""
     rounded = answer_text(spec, lang)
     values = spec.get("values", spec.get("value"))
-    if not readable_fractions(values) or "decimals" in spec or spec.get("percent"):
+    if isinstance(values, Mapping) or not readable_fractions(values):
+        return rounded
+    if "decimals" in spec or spec.get("percent"):
         return rounded
     exactly = answer_text({**_without_rounding(spec), "exact": True}, lang)
     return exactly if exactly == rounded else f"{exactly} ≈ {rounded}"
@@ -240,8 +242,7 @@ def printed_answer(spec: Mapping[str, Any], lang: str) -> str:
 
 def readable_fractions(values: Any) -> bool:
     """Whether values are whole numbers and short fractions, some fraction among them."""
-    listed = values.values() if isinstance(values, Mapping) else values
-    texts = [listed] if isinstance(listed, str) else list(listed or ())
+    texts = [values] if isinstance(values, str) else list(values or ())
     return all(re.fullmatch(r"-?\d{1,6}(/\d{1,3})?", str(t)) for t in texts) and any(
         "/" in str(t) for t in texts
     )

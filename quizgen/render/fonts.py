@@ -132,5 +132,6 @@ def missing_characters(text: str) -> set[str]:
     """Bangla characters of a text that the font cannot show."""
     from fontTools.ttLib import TTFont
 
-    known = TTFont(bangla_file(), lazy=True).getBestCmap()
+    with TTFont(bangla_file(), lazy=True) as font:
+        known = font.getBestCmap()
     return {c for c in text if 0x0980 <= ord(c) < 0x0A00 and ord(c) not in known}
