@@ -186,7 +186,7 @@ def _pixel_exam(rng: Any, n: int) -> list[Any]:
     import numpy as np
 
     x, z = rng.integers(-20, 21, n) / 20, rng.integers(10, 60, n) / 10
-    return [_pick(rng, (0.002, 0.004, 0.005, 0.008), n), np.full(n, 5e-6), x, z, np.full(n, 320.0)]
+    return [np.full(n, 0.004), np.full(n, 5e-6), x, z, np.full(n, 320.0)]
 
 
 def _pixel_hard(rng: Any, n: int) -> list[Any]:

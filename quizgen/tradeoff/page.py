@@ -23,7 +23,7 @@ from quizgen.tradeoff.plot import (
     time_text,
     work_panel,
 )
-from quizgen.tradeoff.report import FamilyReport, Report
+from quizgen.tradeoff.report import EXACT, FamilyReport, Report
 
 LANGUAGES = ("en", "bn")
 HALF_PIXEL = 0.5 / 255
@@ -66,13 +66,14 @@ def words(lang: str) -> dict[str, Any]:
 
 
 def write(report: Report, folder: Path, command: str) -> list[Path]:
-    """Write ``tradeoff.html``, ``tradeoff.json`` and one SVG per plot; return their paths."""
+    """Write the page, its data, a short table and one SVG per plot; return their paths."""
     folder.mkdir(parents=True, exist_ok=True)
     plots = {family.name: family_plot(family, "en") for family in report.families}
     plots |= {key: knob_plot(key, curves, "en") for key, curves in report.knobs}
     made = {f"{name}.svg": svg for name, svg in plots.items()}
     made["tradeoff.json"] = json.dumps(as_data(report, command), indent=1) + "\n"
     made["tradeoff.html"] = html(report, command)
+    made["tradeoff.md"] = markdown(report, command)
     paths = []
     for name, text in made.items():
         paths.append(folder / name)
@@ -152,6 +153,32 @@ def _font_face() -> str:
     return "".join(
         face % (weight, bangla_uri(name)) for name, weight in (("Regular", 400), ("Bold", 700))
     )
+
+
+def markdown(report: Report, command: str) -> str:
+    """A short table in English: the printed formula beside the stable and the proven ways."""
+    text = words("en")
+    head = "| question | printed formula, float64 | stable form, float64 | exact or Arb |"
+    lines = [f"`{command}` on {report.machine}", "", head, "|---|---|---|---|"]
+    for family in report.families:
+        rungs = {rung.key: rung for rung in family.rungs}
+        proven = min((r for k, r in rungs.items() if k in EXACT), key=lambda r: r.nanoseconds)
+        cells = [_cell(rung) for rung in (rungs["float64"], rungs["stable"], proven)]
+        lines.append(f"| {text['family'][family.name]['title']} | {' | '.join(cells)} |")
+    verdict = text["page"]["verdict"].format(
+        ladder=time_text(report.ladder_seconds * 1e9), figure=time_text(report.figure_seconds * 1e9)
+    )
+    note = "Time per value; largest error in doubles on exam inputs, on hard inputs."
+    return "\n".join([*lines, "", note, "", verdict, ""])
+
+
+def _cell(rung: Measured) -> str:
+    errors = ", ".join(_plain(each.max_steps) for each in (rung.exam, rung.hard))
+    return f"{time_text(rung.nanoseconds)}; {errors}"
+
+
+def _plain(steps: float) -> str:
+    return f"{steps:.0f}" if steps < 10000 else f"{steps:.0e}".replace("e+", "e")
 
 
 def _body(report: Report, command: str, lang: str) -> str:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from .domain import NONNEGATIVE, POSITIVE, Kernel, Numbers, Result
-from .double_double import pairs, two_product, two_sum
+from .double_double import pairs
 
 
 def _cos4(r: Any, f: Any) -> Any:
@@ -28,17 +28,19 @@ def _on_pairs(formula: Any) -> Any:
 
 
 def _cos4_short(r: Any, f: Any) -> Any:
-    """What rounding the squares and their sum loses is put back; it would count twice."""
-    A, A_lost = two_product(f, f)
-    B, B_lost = two_product(r, r)
-    S, lost = two_sum(A, B)
-    lost += B_lost
-    lost += A_lost
+    """What rounding the sum loses is put back; it would count twice."""
+    if r.max() > f.min():
+        return _cos4(*pairs(r, f)).rounded()
+    A = f * f
+    S = r * r
+    lost = -S
+    S += A
+    lost += S - A  # exact because r <= f
     q = A / S
     lost /= S
-    lost -= A_lost / A
     q *= q
-    q -= 2 * q * lost
+    lost *= q
+    q += 2 * lost
     return q
 
 
