@@ -22,11 +22,16 @@ from quizgen.errors import BankError
 from quizgen.figures._parameters import Parameter, complete
 
 FIGURES: Mapping[str, str] = {
+    "artefacts": "quizgen.figures.artefacts",
     "bayer": "quizgen.figures.bayer",
     "blur_disc": "quizgen.figures.blur_disc",
+    "depth_of_field": "quizgen.figures.depth_of_field",
     "distorted_grid": "quizgen.figures.distorted_grid",
     "gaussian": "quizgen.figures.gaussian",
     "hsv_edits": "quizgen.figures.hsv_edits",
+    "luminosity": "quizgen.figures.luminosity",
+    "noise": "quizgen.figures.noise",
+    "normalisation": "quizgen.figures.normalisation",
     "pinhole": "quizgen.figures.pinhole",
     "thin_lens": "quizgen.figures.thin_lens",
 }

@@ -23,6 +23,11 @@ REFERENCE = {
     "thin_lens": {"f": 50, "z": 200},
     "bayer": MOSAIC,
     "blur_disc": {"D": 25, "z_p": 60, "z_s": 61},
+    "artefacts": {"kind": 2},
+    "depth_of_field": {"N_1": 16, "N_2": 1.8, "order": 1},
+    "luminosity": {"m_1": 532, "m_2": 650},
+    "noise": {"sigma": 0.04, "p": 0.09, "order": 4},
+    "normalisation": {"low": 60, "high": 140},
 }
 
 HIDDEN = {
@@ -34,6 +39,11 @@ HIDDEN = {
     "thin_lens": ["66.67"],
     "bayer": ["115", "65"],
     "blur_disc": ["0.4167"],
+    "artefacts": ["t_0"],
+    "depth_of_field": ["16", "1.8"],
+    "luminosity": ["0.885", "0.107"],
+    "noise": ["0.04", "0.09"],
+    "normalisation": ["140"],
 }
 
 
@@ -66,9 +76,28 @@ def _bayer(rng: random.Random):
     yield {"size": size, "phase": rng.randrange(4), "x": x, "y": y, **values}
 
 
+def camera_draws():
+    """Values of the figures that the camera simulator takes, all over their ranges."""
+    for kind in range(12):
+        yield "artefacts", {"kind": kind, "variant": kind % 4}
+    for first, second in ((380, 780), (480, 488), (507, 555), (555, 560), (700, 400), (604, 458)):
+        for log in (0, 1):
+            yield "luminosity", {"m_1": first, "m_2": second, "log": log, "night": log}
+    yield "luminosity", {}
+    for order in range(6):
+        yield "noise", {"order": order, "sigma": 0.02 + 0.05 * order, "p": 0.05, "seed": order}
+    for low, high in ((0, 255), (60, 180), (80, 180), (60, 150), (90, 150), (-255, 510)):
+        yield "normalisation", {"low": low, "high": high, "share": 0.01 * (low == 80)}
+    for f, s, z in ((50, 2, (1.2, 2, 6)), (85, 3, (1.5, 3, 12)), (35, 10, (2.5, 10, 400))):
+        near, middle, far = z
+        depths = {"z_1": near, "z_2": middle, "z_3": far}
+        yield "depth_of_field", {"f": f, "s": s, "N_1": 2.8, "N_2": 22, **depths}
+
+
 def draws():  # noqa: C901 - one loop a figure
     """Figure names and values all over the ranges of the curriculum (A3, C11-C14, D17a, S11, S14)."""
     rng = random.Random(20)
+    yield from camera_draws()
     for _ in range(25):
         yield from (("pinhole", values) for values in _pinhole(rng))
     for _ in range(12):

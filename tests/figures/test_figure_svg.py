@@ -122,7 +122,8 @@ def test_line_art_is_transparent_and_pictures_are_on_white(name, quiz):
     figure = render(name, REFERENCE[name], quiz=quiz, lang="en")
     white = f'd="M 0 {figure.height_pt:g} L {figure.width_pt:g} {figure.height_pt:g} L'
     assert (white in figure.svg.decode()) == (figure.dark == "keep")
-    assert figure.dark == ("keep" if name == "hsv_edits" else "invert")
+    pictures = {"artefacts", "depth_of_field", "hsv_edits", "luminosity", "noise"}
+    assert figure.dark == ("keep" if name in pictures else "invert")
 
 
 def test_settings_do_not_leak():
@@ -270,6 +271,10 @@ def test_no_line_is_thinner_than_print_can_hold(drawn):
         ("distorted_grid", {"k1": -2, "c_x": 0.8}, "en", "folds over|outside"),
         ("gaussian", {"sigma": 1, "sigma2": 2, "k": 1}, "en", "single curve"),
         ("thin_lens", {"f": 0, "z": 1}, "en", "f = 0"),
+        ("luminosity", {"m_1": 500, "m_2": 502}, "en", "5 nm apart"),
+        ("depth_of_field", {"f": 200, "s": 0.3}, "en", "exceed 2 f"),
+        ("depth_of_field", {"N_1": 4, "N_2": 4}, "en", "must differ"),
+        ("normalisation", {"low": 9, "high": 9}, "en", "larger than low"),
     ],
 )
 def test_bad_values_get_one_line(name, values, lang, message):

@@ -1,0 +1,166 @@
+"""Three objects at known distances, photographed at two f-numbers with the same brightness."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from quizgen.figures._numbers import derived, given
+from quizgen.figures._parameters import Parameter, Values, require
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from quizgen.camera.scene import Camera, Scene
+    from quizgen.figures._pen import Pen
+
+DARK = "keep"
+
+PARAMETERS = {
+    "f": Parameter("mm", "focal length", 50.0, 10.0, 200.0),
+    "N_1": Parameter("", "one f-number", 16.0, 1.0, 64.0),
+    "N_2": Parameter("", "the other f-number", 1.8, 1.0, 64.0),
+    "s": Parameter("m", "distance in focus", 2.0, 0.3, 100.0),
+    "z_1": Parameter("m", "distance of the left object", 1.2, 0.3, 1000.0),
+    "z_2": Parameter("m", "distance of the middle object", 2.0, 0.3, 1000.0),
+    "z_3": Parameter("m", "distance of the right object", 6.0, 0.3, 1000.0),
+    "order": Parameter(
+        "", "0 puts N_1 at A and N_2 at B, 1 the other way", 0.0, 0.0, 1.0, whole=True
+    ),
+}
+
+SENSOR_MM = 36.0
+"""Width of the sensor: full frame."""
+
+_WIDE, _HIGH = 144, 96
+_GAP, _TOP, _BELOW = 8.0, 15.0, 15.0
+_LETTERS = "AB"
+
+
+def f_numbers(values: Values) -> tuple[float, float]:
+    """F-numbers of A and B."""
+    pair = (values["N_1"], values["N_2"])
+    return (pair[1], pair[0]) if values["order"] else pair
+
+
+def photographed(values: Values) -> tuple[Scene, Camera]:
+    """Scene and camera of the figure; the f-number is still to be set.
+
+    The objects are drawn equally large, so that blur alone tells them apart.
+    """
+    from quizgen.camera import Camera, Length, Scene, Thing
+
+    looks = (
+        ("disc", "checker", (0.9, 0.75, 0.2), (0.25, 0.06, 0.03)),
+        ("box", "stripes", (0.95, 0.95, 0.95), (0.02, 0.03, 0.1)),
+        ("disc", "checker", (0.75, 0.9, 0.95), (0.02, 0.12, 0.06)),
+    )
+    things = tuple(
+        Thing(
+            shape, x=Length(48.0 * (place - 1)), y=Length(2.0), width=Length(36), height=Length(52),
+            radius=Length(20), cell=Length(9), depth=values[f"z_{place + 1}"], texture=texture,
+            colour=colour, other=other,
+        )
+        for place, (shape, texture, colour, other) in enumerate(looks)
+    )  # fmt: skip
+    scene = Scene(_WIDE, _HIGH, things, (0.18, 0.24, 0.3), background_depth=10.0 * values["z_3"])
+    camera = Camera(
+        focal_length=values["f"] / 1e3,
+        pixel_pitch=SENSOR_MM / 1e3 / _WIDE,
+        focus_distance=values["s"],
+        gamma="srgb",
+    )
+    return scene, camera
+
+
+def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
+    """Draw the figure.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+        An empty figure.
+    values : mapping of str to float
+        As ``PARAMETERS`` says.
+    quiz : bool
+        Show letters without the f-numbers.
+    """
+    from quizgen.camera import pictures
+    from quizgen.figures._pen import WIDTH, Pen
+    from quizgen.figures._photo import place as put
+
+    _check(values)
+    scene, camera = photographed(values)
+    wide = (WIDTH - 3 * _GAP) / 2
+    high = wide * _HIGH / _WIDE
+    pen = Pen(WIDTH, _BELOW + high + _TOP + 2)
+    photos = pictures.at_f_numbers(scene, camera, f_numbers(values))
+    for place, photo in enumerate(photos):
+        left = _GAP + place * (wide + _GAP)
+        put(figure, pen, photo.pixels(), (left, _BELOW, wide, high))
+        letter, number = _LETTERS[place], given(f_numbers(values)[place])
+        text = f"{{{letter}}}" if quiz else f"{{{letter}:}}  f{{/{number}}}"
+        pen.label((left + wide / 2, pen.height - 8), text)
+        _distances(pen, values, left, wide)
+    pen.onto(figure, background="#ffffff")
+
+
+def _check(values: Values) -> None:
+    require("depth_of_field", 1000 * values["s"] > 2 * values["f"], "s must exceed 2 f")
+    nearest = min(values[f"z_{place}"] for place in (1, 2, 3))
+    require("depth_of_field", 1000 * nearest > 2 * values["f"], "objects must be beyond 2 f")
+    require("depth_of_field", values["N_1"] != values["N_2"], "the f-numbers must differ")
+
+
+def _distances(pen: Pen, values: Values, left: float, wide: float) -> None:
+    for place in range(3):
+        middle = left + wide / 2 + (place - 1) * 48.0 * wide / _WIDE
+        pen.label((middle, 7), f"{given(values[f'z_{place + 1}'])} {{m}}", size=9)
+
+
+def discs(values: Values, number: float) -> tuple[float, ...]:
+    """Blur discs of the three objects on the sensor, mm: f^2 |z-s| / (N z (s-f))."""
+    focus, focal = 1000.0 * values["s"], values["f"]
+    depths = [1000.0 * values[f"z_{place}"] for place in (1, 2, 3)]
+    return tuple(focal**2 * abs(z - focus) / (number * z * (focus - focal)) for z in depths)
+
+
+def alt(values: Values, lang: str, *, quiz: bool) -> str:
+    """Describe the figure in words.
+
+    Parameters
+    ----------
+    values : mapping of str to float
+        As ``PARAMETERS`` says.
+    lang : {"en", "bn"}
+        Language.
+    quiz : bool
+        Say how sharp the objects are instead of the f-numbers.
+    """
+    words = _ALT[lang]
+    depths = [given(values[f"z_{place}"]) for place in (1, 2, 3)]
+    told = [words["figure"].format(*depths)]
+    for letter, number in zip(_LETTERS, f_numbers(values), strict=True):
+        if quiz:
+            told.append(
+                words["wide" if number == min(f_numbers(values)) else "small"].format(letter)
+            )
+        else:
+            blur = [derived(size) for size in discs(values, number)]
+            told.append(words["number"].format(letter, given(number), *blur))
+    return " ".join(told)
+
+
+_ALT = {
+    "en": {
+        "figure": "Two photos A and B of three objects at {} m, {} m and {} m.",
+        "wide": "In {} objects away from the plane of focus and the background are more blurred.",
+        "small": "In {} objects at all distances are closer to sharp.",
+        "number": "{}: f/{}, blur discs on the sensor {} mm, {} mm and {} mm.",
+    },
+    "bn": {
+        "figure": "{} m, {} m ও {} m দূরের তিনটি বস্তুর দুটি ছবি, A ও B।",
+        "wide": "{}-তে ফোকাসের তল থেকে দূরের বস্তু আর পেছনটা বেশি ঝাপসা।",
+        "small": "{}-তে সব দূরত্বের বস্তুই স্পষ্টের কাছাকাছি।",
+        "number": "{}: f/{}, সেন্সরে ঝাপসা বৃত্ত {} mm, {} mm ও {} mm।",
+    },
+}

@@ -1,0 +1,170 @@
+"""One scene clean, with Gaussian noise and with salt and pepper; detail and histogram below."""
+
+from __future__ import annotations
+
+from functools import cache
+from itertools import permutations
+from typing import TYPE_CHECKING
+
+from quizgen.figures._numbers import given, spoken
+from quizgen.figures._parameters import Parameter, Values
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from quizgen.camera.scene import Image
+    from quizgen.figures._pen import Pen
+
+DARK = "keep"
+
+PARAMETERS = {
+    "sigma": Parameter("1", "standard deviation of the Gaussian noise, 1 = white", 0.08, 0.01, 0.3),
+    "p": Parameter("1", "share of the impulses, half black, half white", 0.08, 0.01, 0.5),
+    "order": Parameter(
+        "", "permutation of (clean, Gaussian, impulse) at A to C", 0.0, 0.0, 5.0, whole=True
+    ),
+    "seed": Parameter("", "seed of both noises", 1.0, 0.0, 9999.0, whole=True),
+}
+
+KINDS = ("clean", "gaussian", "impulse")
+BINS = 52
+_WIDE, _HIGH = 96, 72
+_GAP, _CAPTION, _ZOOM, _HISTOGRAM, _TICKS = 6.0, 15.0, 48.0, 42.0, 13.0
+_DETAIL = (slice(26, 38), slice(30, 54))
+_LETTERS = "ABC"
+
+
+def noise_order(order: float) -> tuple[str, ...]:
+    """Which picture stands at A, B and C.
+
+    Parameters
+    ----------
+    order : float
+        Index into the permutations of ``KINDS`` in lexicographic order of positions.
+    """
+    return list(permutations(KINDS))[int(order)]
+
+
+@cache
+def scene() -> Image:
+    """Four flat greys, shape (72, 96, 3): noise shows in the histogram as what it does to each."""
+    from quizgen.camera import Camera, Length, Scene, Thing, simulate
+
+    def grey(level: float) -> tuple[float, float, float]:
+        return (level, level, level)
+
+    things = (
+        Thing("box", y=Length(24), width=Length(96), height=Length(26), colour=grey(0.25)),
+        Thing("disc", x=Length(-18), y=Length(-3), radius=Length(20), colour=grey(0.42)),
+        Thing("box", x=Length(24), y=Length(6), width=Length(26), height=Length(38),
+              colour=grey(0.8)),
+    )  # fmt: skip
+    return simulate(Scene(_WIDE, _HIGH, things, background=grey(0.6)), Camera()).values
+
+
+def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
+    """Draw the figure.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+        An empty figure.
+    values : mapping of str to float
+        As ``PARAMETERS`` says.
+    quiz : bool
+        Show letters without the noise.
+    """
+    from quizgen.camera import pictures
+    from quizgen.figures._pen import WIDTH, Pen
+
+    wide = (WIDTH - 4 * _GAP) / 3
+    high = wide * _HIGH / _WIDE
+    pen = Pen(WIDTH, _TICKS + _HISTOGRAM + _ZOOM + high + 2 * _GAP + _CAPTION + 2)
+    made = pictures.noisy(scene(), values["sigma"], values["p"], int(values["seed"]))
+    for place, kind in enumerate(noise_order(values["order"])):
+        left = _GAP + place * (wide + _GAP)
+        _column(figure, pen, made[KINDS.index(kind)], (left, wide, high))
+        text = _caption(values, place, kind, quiz=quiz)
+        pen.label((left + wide / 2, pen.height - 8), text, size=9.5)
+    pen.onto(figure, background="#ffffff")
+
+
+def _column(figure: Figure, pen: Pen, image: Image, where: tuple[float, float, float]) -> None:
+    from quizgen.camera import pictures
+    from quizgen.camera.effects.isp import histogram
+    from quizgen.figures._photo import bars, place
+
+    left, wide, high = where
+    codes = pictures.codes(image)[..., 0]
+    low = _TICKS + _HISTOGRAM + _GAP
+    place(figure, pen, codes[_DETAIL].repeat(4, axis=0).repeat(4, axis=1), (left, low, wide, _ZOOM))
+    place(figure, pen, codes, (left, low + _ZOOM + _GAP, wide, high))
+    counts = [float(count) for count in histogram(codes[..., None], BINS, top=255)]
+    bars(pen, counts, (left, _TICKS, wide, _HISTOGRAM))
+    pen.label((left, 6), "0", "l", 8.5)
+    pen.label((left + wide, 6), "255", "r", 8.5)
+
+
+def _caption(values: Values, place: int, kind: str, *, quiz: bool) -> str:
+    letter = f"{{{_LETTERS[place]}}}"
+    return letter if quiz else f"{letter}{{:}}  {_symbols(values, kind)}"
+
+
+def _symbols(values: Values, kind: str) -> str:
+    return {
+        "clean": "σ = 0, p = 0",
+        "gaussian": f"σ = {given(values['sigma'])}",
+        "impulse": f"p = {given(values['p'])}",
+    }[kind]
+
+
+def alt(values: Values, lang: str, *, quiz: bool) -> str:
+    """Describe the figure in words.
+
+    Parameters
+    ----------
+    values : mapping of str to float
+        As ``PARAMETERS`` says.
+    lang : {"en", "bn"}
+        Language.
+    quiz : bool
+        Say what is seen, not which noise it is.
+    """
+    words = _ALT[lang]
+    told = []
+    for place, kind in enumerate(noise_order(values["order"])):
+        seen = words[f"{kind} seen"] if quiz else f"{words[kind]}, {spoken(_symbols(values, kind))}"
+        told.append(f"{_LETTERS[place]}: {seen}")
+    return words["figure"] + " " + "; ".join(told) + words["stop"]
+
+
+_ALT = {
+    "en": {
+        "figure": (
+            "One scene of four flat greys in three versions A, B and C, each with an enlarged "
+            "detail and a histogram from 0 to 255."
+        ),
+        "clean seen": "even areas, histogram of four narrow bars",
+        "gaussian seen": "areas uneven everywhere, the bars of the histogram widened into bells",
+        "impulse seen": (
+            "even areas with single black and white dots, four narrow bars and two more at the ends"
+        ),
+        "clean": "clean",
+        "gaussian": "Gaussian noise",
+        "impulse": "salt and pepper",
+        "stop": ".",
+    },
+    "bn": {
+        "figure": (
+            "চারটি সমান ধূসর রঙের একটি দৃশ্যের তিনটি রূপ A, B ও C; প্রতিটির নিচে বড় করা একটি অংশ আর "
+            "0 থেকে 255 পর্যন্ত হিস্টোগ্রাম।"
+        ),
+        "clean seen": "সমান এলাকা, হিস্টোগ্রামে চারটি সরু দাগ",
+        "gaussian seen": "সব জায়গা অমসৃণ, হিস্টোগ্রামের দাগগুলো ছড়িয়ে ঘণ্টার মতো",
+        "impulse seen": "সমান এলাকায় ছিটানো কালো ও সাদা বিন্দু, চারটি সরু দাগ আর দুই প্রান্তে আরও দুটি",
+        "clean": "নয়েজহীন",
+        "gaussian": "গাউসীয় নয়েজ",
+        "impulse": "সল্ট অ্যান্ড পেপার নয়েজ",
+        "stop": "।",
+    },
+}

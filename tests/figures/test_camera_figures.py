@@ -1,0 +1,159 @@
+"""Figures that are photographs of the camera simulator: what their pixels and curves must show."""
+
+from __future__ import annotations
+
+import base64
+import re
+
+import cv2
+import numpy as np
+import pytest
+
+from quizgen.camera import pictures, simulate
+from quizgen.figures import artefacts, depth_of_field, luminosity, noise, normalisation, render
+from quizgen.figures._parameters import complete
+from quizgen.figures._photo import photo_png
+
+
+def _decoded(data: bytes):
+    """A PNG as RGB, read by OpenCV."""
+    return cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR)[..., ::-1].astype(float)
+
+
+def _pictures(name, values, *, quiz):
+    svg = render(name, values, quiz=quiz, lang="en").svg.decode()
+    found = re.findall(r"data:image/png;base64,([A-Za-z0-9+/=]+)", svg)
+    return [_decoded(base64.b64decode(text)) for text in found]
+
+
+@pytest.mark.parametrize("shape", [(5, 7), (1, 1), (5, 7, 3), (96, 144, 3)])
+def test_png_is_read_back_by_opencv(shape):
+    codes = np.random.Generator(np.random.SFC64(3)).integers(0, 256, shape, np.uint8)
+    read = cv2.imdecode(np.frombuffer(photo_png(codes), np.uint8), cv2.IMREAD_UNCHANGED)
+    assert np.array_equal(read if codes.ndim == 2 else read[..., ::-1], codes)
+
+
+def test_grey_pictures_are_stored_with_one_channel():
+    codes = np.repeat(np.arange(20, dtype=np.uint8).reshape(4, 5, 1), 3, axis=2)
+    read = cv2.imdecode(np.frombuffer(photo_png(codes), np.uint8), cv2.IMREAD_UNCHANGED)
+    assert np.array_equal(read, codes[..., 0])
+
+
+@pytest.mark.parametrize("order", range(6))
+def test_noise_stands_where_the_order_says(order):
+    sigma, share = 0.05, 0.1
+    shown = _pictures("noise", {"order": order, "sigma": sigma, "p": share}, quiz=True)
+    whole = dict(zip(noise.noise_order(order), shown[1::2], strict=True))
+    clean = whole["clean"]
+    _, counts = np.unique(clean, return_counts=True)
+    assert sorted(counts)[-4:] > [0.02 * clean.size] * 4
+    assert sum(sorted(counts)[-4:]) > 0.98 * clean.size  # the rest is the rim of the disc
+    middle = (clean > 60) & (clean < 200)  # far from both ends: no clipping
+    change = (whole["gaussian"] - clean)[middle]
+    # 255 sigma, standard error of a standard deviation sigma/sqrt(2n), n about 4000
+    assert change.std() == pytest.approx(255 * sigma, rel=0.06)
+    assert abs(change.mean()) < 4 * 255 * sigma / 60
+    hit = (whole["impulse"] != clean)[..., 0]
+    assert set(np.unique(whole["impulse"][hit])) == {0, 255}
+    assert hit.mean() == pytest.approx(share, abs=4 * np.sqrt(share / hit.size))
+
+
+def test_blur_discs_are_those_of_the_curriculum():
+    # X-C03: f = 50, N = 2, s = 2.05 m, z = 4.1 m gives 0.3125 mm
+    values = {"f": 50, "N_1": 2, "N_2": 8, "s": 2.05, "z_1": 2.05, "z_2": 4.1, "z_3": 4.1}
+    full = complete("depth_of_field", depth_of_field.PARAMETERS, values)
+    assert depth_of_field.discs(full, 2) == pytest.approx((0, 0.3125, 0.3125))
+    assert depth_of_field.discs(full, 8) == pytest.approx((0, 0.078125, 0.078125))
+
+
+@pytest.mark.parametrize("order", [0, 1])
+def test_the_wide_aperture_blurs_only_what_is_out_of_focus(order):
+    small, wide = _pictures("depth_of_field", {"order": order}, quiz=True)[:: -1 if order else 1]
+    edges = [np.diff(photo, axis=1).max(axis=2) ** 2 for photo in (small, wide)]
+    left, middle, right = (slice(2, 46), slice(54, 90), slice(98, 142))
+    for columns in (left, right):
+        assert edges[1][20:76, columns].mean() < 0.8 * edges[0][20:76, columns].mean()
+    assert np.array_equal(small[30:66, middle], wide[30:66, middle])
+
+
+def test_pictures_keep_their_brightness():
+    small, wide = _pictures("depth_of_field", {}, quiz=True)
+    assert small.mean() == pytest.approx(wide.mean(), rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("wavelength", "night", "value"),
+    # CIE 1924 and 1951 tables
+    [(532, False, 0.885), (650, False, 0.107), (700, False, 0.004102), (507, True, 1.0),
+     (650, True, 0.000677), (555, False, 1.0)],
+)  # fmt: skip
+def test_curves_are_read_at_the_tables_values(wavelength, night, value):
+    assert luminosity.read(wavelength, night=night) == pytest.approx(value)
+
+
+def test_clamping_gathers_what_lies_above():
+    image = normalisation.sample(60.0, 180.0, 0.0, 1)
+    levels = image * 255
+    assert levels.min() == pytest.approx(60)
+    assert levels.max() == pytest.approx(180)
+    _, before, after = pictures.normalised(image, 60 / 255, 140 / 255, normalisation.BINS)
+    assert before.sum() == after.sum() == image.size
+    # the last bin holds what is clamped, and what fell into it anyway
+    last = 60 + (140 - 60) * (normalisation.BINS - 1) / normalisation.BINS
+    assert after[-1] == (levels >= last).sum()
+    assert after[-1] > 5 * after[:-1].max()
+
+
+def test_outliers_have_their_share():
+    levels = normalisation.sample(100.0, 140.0, 0.1, 5) * 255
+    outside = ((levels < 100) | (levels > 140)).mean()
+    assert outside == pytest.approx(0.1 * (1 - 40 / 255), abs=4 * np.sqrt(0.1 / levels.size))
+
+
+def _photo(kind, variant=1):
+    scene, camera = artefacts.photographed(kind, variant)
+    return simulate(scene, camera, question="artefacts").values
+
+
+@pytest.mark.parametrize("kind", range(12))
+@pytest.mark.parametrize("variant", range(4))
+def test_every_artefact_is_seen(kind, variant):
+    ideal, photo = _pictures("artefacts", {"kind": kind, "variant": variant}, quiz=True)
+    changed = np.abs(photo - ideal).max(axis=2) > 12
+    assert changed.mean() > (0.002 if artefacts.KINDS[kind] == "hot pixels" else 0.02)
+
+
+def test_corners_fall_off_with_the_fourth_power_of_the_cosine():
+    ideal, photo = _pictures("artefacts", {"kind": 3}, quiz=True)
+
+    def linear(code):
+        share = code / 255
+        return np.where(share <= 0.04045, share / 12.92, ((share + 0.055) / 1.055) ** 2.4)
+
+    tangent = np.hypot(71.5, 47.5) * 0.25 / 18  # pixels of 0.25 mm behind a lens of 18 mm
+    fall_off = linear(photo[0, 0]) / linear(ideal[0, 0])
+    assert fall_off == pytest.approx(1 / (1 + tangent**2) ** 2, rel=0.02)
+
+
+def test_false_colour_comes_from_a_grey_scene():
+    ideal, photo = _pictures("artefacts", {"kind": 9}, quiz=True)
+    assert np.ptp(ideal, axis=2).max() == 0
+    assert np.ptp(photo, axis=2).max() > 60
+
+
+def test_rolling_shutter_leans_towards_the_movement():
+    for variant, way in ((0, -1), (1, 1)):
+        _, photo = _pictures("artefacts", {"kind": 2, "variant": variant}, quiz=True)
+        orange = (photo[..., 0] - photo[..., 2]) > 100
+        columns = [np.flatnonzero(row).mean() for row in orange[30:80] if row.any()]
+        # rows are read from the top: lower rows see the box later
+        assert way * (columns[-1] - columns[0]) > 3
+
+
+def test_no_artefact_is_named_in_the_question():
+    words = "bloom|streak|vignett|barrel|pincushion|blur|focus|hot pix|clip|moir"
+    names = re.compile(words, re.IGNORECASE)
+    for kind in range(12):
+        assert not names.search(render("artefacts", {"kind": kind}, quiz=True, lang="en").alt)
+        shown = render("artefacts", {"kind": kind}, quiz=False, lang="en").alt
+        assert names.search(shown) or kind in (2, 4)
