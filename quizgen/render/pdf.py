@@ -15,7 +15,7 @@ from quizgen.exam import Item, Paper
 from quizgen.locale import marks, word
 from quizgen.question import Field, Part, Question
 from quizgen.render import fonts
-from quizgen.solution import Line, Maths, PartSolution
+from quizgen.solution import Line, Maths, PartSolution, Solution
 from quizgen.text import Code, CodeBlock, Items, Paragraph, Styled, Table, Words
 
 STANDARD: Final = "ua-1"
@@ -236,8 +236,7 @@ class _Sheet:
         parts = [key.solution.parts[index] for key in item.keys]
         steps = [self._step([p.lines[i] for p in parts]) for i in range(len(parts[0].lines))]
         answer = _joined(self.langs, [self._answer(p, lang) for p, lang in self._with_lang(parts)])
-        mistakes = [self._mistakes(p, lang) for p, lang in self._with_lang(parts)]
-        return "\n".join([*steps, f"#result[{answer}]", *mistakes])
+        return "\n".join([*steps, f"#result[{answer}]"])
 
     def _with_lang(self, parts: list[PartSolution]) -> list[tuple[PartSolution, str]]:
         return list(zip(parts, self.langs, strict=True))
@@ -251,25 +250,40 @@ class _Sheet:
 
     def _answer(self, part: PartSolution, lang: str) -> str:
         name = word(lang, "solution.answer")
-        options = "".join(f'#" - ";{inline(option, lang)}' for option in part.options)
-        return f"#strong({string(name + ':')}); #{string(part.answer)};{options}"
-
-    def _mistakes(self, part: PartSolution, lang: str) -> str:
-        if not part.mistakes:
-            return ""
-        title = f"#heading(level: 3)[#{string(word(lang, 'solution.mistakes'))};]"
-        rows = [f"#mistake({string(m.value)}, [{inline(m.sentence, lang)}])" for m in part.mistakes]
-        return _in(lang, "\n".join([title, *rows]))
+        said = f"#strong({string(name + ':')}); #{string(part.answer)};"
+        options = [inline(option, lang) for option in part.options]
+        if len(options) == 1:
+            return f'{said}#" - ";{options[0]}'
+        return f"{said}#list({', '.join(f'[{o}]' for o in options)});" if options else said
 
     def _remarks(self, item: Item) -> str:
-        texts = []
-        for section in ("why", "check", "note"):
-            for key in item.keys:
-                body, lang = getattr(key.solution, section), key.solution.lang
-                if body:
-                    title = f"#heading(level: 3)[#{string(word(lang, f'solution.{section}'))};]"
-                    texts.append(_in(lang, f"{title}\n{blocks(body, lang)}"))
-        return "\n" + "\n".join(texts)
+        """What follows the parts: explanation, sanity check, common mistakes, remark."""
+        solutions = [key.solution for key in item.keys]
+        texts = [
+            self._mistakes(s) if section == "mistakes" else self._remark(s, section)
+            for section in ("why", "check", "mistakes", "note")
+            for s in solutions
+        ]
+        return "\n" + "\n".join(filter(None, texts))
+
+    def _remark(self, solution: Solution, section: str) -> str:
+        body, lang = getattr(solution, section), solution.lang
+        return _in(lang, f"{_heading(section, lang)}\n{blocks(body, lang)}") if body else ""
+
+    def _mistakes(self, solution: Solution) -> str:
+        rows = [
+            f"#mistake({string(f'({part.label}) ' if part.label else '')}, {string(m.value)}, "
+            f"[{inline(m.sentence, solution.lang)}])"
+            for part in solution.parts
+            for m in part.mistakes
+        ]
+        if not rows:
+            return ""
+        return _in(solution.lang, "\n".join([_heading("mistakes", solution.lang), *rows]))
+
+
+def _heading(section: str, lang: str) -> str:
+    return f"#heading(level: 3)[#{string(word(lang, f'solution.{section}'))};]"
 
 
 @cache
