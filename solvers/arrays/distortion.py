@@ -49,11 +49,16 @@ def _distort(x: Array, y: Array, k1: Array, k2: Array) -> Any:
 def _distort_short(x: Array, y: Array, k1: Array, k2: Array) -> Any:
     """Plain doubles while the factor is next to 1, pairs for the rest."""
     r2 = x * x + y * y
-    change = r2 * (k1 + k2 * r2) if k2.any() else r2 * k1
+    change = size = r2 * k1
+    if k2.any():
+        fourth = r2 * r2 * k2
+        # Two large terms that cancel leave a small change without digits.
+        size = np.abs(change) + np.abs(fourth)
+        change = change + fourth
     scale = 1 + change
     x_d, y_d = x * scale, y * scale
-    if change.max() > _LARGE_CHANGE or change.min() < -_LARGE_CHANGE:
-        where = np.flatnonzero(np.abs(change) > _LARGE_CHANGE)
+    if size.max() > _LARGE_CHANGE or size.min() < -_LARGE_CHANGE:
+        where = np.flatnonzero(np.abs(size) > _LARGE_CHANGE)
         some = [a.take(where) if a.size > 1 else a for a in (x, y, k1, k2)]
         (x_d[where], y_d[where]), doubtful = _distort(*some)
         for i in where[doubtful]:
@@ -62,7 +67,7 @@ def _distort_short(x: Array, y: Array, k1: Array, k2: Array) -> Any:
     return x_d, y_d
 
 
-_LARGE_CHANGE = 0.25
+_LARGE_CHANGE = 0.45
 
 
 def _displacement(r: Array, k1: Array, k2: Array) -> Any:

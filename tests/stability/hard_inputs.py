@@ -160,6 +160,8 @@ def distortion():
     ):  # fmt: skip
         yield "distort_x", (x, y, k1, k2), "factor near 0, extreme"
     yield "displacement", (1.0, -0.3, after(0.3, 2)), "terms cancel"
+    for k in (3.0, 1e6, 1e12):
+        yield "distort_x", (0.6, 0.8, k, -after(k, 5)), "two large terms cancel"
 
 
 def hsv():
