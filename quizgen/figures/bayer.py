@@ -298,7 +298,7 @@ _ALT = {
     },
     "bn": {
         "figure": (
-            "{pattern} বিন্যাসের Bayer mosaic, {size} × {size} ঘর; কলাম ও সারি 0 থেকে গোনা। "
+            "{pattern} বিন্যাসের Bayer মোজাইক, {size} × {size} ঘর; কলাম ও সারি 0 থেকে গোনা। "
             "কলাম {x}, সারি {y}-এর ঘরটি ({letter}) চিহ্নিত।"
         ),
         "row": " সারি {y}: {sites}।",

@@ -281,7 +281,7 @@ _ALT = {
         "area": " The shaded area is {area}.",
     },
     "bn": {
-        "figure": "normal distribution-এর ঘণ্টাকৃতি রেখা g(n), গড় μ = {mu} এবং σ = {sigmas}।",
+        "figure": "স্বাভাবিক (normal) বণ্টনের ঘণ্টাকৃতি রেখা g(n), গড় μ = {mu} এবং σ = {sigmas}।",
         "and": " বা ",
         "marks": " μ ± {k}σ-এ দাগ দেওয়া; যেখানে {event}, সেই ক্ষেত্রফল ছায়া দিয়ে দেখানো।",
         "peak": " σ = {sigma} হলে চূড়ার মান g(μ) {relation} {peak}।",
