@@ -81,3 +81,22 @@ def test_nothing_in_the_repository_names_a_machine():
         ):
             text = path.read_text(encoding="utf-8", errors="replace")
             assert not [m for m in marks if m in text], name
+
+
+def test_every_option_of_exam_and_key_of_blueprints_is_documented():
+    from quizgen.blueprint import Blueprint, SlotRule
+
+    text = (ROOT / "docs" / "papers.md").read_text(encoding="utf-8")
+    for option in group.get_command(None, "exam").params:
+        assert any(name in text for name in option.opts), option.opts
+    internal = {"name", "source", "topic", "budget"}
+    for struct, hidden in ((Blueprint, internal), (SlotRule, set())):
+        for field in msgspec.structs.fields(struct):
+            assert field.name in hidden or field.name in text, field.name
+
+
+def test_links_of_the_readme_lead_somewhere():
+    import re
+
+    for target in re.findall(r"\]\(([^)#]+)\)", (ROOT / "README.md").read_text(encoding="utf-8")):
+        assert (ROOT / target).exists(), target
