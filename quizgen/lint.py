@@ -18,7 +18,7 @@ from typing import Any
 
 from quizgen.bank import LANGUAGES
 from quizgen.check import mark, show
-from quizgen.draw import Draw, answer_names, draw, plan_of, reference
+from quizgen.draw import Draw, draw, plan_of, reference
 from quizgen.errors import QuizgenError
 from quizgen.numbers import to_float
 from quizgen.question import identity, put_into_words
@@ -26,6 +26,7 @@ from quizgen.solution import key_field
 from quizgen.specs import build, plain
 from quizgen.template import Template
 from quizgen.text import CodeBlock, Items, Paragraph, Table, slots
+from quizgen.traps import answer_names
 
 COMPOSED = 20
 """Instances that are put into words in every language."""

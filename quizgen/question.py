@@ -12,7 +12,7 @@ from fractions import Fraction
 from typing import Any
 
 from quizgen import asking, solution, specs
-from quizgen.draw import Draw, draw, factor, reference
+from quizgen.draw import Draw, draw, reference
 from quizgen.errors import BankError
 from quizgen.figures import Figure
 from quizgen.figures import render as render_figure
@@ -20,6 +20,7 @@ from quizgen.numbers import key_text, to_float
 from quizgen.solution import Solution
 from quizgen.template import Template
 from quizgen.text import Block, Inline
+from quizgen.traps import factor
 
 NBSP = "\u00a0"
 

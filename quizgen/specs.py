@@ -10,11 +10,12 @@ from collections.abc import Callable, Mapping
 from fractions import Fraction
 from typing import Any
 
-from quizgen.draw import Draw, answer_names, factor, plan_of, shuffled
+from quizgen.draw import Draw, plan_of, shuffled
 from quizgen.errors import BankError
 from quizgen.expr import Num, compile_expr, exact, substitute
 from quizgen.numbers import exact_text, key_text
 from quizgen.text import Code, Formula, Slot, Styled, Words
+from quizgen.traps import answer_names, factor
 
 Spec = dict[str, Any]
 LETTERS = "ABCDEFGHIJKL"
