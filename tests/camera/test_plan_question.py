@@ -1,0 +1,62 @@
+"""The question whose key is the plan: the camera's planner decides as the student should."""
+
+from __future__ import annotations
+
+import pytest
+
+from quizgen.camera import Camera, Length, Scene, Thing, plan
+from quizgen.draw import draw
+from quizgen.specs import build, display
+
+EFFECTS = {
+    "defocus": "defocus",
+    "distortion": "distortion",
+    "rolling": "rolling shutter",
+    "noise": "read noise",
+}
+SEEDS = 150
+
+
+def _scene(given) -> Scene:
+    width, height, depth = int(given["W"]), int(given["H"]), given["z"]
+    speed = given["f"] * 1e-3 * given["v"] / (depth * given["p"] * 1e-6)  # px/s
+    low, step = 0.3, given["G"] / 255
+    bright = (low + step,) * 3
+    thing = Thing(
+        "box", width=Length(width / 4), height=Length(height), depth=depth, colour=bright,
+        velocity=(Length(speed), Length(0.0)),
+    )  # fmt: skip
+    return Scene(width, height, (thing,), (low,) * 3, background_depth=depth)
+
+
+def _camera(given) -> Camera:
+    return Camera(
+        focal_length=given["f"] * 1e-3,
+        pixel_pitch=given["p"] * 1e-6,
+        f_number=given["N"],
+        focus_distance=given["s"],
+        k1=given["k_1"],
+        row_time=given["t_r"] * 1e-6,
+        full_well=given["F"],
+        read_noise=given["sigma"],
+        shot_noise=False,
+    )
+
+
+@pytest.mark.parametrize("seed", range(SEEDS))
+def test_key_and_plan_agree(bank, seed):
+    drawn = draw(bank.template("Oplan"), seed)
+    given = {name: float(value) for name, value in drawn.shown.items()}
+    made = plan(_scene(given), _camera(given), budget="visible")
+    options, _ = display(drawn, 4)
+    ignored = {EFFECTS[options[place - 1][1]] for place in build(drawn, 4)["correct"]}
+    bounds = {item.effect: item.bound_dn for item in made.skipped}
+    assert bounds.pop("full well") == 0.0  # there, but the scene stays below it
+    assert set(bounds) == ignored
+    assert {step.effect for step in made.steps} == set(EFFECTS.values()) - ignored
+
+
+def test_every_number_of_effects_occurs(bank):
+    template = bank.template("Oplan")
+    sizes = {len(build(draw(template, seed), 4)["correct"]) for seed in range(SEEDS)}
+    assert sizes == {1, 2, 3}
