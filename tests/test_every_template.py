@@ -139,3 +139,23 @@ def test_draws_come_from_a_pool_of_about_that_size(bank, name):
         tuple(sorted((k, str(v)) for k, v in draw(template, s).shown.items())) for s in range(draws)
     }
     assert len(seen) <= pool or pool == 1
+
+
+def choices():
+    for name in NAMES:
+        for index, part in enumerate(builtin().rules(name).part):
+            if part.answer["kind"] == "choice":
+                yield name, index
+
+
+@pytest.mark.parametrize(("name", "index"), list(choices()))
+def test_the_right_choice_stands_anywhere(bank, name, index):
+    """Position of the right option over seeds: no place more than five deviations off its share."""
+    template = bank.template(name)
+    draws = 300
+    seen = [build(draw(template, seed, "place"), index)["correct"][0] for seed in range(draws)]
+    places = len(template.rules.part[index].answer["options"])
+    share = draws / places
+    spread = math.sqrt(share * (1 - 1 / places))
+    for place in range(1, places + 1):
+        assert abs(seen.count(place) - share) < 5 * spread

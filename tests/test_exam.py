@@ -124,6 +124,34 @@ def test_adding_a_template_changes_no_number_of_another(bank, tmp_path):
     assert [i.keys[0].draw.shown for i in small.items] == [i.keys[0].draw.shown for i in big.items]
 
 
+@pytest.mark.parametrize("name", ["mock", "trial", "all", "code", "colour", "noise"])
+def test_no_question_gives_the_answer_of_another(bank, name):
+    for seed in range(6):
+        paper = build(bank, load(name), seed, figures=False)
+        chosen = {item.keys[0].template for item in paper.items}
+        for one in chosen:
+            assert not chosen & set(bank.rules(one).apart), (seed, one)
+
+
+def test_a_topic_and_a_time_choose_the_questions(bank):
+    paper = build(bank, load("optics.45"), 1, figures=False)
+    assert 20 <= paper.minutes <= 45
+    assert {item.questions[0].topic for item in paper.items} == {"optics"}
+    whole = build(bank, load("all.90"), 1, figures=False)
+    tiers = [item.questions[0].tier for item in whole.items]
+    assert tiers == sorted(tiers)
+    assert max(map(tiers.count, "ABCD")) - min(map(tiers.count, "ABCD")) <= 2
+
+
+def test_the_number_of_possible_papers(bank):
+    one = Blueprint({"en": "x"}, (SlotRule(templates=("A3",)),), name="x")
+    two = Blueprint({"en": "x"}, (SlotRule(templates=("A3",), count=2),), name="x")
+    either = Blueprint({"en": "x"}, (SlotRule(templates=("A3", "Q4a")),), name="x")
+    assert build(bank, one, 0, figures=False).variety == 3760
+    assert build(bank, two, 0, figures=False).variety == 3760 * 3759 // 2
+    assert build(bank, either, 0, figures=False).variety == 3760 + 33976
+
+
 def test_the_trial_exam_is_the_chapters_ten_points(bank):
     paper = build(bank, load("trial"), 2, figures=False)
     assert [item.keys[0].template for item in paper.items][1:] == ["Q1b", "Q1c", "Q1d", "Q4a"]
