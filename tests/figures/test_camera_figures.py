@@ -157,3 +157,14 @@ def test_no_artefact_is_named_in_the_question():
         assert not names.search(render("artefacts", {"kind": kind}, quiz=True, lang="en").alt)
         shown = render("artefacts", {"kind": kind}, quiz=False, lang="en").alt
         assert names.search(shown) or kind in (2, 4)
+
+
+@pytest.mark.parametrize("values", [(0.4, 0.2, 120.0), (0.6, 0.5, -75.0)])
+def test_hsv_edits_are_the_cameras(values):
+    factor, less, turn = values
+    shown = _pictures("hsv_edits", {"a": factor, "b": less, "delta": turn}, quiz=True)
+    original = (shown[0] / 255).astype(np.float32)
+    made = pictures.hsv_edits(original, factor, less, turn)
+    for ours, theirs in zip(shown, made, strict=True):
+        # the figure edits its palette before rounding to codes, the camera edits the codes
+        assert np.abs(ours - pictures.codes(theirs)).max() <= 1

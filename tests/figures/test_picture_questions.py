@@ -1,0 +1,72 @@
+"""Questions about a picture: the key is what the picture of the same draw shows."""
+
+from __future__ import annotations
+
+import pytest
+
+from quizgen.camera import luminosity
+from quizgen.draw import draw
+from quizgen.figures import artefacts, depth_of_field, noise
+from quizgen.specs import build, display
+
+SEEDS = range(60)
+NAMES = {
+    "blooming": "blooming",
+    "streak": "streak",
+    "rolling": "rolling shutter",
+    "vignetting": "vignetting",
+    "lateral": "lateral colour",
+    "barrel": "barrel",
+    "pincushion": "pincushion",
+    "motion": "motion blur",
+    "defocus": "defocus",
+    "moire": "false colour",
+    "clipping": "clipping",
+    "hot": "hot pixels",
+}
+
+
+def _drawn(bank, name, seed):
+    """Drawn numbers and the name of the right option of part a."""
+    drawn = draw(bank.template(name), seed)
+    options, _ = display(drawn, 0)
+    (right,) = build(drawn, 0)["correct"]
+    return {key: float(value) for key, value in drawn.shown.items()}, options[right - 1][1]
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_named_artefact_is_the_one_shown(bank, seed):
+    given, key = _drawn(bank, "XB01", seed)
+    assert artefacts.KINDS[int(given["k"])] == NAMES[key]
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_gaussian_noise_stands_where_the_key_says(bank, seed):
+    given, key = _drawn(bank, "XB02", seed)
+    place = ("left", "middle", "right").index(key)
+    assert noise.noise_order(given["order"])[place] == "gaussian"
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_wide_aperture_stands_where_the_key_says(bank, seed):
+    given, key = _drawn(bank, "Q1cpair", seed)
+    shown = {"N_1": given["N_b"], "N_2": given["N_a"], "order": given["order"]}
+    pair = depth_of_field.f_numbers(shown)
+    assert pair[("left", "right").index(key)] == min(pair) == given["N_a"]
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_brighter_laser_is_the_higher_on_the_curve(bank, seed):
+    given, key = _drawn(bank, "XC25", seed)
+    heights = [float(luminosity.photopic(given[name])) for name in ("l_1", "l_2")]
+    assert [given["V_1"], given["V_2"]] == pytest.approx(heights)
+    assert heights[("first", "second").index(key)] == max(heights)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_spikes_stand_where_the_limits_cut(bank, seed):
+    given, key = _drawn(bank, "A4hist", seed)
+    cuts = given["low"] > given["a"], given["b"] > given["high"]
+    touches = given["low"] == given["a"] and given["high"] == given["b"]
+    seen = {(True, True): "both", (True, False): "bottom", (False, True): "top"}
+    assert key == seen.get(cuts, "fits" if touches else "wide")
