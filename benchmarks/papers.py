@@ -14,8 +14,8 @@ import sys
 import time
 from collections.abc import Callable
 
-FIGURES = ("A3", "Q4a", "C12", "C13", "D17a", "S14", "S11")
-PLAIN = ("A4", "B7", "C14", "C15a", "S13", "D18", "D19b", "D20b")
+FIGURES = ("A3", "Q4a", "C14", "C13", "D17a", "S14", "S11")
+PLAIN = ("A4range", "A5", "B8", "C15a", "D18", "D19b", "K19", "S24")
 COLD = "import sys; sys.path.insert(0, {path!r}); import papers; papers.paper_bytes(1)"
 
 
