@@ -58,8 +58,13 @@ def _rounding(spec: Mapping[str, Any], lang: str) -> str:
     if "sigfigs" in spec:
         return word(lang, "ask.sigfigs", n=spec["sigfigs"])
     if spec.get("exact"):
-        return word(lang, "ask.exact")
+        return word(lang, "ask.whole" if _whole(spec) else "ask.exact")
     if "rel" in spec:
         percent = Fraction(str(spec["rel"])) * 100
         return word(lang, "ask.rel", percent=f"{float(percent):g}")
     return word(lang, "ask.abs", abs=spec["abs"]) if "abs" in spec else ""
+
+
+def _whole(spec: Mapping[str, Any]) -> bool:
+    """Whether key and mistakes are all whole numbers, so that no one thinks of fractions."""
+    return "/" not in str([spec.get("value"), spec.get("values"), spec.get("traps")])

@@ -19,6 +19,7 @@ from quizgen.draw import Draw, draw
 from quizgen.errors import BlueprintError, CodeError, DrawError
 from quizgen.question import Key, Question, identity, instance, put_into_words
 from quizgen.template import Template, minutes_of
+from quizgen.text import Block, CodeBlock
 
 FORMAT = "quizgen-key/1"
 ENGINE = "1"
@@ -144,8 +145,25 @@ def _item(
     figures: bool = True,
 ) -> Item:
     pairs = [put_into_words(one, lang, number=number, figures=figures) for lang in langs]
-    questions = tuple(_worth(question, points) for question, _ in pairs)
+    first = pairs[0][0]
+    questions = tuple(_worth(_programs_once(question, first), points) for question, _ in pairs)
     return Item(number, questions, tuple(key for _, key in pairs))
+
+
+def _programs_once(question: Question, first: Question) -> Question:
+    """Leave a program out of the second language where the first one shows the same."""
+    if question is first:
+        return question
+    shown = {block for block in (*first.stem, *_bodies(first)) if isinstance(block, CodeBlock)}
+    parts = tuple(
+        replace(p, body=tuple(b for b in p.body if b not in shown)) for p in question.parts
+    )
+    return replace(question, stem=tuple(b for b in question.stem if b not in shown), parts=parts)
+
+
+def _bodies(question: Question) -> Iterator[Block]:
+    for part in question.parts:
+        yield from part.body
 
 
 def _worth(question: Question, points: float | None) -> Question:

@@ -38,7 +38,7 @@ ALLOWED = {
     "question": {"errors", "expr", "traps", "draw", "numbers", "template", "text", "reader", "figures",
                  "asking", "specs", "solution"},
     "blueprint": {"errors", "locale"},
-    "exam": {"errors", "bank", "blueprint", "draw", "question", "template"},
+    "exam": {"errors", "bank", "blueprint", "draw", "question", "template", "text"},
     "camera": {"errors", "bank", "units"},
 }  # fmt: skip
 """Stage to the stages it may use. Everything else (render, cards, lint, commands) may use all."""
