@@ -7,6 +7,9 @@ edge); it is tried once and not used for resampling when it does.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from functools import cache
 from types import ModuleType
 from typing import Any
@@ -23,14 +26,31 @@ _SHIFT_TAPS = 49
 _ROWS = 64
 
 
-@cache
+_everywhere_alike: ContextVar[bool] = ContextVar("everywhere alike", default=False)
+
+
 def opencv() -> ModuleType | None:
-    """OpenCV if it can be imported, else None."""
+    """OpenCV if it can be imported and may be used here, else None."""
+    return None if _everywhere_alike.get() else _imported()
+
+
+@cache
+def _imported() -> ModuleType | None:
     try:
         import cv2
     except ImportError:
         return None
     return cv2
+
+
+@contextmanager
+def everywhere_alike() -> Iterator[None]:
+    """Compute with NumPy alone, so that a picture is the same with and without OpenCV."""
+    before = _everywhere_alike.set(True)
+    try:
+        yield
+    finally:
+        _everywhere_alike.reset(before)
 
 
 @cache
@@ -45,7 +65,8 @@ def _opencv_remap_is_exact() -> bool:
 
 def warm_up() -> None:
     """Load OpenCV and try it, so that no effect is timed with its import."""
-    _opencv_remap_is_exact()
+    if opencv() is not None:
+        _opencv_remap_is_exact()
 
 
 def convolve(image: Image, kernel: NDArray[np.float64]) -> Image:

@@ -76,6 +76,7 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
         Leave out the symbols of the cause.
     """
     from quizgen.camera import Camera, simulate
+    from quizgen.camera.filters import everywhere_alike
     from quizgen.figures._pen import WIDTH, Pen
     from quizgen.figures._photo import place
 
@@ -84,8 +85,9 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
     wide = (WIDTH - 3 * _GAP) / 2
     high = wide * _HIGH / _WIDE
     pen = Pen(WIDTH, 2 + high + (_TOP if not quiz else 2))
-    ideal = simulate(scene, Camera(gamma="srgb"))
-    with_it = simulate(scene, camera, question="artefacts")
+    with everywhere_alike():
+        ideal = simulate(scene, Camera(gamma="srgb"))
+        with_it = simulate(scene, camera, question="artefacts")
     for left, photo in ((_GAP, ideal), (2 * _GAP + wide, with_it)):
         place(figure, pen, photo.pixels(), (left, 2, wide, high))
     if not quiz:

@@ -85,6 +85,7 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
         Show letters without the f-numbers.
     """
     from quizgen.camera import pictures
+    from quizgen.camera.filters import everywhere_alike
     from quizgen.figures._pen import WIDTH, Pen
     from quizgen.figures._photo import place as put
 
@@ -93,7 +94,8 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
     wide = (WIDTH - 3 * _GAP) / 2
     high = wide * _HIGH / _WIDE
     pen = Pen(WIDTH, _BELOW + high + _TOP + 2)
-    photos = pictures.at_f_numbers(scene, camera, f_numbers(values))
+    with everywhere_alike():
+        photos = pictures.at_f_numbers(scene, camera, f_numbers(values))
     for place, photo in enumerate(photos):
         left = _GAP + place * (wide + _GAP)
         put(figure, pen, photo.pixels(), (left, _BELOW, wide, high))

@@ -49,6 +49,7 @@ def noise_order(order: float) -> tuple[str, ...]:
 def scene() -> Image:
     """Four flat greys, shape (72, 96, 3): noise shows in the histogram as what it does to each."""
     from quizgen.camera import Camera, Length, Scene, Thing, simulate
+    from quizgen.camera.filters import everywhere_alike
 
     def grey(level: float) -> tuple[float, float, float]:
         return (level, level, level)
@@ -59,7 +60,8 @@ def scene() -> Image:
         Thing("box", x=Length(24), y=Length(6), width=Length(26), height=Length(38),
               colour=grey(0.8)),
     )  # fmt: skip
-    return simulate(Scene(_WIDE, _HIGH, things, background=grey(0.6)), Camera()).values
+    with everywhere_alike():
+        return simulate(Scene(_WIDE, _HIGH, things, background=grey(0.6)), Camera()).values
 
 
 def draw(figure: Figure, values: Values, *, quiz: bool) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import base64
 import re
+import subprocess
+import sys
 
 import cv2
 import numpy as np
@@ -168,3 +170,28 @@ def test_hsv_edits_are_the_cameras(values):
     for ours, theirs in zip(shown, made, strict=True):
         # the figure edits its palette before rounding to codes, the camera edits the codes
         assert np.abs(ours - pictures.codes(theirs)).max() <= 1
+
+
+WITHOUT_OPENCV = """
+import sys
+if sys.argv[1] == "without":
+    sys.modules["cv2"] = None
+import hashlib
+from quizgen.figures import render
+for name, values in (
+    ("depth_of_field", {"f": 50, "N_1": 1.8, "N_2": 16, "s": 3, "z_1": 1.5, "z_2": 3, "z_3": 8}),
+    ("noise", {"sigma": 0.08, "p": 0.08, "order": 1, "seed": 3}),
+    *(("artefacts", {"kind": kind, "variant": 1}) for kind in range(12)),
+):
+    print(hashlib.sha256(render(name, values, quiz=True, lang="en").svg).hexdigest())
+"""
+
+
+def test_photographs_are_the_same_bytes_with_and_without_opencv():
+    found = [
+        subprocess.run([sys.executable, "-c", WITHOUT_OPENCV, how], capture_output=True, text=True,
+                       check=True).stdout
+        for how in ("with", "without")
+    ]  # fmt: skip
+    assert found[0] == found[1]
+    assert len(found[0].split()) == 14
