@@ -38,6 +38,8 @@ def _shape(kind: str, spec: Mapping[str, Any], lang: str) -> str:
         return word(lang, "ask.table", names=", ".join(names))
     if kind == "witness":
         return word(lang, "ask.witness", names="; ".join(f"{n} = ..." for n in spec["symbols"]))
+    if kind == "order" and not spec.get("distractors"):
+        return word(lang, "ask.order_all")
     return word(lang, f"ask.{kind}")
 
 
