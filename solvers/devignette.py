@@ -21,9 +21,7 @@ with evaluate(False):
             *(Step(o[k], floor(i[k] * m / f[k])) for k in range(4)),
         ),
         traps={
-            "rounded": tuple(
-                Step(o[k], floor(i[k] * m / f[k] + Rational(1, 2))) for k in range(4)
-            ),
+            "rounded": tuple(Step(o[k], floor(i[k] * m / f[k] + Rational(1, 2))) for k in range(4)),
             "multiplied": tuple(Step(o[k], floor(i[k] * f[k] / m)) for k in range(4)),
             "maximum-for-mean": Step(m, Max(*f)),
         },

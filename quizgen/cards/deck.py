@@ -67,9 +67,7 @@ class Deck:
     @cached_property
     def media(self) -> Mapping[str, bytes]:
         """Media file name to content, each once."""
-        return {
-            picture.file: picture.data for note in self.notes for picture in note.media()
-        }
+        return {picture.file: picture.data for note in self.notes for picture in note.media()}
 
 
 def known_topics() -> tuple[str, ...]:

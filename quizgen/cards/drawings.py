@@ -126,8 +126,7 @@ def _bars(values: list[int], left: float, low: float, height: float) -> Iterator
 
 
 _BUSH = (
-    '<circle cx="26" cy="120" r="20" fill="#3c8f4d"/>'
-    '<circle cx="30" cy="116" r="5" fill="gold"/>'
+    '<circle cx="26" cy="120" r="20" fill="#3c8f4d"/><circle cx="30" cy="116" r="5" fill="gold"/>'
 )
 _HOUSE = (
     '<rect x="56" y="74" width="46" height="46" fill="#b5533c"/>'
@@ -144,9 +143,7 @@ def _focus(quiz: bool) -> Iterator[str]:
     for place, (blurs, name) in enumerate((((0.3, 0, 0.3), "f/16"), ((2.6, 0, 3.4), "f/1.8"))):
         left = 6 + 162 * place
         for index, blur in enumerate(blurs):
-            yield (
-                f'<filter id="b{place}{index}"><feGaussianBlur stdDeviation="{blur}"/></filter>'
-            )
+            yield (f'<filter id="b{place}{index}"><feGaussianBlur stdDeviation="{blur}"/></filter>')
         yield f'<rect x="{left}" y="6" width="156" height="146" fill="#dfe9f3"/>'
         for index in (2, 1, 0):
             yield f'<g filter="url(#b{place}{index})" transform="translate({left})">'

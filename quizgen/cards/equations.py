@@ -96,9 +96,7 @@ def inline(expr: Expr) -> Maths:
     """Print a formula in a sentence; ``a = b = c`` stays one chain."""
     links = expr.args if isinstance(expr, Call) and expr.op == "and" else (expr,)
     pairs = [link for link in links if isinstance(link, Call) and link.op in SIGNS]
-    joined = all(
-        one.args[1] == other.args[0] for one, other in pairwise(pairs)
-    )
+    joined = all(one.args[1] == other.args[0] for one, other in pairwise(pairs))
     if len(pairs) != len(links) or not joined:
         return Maths(formula.layout(expr, inline=True), to_text(expr))
     signs = [SIGNS[link.op] for link in pairs]

@@ -16,6 +16,7 @@ NAMES = {"basic": "Quizgen", "term": "Quizgen term", "cloze": "Quizgen formula"}
 FONT = "_qg_hind_siliguri.woff2"
 """Bangla font as a media file; the underscore tells Anki that note types use it."""
 
+
 def identity(name: str) -> int:
     """A fixed number for a note type or a deck, from its name."""
     digest = hashlib.sha256(f"quizgen/{name}".encode()).digest()

@@ -66,14 +66,10 @@ def read_marks(path: Path) -> tuple[Marked, ...]:
     except OSError as error:
         raise KeyFileError(f"{path}: {error.strerror or error}") from error
     except (ValueError, RecursionError) as error:
-        raise KeyFileError(
-            f"{path}: not a result of `quizgen check --json`: {error}"
-        ) from error
+        raise KeyFileError(f"{path}: not a result of `quizgen check --json`: {error}") from error
 
 
-def from_marks(
-    path: Path, lang: str, *, bank: Bank, blueprint: str | None = None
-) -> Deck:
+def from_marks(path: Path, lang: str, *, bank: Bank, blueprint: str | None = None) -> Deck:
     """Make a deck of what went wrong.
 
     Parameters
@@ -106,9 +102,7 @@ def from_marks(
     return Deck(tuple(notes.values()), langs, seed)
 
 
-def _notes(
-    marked: Marked, paper: Paper, langs: tuple[str, ...], path: Path
-) -> Iterator[Note]:
+def _notes(marked: Marked, paper: Paper, langs: tuple[str, ...], path: Path) -> Iterator[Note]:
     items = {item.number: item for item in paper.items}
     for part in marked.parts:
         if part.status in LOOKED_AT:

@@ -133,9 +133,7 @@ def test_a_corrected_text_updates_the_note_and_keeps_its_schedule(
     assert collection.card_count() == deck.cards
 
 
-def test_a_changed_text_without_a_new_version_would_not_arrive(
-    deck, packed, collection, tmp_path
-):
+def test_a_changed_text_without_a_new_version_would_not_arrive(deck, packed, collection, tmp_path):
     """What the list of versions is for."""
     bring_in(collection, packed, tmp_path)
     better = corrected(deck, "vocab/pixel", "Meaning", "A corrected meaning.")

@@ -235,7 +235,7 @@ GOOD = 'id = "x"\ntopic = "noise"\ntier = "A"\nsection = "1"\n'
         (f'[[entry]]\n{GOOD}ask.en = "a"\n', Cheat, ["f.toml", "'x'", "ask"]),
         (f"[[entry]]\n{GOOD}why = 1\n", Statement, ["f.toml", "'x'"]),
         (f"[[entry]]\n{GOOD}colour = 1\n", Statement, ["f.toml", "'x'"]),
-        (f'[[entry]]\n{GOOD.replace("A", "E")}', Term, ["f.toml", "'x'", "tier"]),
+        (f"[[entry]]\n{GOOD.replace('A', 'E')}", Term, ["f.toml", "'x'", "tier"]),
     ],
 )
 def test_bad_files_are_located(source, kind, words):

@@ -63,8 +63,14 @@ def test_the_noise_is_what_it_is_called():
 
 def test_the_eye_is_most_sensitive_where_the_standards_say():
     """CIE 1924: V at 555 nm. CIE 1951: V' at 507 nm. The curves' tops stand above those places."""
-    lines = re.findall(r'<polyline points="([^"]+)"[^>]*>', draw("luminosity", quiz=True, lang="en").svg.decode())
-    curves = [[tuple(map(float, p.split(","))) for p in line.split()] for line in lines if line.count(" ") > 20]
+    lines = re.findall(
+        r'<polyline points="([^"]+)"[^>]*>', draw("luminosity", quiz=True, lang="en").svg.decode()
+    )
+    curves = [
+        [tuple(map(float, p.split(","))) for p in line.split()]
+        for line in lines
+        if line.count(" ") > 20
+    ]
     tops = [min(curve, key=lambda point: point[1])[0] for curve in curves]
     wavelengths = [400 + 300 * (x - 30) / 285 for x in tops]
     assert wavelengths == [pytest.approx(555, abs=3), pytest.approx(507, abs=4)]

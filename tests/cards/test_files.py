@@ -125,7 +125,9 @@ def test_times_rise_with_version_then_seed_then_languages(deck):
     note = next(note for note in deck.notes if note.kind == "question")
     term = next(note for note in deck.notes if note.kind == "vocab")
     alone = replace(note, langs=("en",))
-    assert modified(note, 0) < modified(note, 1) < modified(replace(note, version=note.version + 1), 0)
+    assert (
+        modified(note, 0) < modified(note, 1) < modified(replace(note, version=note.version + 1), 0)
+    )
     assert modified(alone, 3) < modified(note, 3) < modified(alone, 4)
     assert modified(note, 10**9) < modified(replace(note, version=note.version + 1), 0)
     assert modified(term, 0) == modified(term, 5)

@@ -60,9 +60,7 @@ def text(note, name):
     return note.fields()[FIELDS["basic"].index(name)]
 
 
-def test_the_mistake_is_on_the_front_and_the_right_way_on_the_back(
-    key, blueprint, bank, tmp_path
-):
+def test_the_mistake_is_on_the_front_and_the_right_way_on_the_back(key, blueprint, bank, tmp_path):
     name, typed = swapped(key)
     path = marked(key, {name: typed}, tmp_path)
     deck = from_marks(path, "both", bank=bank, blueprint=blueprint)
@@ -85,7 +83,9 @@ def test_right_answers_give_no_card_and_blank_ones_do(key, blueprint, bank, tmp_
     )
     assert {note.refs[0] for note in deck.notes} == {"C14"}
     assert all("You left this blank" in text(note, "Front") for note in deck.notes)
-    assert len(deck.notes) == len(next(q for q in key["questions"] if q["template"] == "C14")["parts"])
+    assert len(deck.notes) == len(
+        next(q for q in key["questions"] if q["template"] == "C14")["parts"]
+    )
 
 
 def test_an_unreadable_answer_is_not_a_mistake(key, blueprint, bank, tmp_path):
