@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from .domain import POSITIVE, Kernel, Numbers, Result, Rule
+from .domain import POSITIVE, Kernel, Numbers, Result, Rule, filled
 from .double_double import pairs
 
 
@@ -38,9 +38,15 @@ def _exact(f: Any, N: Any, s: Any, z: Any) -> Any:
 _BLUR = Kernel(
     _compute,
     (POSITIVE,) * 4,
-    rules=(Rule("no-real-image", lambda f, _N, s, _z: s < f),),
+    rules=(
+        Rule(
+            "no-real-image",
+            lambda f, _N, s, _z: s < f,
+            lambda f, _N, s, _z: s[0] < f[1],
+        ),
+    ),
     exact=_exact,
-    fast=_short,
+    fast=filled(_short),
 )
 
 

@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
-from .domain import POSITIVE, Kernel, Numbers, Result, Rule, nearest
+from .domain import POSITIVE, Kernel, Numbers, Result, Rule, filled, nearest
 from .double_double import pairs, two_product, two_sum
 
 _CLOSE = 2.0**-40
@@ -64,18 +65,58 @@ def _far_short(f: Any, N: Any, c: Any, s: Any) -> Any:
     return _or_long(s / (1 - q), q, 0.3, _FAR, (f, N, c, s))
 
 
-def _near_short(f: Any, N: Any, c: Any, s: Any) -> Any:
+def _near_short(f: Any, N: Any, c: Any, s: Any, out: Any) -> None:
     q = _share(f, N, c, s)
     if q.max() < 0.7:
-        q += 1
-        return s / q
-    return _or_long(s / (1 + q), q, 0.7, _NEAR, (f, N, c, s))
+        np.add(q, 1, out=out)
+        np.divide(s, out, out=out)
+    else:
+        out[...] = _or_long(s / (1 + q), q, 0.7, _NEAR, (f, N, c, s))
 
 
 _LEAST = 2.0**-900
 
 
-def _total_short(f: Any, N: Any, c: Any, s: Any) -> Any:
+def _total_short(f: Any, N: Any, c: Any, s: Any, out: Any) -> None:
+    """By the shortest way that keeps its digits."""
+    way = s - f
+    if f.size == N.size == c.size == 1:
+        ratio, rest, share = _ratios(f.item(), N.item(), c.item())
+        lost = s - way
+        lost -= f
+        if not lost.any():
+            _total_plain(s, way, (ratio, rest, share), out)
+            if way.max() * share > _PLAIN:
+                where = np.flatnonzero(way > _PLAIN / share)
+                out[where] = _total_balanced(f, N, c, s.take(where))
+            return
+    out[...] = _total_balanced(f, N, c, s)
+
+
+_PLAIN = 0.45
+"""Share of the hyperfocal distance up to which 1 - q**2 adds at most one unit of error."""
+
+
+def _total_plain(s: Any, way: Any, ratios: tuple[float, float, float], out: Any) -> None:
+    """s way/(A/(2 N c) - N c way**2/(2 A)) with way = s - f: three roundings that count."""
+    ratio, rest, share = ratios
+    below = way * way
+    below *= share / 2
+    below -= rest
+    np.subtract(ratio, below, out=below)
+    np.multiply(s, way, out=out)
+    out /= below
+
+
+@lru_cache(maxsize=64)
+def _ratios(f: float, N: float, c: float) -> tuple[float, float, float]:
+    """A/(2 N c) and what rounding it lost, and N c/A."""
+    half = Fraction(f) ** 2 / (2 * Fraction(N) * Fraction(c))
+    ratio = nearest(half)
+    return ratio, nearest(half - Fraction(ratio)), nearest(1 / (2 * half))
+
+
+def _total_balanced(f: Any, N: Any, c: Any, s: Any) -> Any:
     """2 s q/(1 - q**2), with what rounding N c/f**2 lost put back."""
     f_pair, N_pair, c_pair = pairs(f, N, c)
     rate = N_pair * c_pair / (f_pair * f_pair)
@@ -119,17 +160,27 @@ def _plain(formula: Any) -> Any:
     return lambda *args: (formula(*pairs(*args)).rounded(), None)
 
 
-_RULES = (Rule("no-real-image", lambda f, _N, _c, s: s < f),)
+_RULES = (Rule("no-real-image", lambda f, _N, _c, s: s < f, lambda f, _N, _c, s: s[0] < f[1]),)
 _HYPERFOCAL = Kernel(
     _plain(_hyperfocal),
     (POSITIVE,) * 3,
     exact=_hyperfocal,
-    fast=lambda f, N, c: f * (f / (N * c)) + f,
+    fast=filled(lambda f, N, c: f * (f / (N * c)) + f),
 )
 _NEAR = Kernel(_plain(_near), (POSITIVE,) * 4, _RULES, exact=_near, fast=_near_short)
-_FAR = Kernel(_limited(_far), (POSITIVE,) * 4, _RULES, exact=_limited_exact(_far), fast=_far_short)
+_FAR = Kernel(
+    _limited(_far),
+    (POSITIVE,) * 4,
+    _RULES,
+    exact=_limited_exact(_far),
+    fast=filled(_far_short),
+)
 _TOTAL = Kernel(
-    _limited(_total), (POSITIVE,) * 4, _RULES, exact=_limited_exact(_total), fast=_total_short
+    _limited(_total),
+    (POSITIVE,) * 4,
+    _RULES,
+    exact=_limited_exact(_total),
+    fast=_total_short,
 )
 
 

@@ -30,7 +30,7 @@ Numbers = npt.ArrayLike
 Result = Any
 """A float for scalar arguments, else an array (masked where there is no answer)."""
 
-BLOCK = 12288
+BLOCK = 16384
 """Elements per block: small enough for the level-2 cache, large enough to hide the loop."""
 
 
@@ -80,10 +80,15 @@ NONNEGATIVE = Span(low=0.0, reason="negative", closed=True)
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """A relation between arguments that must not occur."""
+    """A relation between arguments that must not occur.
+
+    ``possible`` takes the limits of the arguments: when it is false, no element breaks the rule
+    and none is looked at.
+    """
 
     reason: str
     broken: Callable[..., Any]
+    possible: Callable[..., bool] = lambda *_limits: True
 
 
 Exact = Callable[..., Any]
@@ -109,9 +114,14 @@ class Kernel:
     outputs : int
         Number of result arrays.
     fast : callable, optional
-        Shorter way for blocks whose arguments are all zero or within ``reach``.
+        Shorter way for blocks whose arguments are all zero or within ``reach``. Takes the blocks
+        and then the arrays to be filled, one per output (see ``filled``).
     watched : sequence of int, optional
         The arguments for which that matters (all of them by default).
+    tiny : bool
+        Whether ``fast`` also takes magnitudes below ``1/reach``.
+    fits : callable, optional
+        Further condition of ``fast``, on the limits of the arguments.
     """
 
     compute: Callable[..., Any]
@@ -122,6 +132,8 @@ class Kernel:
     outputs: int = 1
     fast: Callable[..., Any] | None = None
     watched: Sequence[int] | None = None
+    tiny: bool = False
+    fits: Callable[..., bool] = lambda *_limits: True
 
     def __call__(self, *args: Numbers) -> Result:
         """Run the kernel on scalars or arrays that broadcast together."""
@@ -159,12 +171,8 @@ class Kernel:
             limits = [
                 known or check(arg) for known, check, arg in zip(fixed, checks, block, strict=True)
             ]
-            values, bad = self._block(block, limits)
-            stop = start + max(arg.size for arg in block)
-            for column, value in zip(
-                columns, values if isinstance(values, tuple) else (values,), strict=True
-            ):
-                column[start:stop] = value if bad is None else _scatter(value, ~bad)
+            parts = [column[start : start + BLOCK] for column in columns]
+            bad = self._fill(parts, block, limits)
             if bad is not None:
                 masks.append((start, bad))
         results = tuple(_with_mask(column, masks).reshape(shape) for column in columns)
@@ -175,26 +183,37 @@ class Kernel:
         watched = self.fast is None or self.watched is None or i in self.watched
         return _limits if watched or self.spans[i] != REAL else _finite_limits
 
-    def _block(self, args: list[Array], limits: list[Limits]) -> tuple[Any, Flags | None]:
+    def _fill(self, parts: list[Array], args: list[Array], limits: list[Limits]) -> Flags | None:
+        """Fill a block of the results and flag the elements without an answer."""
         bad = self._bad(args, limits)
-        if bad is None:
-            if self.fast is not None and self._moderate(args, limits):
-                return self.fast(*args), None
-            return self._checked(args), None
-        good = ~bad
-        if good.any():
-            return self._checked([arg[good] if arg.size > 1 else arg for arg in args]), bad
-        return ((np.empty(0),) * self.outputs if self.outputs > 1 else np.empty(0)), bad
+        if bad is None and self.fast is not None and self._moderate(args, limits):
+            self.fast(*args, *parts)
+            return None
+        good = slice(None) if bad is None else ~bad
+        if bad is not None:
+            for part in parts:
+                part[bad] = np.nan  # masked later
+            if bad.all():
+                return bad
+            args = [arg[good] if arg.size > 1 else arg for arg in args]
+        values = self._checked(args)
+        for part, value in zip(
+            parts, values if isinstance(values, tuple) else (values,), strict=True
+        ):
+            part[good] = value
+        return bad
 
     def _moderate(self, args: list[Array], limits: list[Limits]) -> bool:
         chosen = range(len(args)) if self.watched is None else self.watched
-        return not any(_may_be_odd(args[i], limits[i], self.reach) for i in chosen)
+        least = 0.0 if self.tiny else 1 / self.reach
+        odd = any(_may_be_odd(args[i], limits[i], least, self.reach) for i in chosen)
+        return not odd and self.fits(*limits)
 
     def _bad(self, args: list[Array], limits: list[Limits]) -> Flags | None:
         spans = list(zip(self.spans, args, strict=True))
-        inside = all(span.holds(*limit) for span, limit in zip(self.spans, limits, strict=True))
-        broken = [rule.broken(*args) for rule in self.rules] if inside else []
-        if inside and not any(np.any(flags) for flags in broken):
+        if all(
+            span.holds(*limit) for span, limit in zip(self.spans, limits, strict=True)
+        ) and not any(rule.possible(*limits) and np.any(rule.broken(*args)) for rule in self.rules):
             return None
         bad = np.zeros(max(arg.size for arg in args), dtype=bool)
         for span, arg in spans:
@@ -246,15 +265,24 @@ def _finite_limits(arg: Array) -> Limits:
     return (0.0, 0.0) if math.isfinite(total) else _limits(arg)
 
 
-def _may_be_odd(arg: Array, limits: Limits, reach: float) -> bool:
-    """Whether a block has a value that is neither zero nor within 1/reach .. reach."""
+def _may_be_odd(arg: Array, limits: Limits, least: float, reach: float) -> bool:
+    """Whether a block has a value that is neither zero nor within least .. reach."""
     low, high = limits
-    if (low >= 1 / reach and high <= reach) or (high <= -1 / reach and low >= -reach):
-        return False
     if high > reach or low < -reach:
         return True
+    if least == 0 or low >= least or high <= -least:
+        return False
     size = np.abs(arg) if low < 0 else arg
-    return bool(((size < 1 / reach) & (size > 0)).any())
+    return bool(((size < least) & (size > 0)).any())
+
+
+def filled(formula: Callable[..., Any]) -> Callable[..., None]:
+    """Make a formula with one result a ``fast`` way of a kernel."""
+
+    def fill(*blocks: Array) -> None:
+        blocks[-1][...] = formula(*blocks[:-1])
+
+    return fill
 
 
 def nearest(value: Any) -> float:
@@ -292,13 +320,6 @@ def _flat(array: Array, shape: tuple[int, ...]) -> Array:
 def _blocks(args: list[Array], size: int) -> Iterator[tuple[int, list[Array]]]:
     for start in range(0, size, BLOCK):
         yield start, [arg if arg.size == 1 else arg[start : start + BLOCK] for arg in args]
-
-
-def _scatter(values: Any, good: Flags) -> Array:
-    """Put the answers where they belong, NaN elsewhere (masked later)."""
-    data = np.full(good.shape, np.nan)
-    data[good] = values
-    return data
 
 
 def _with_mask(column: Array, masks: list[tuple[int, Flags]]) -> Any:

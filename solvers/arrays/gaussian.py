@@ -10,7 +10,14 @@ from . import gaussian_kernels as kernels
 from .domain import NONNEGATIVE, POSITIVE, REAL, Kernel, Numbers, Result, Rule, Span
 
 _CORRELATION = Span(low=-1.0, high=1.0, reason="not-a-correlation", closed=True)
-_PDF = Kernel(kernels.pdf, (REAL, REAL, POSITIVE))
+_PDF = Kernel(
+    kernels.pdf,
+    (REAL, REAL, POSITIVE),
+    fast=kernels.pdf_near_centre,
+    reach=2.0**300,
+    tiny=True,
+    fits=kernels.near_centre,
+)
 _UPPER = Kernel(kernels.upper_tail, (REAL,))
 _BOTH = Kernel(kernels.two_sided, (REAL,))
 _LOG = Kernel(kernels.log_tail, (REAL,))

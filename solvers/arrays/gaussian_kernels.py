@@ -130,6 +130,55 @@ def pdf(x: Array, mu: Array, sigma: Array) -> Array:
     return _bell(np.ldexp(distance, by), np.ldexp(lost, by), size, shift)
 
 
+def near_centre(x: tuple[float, float], mu: tuple[float, float], sigma: Any) -> bool:
+    """Whether limits keep the density within _CLOSE standard deviations of one Gaussian."""
+    return (
+        mu[0] == mu[1]
+        and 1 / _TOP < sigma[0] == sigma[1]
+        and max(x[1] - mu[0], mu[0] - x[0]) <= _CLOSE * sigma[0]
+    )
+
+
+_CLOSE = 1.95
+_FINE = 1.5 * 2.0**28
+"""Adding and taking away this rounds to a multiple of 2**-24."""
+
+
+def pdf_near_centre(x: Array, mu: Array, sigma: Array, out: Array) -> None:
+    """With z = h + y and h in 26 bits, the exponent -h**2/2 - y (h + y/2) < 2 rounds once."""
+    distance, lost = (x, None) if mu[0] == 0 else _two_difference(x, mu)
+    upper, lower = split(sigma)
+    h = distance * (1 / sigma)
+    h += _FINE
+    h -= _FINE
+    y = h * upper
+    np.subtract(distance, y, out=y)
+    if lower[0] != 0:
+        y -= h * lower
+    if lost is not None:
+        y += lost
+    y *= 1 / sigma
+    np.multiply(y, 0.5, out=out)
+    out += h
+    out *= y
+    h *= h
+    h *= -0.5
+    h -= out
+    np.exp(h, out=out)
+    out *= _PEAK / sigma
+
+
+def _two_difference(a: Array, b: Array) -> tuple[Array, Array]:
+    """Difference of an array and one number with its rounding error, in place."""
+    s = a - b
+    t = s - a
+    lost = s - t
+    np.subtract(a, lost, out=lost)
+    t += b
+    lost -= t
+    return s, lost
+
+
 _QUANTUM = 1.5 * 2.0**32
 """Adding and taking away this rounds a number below 2**31 to a multiple of 2**-20."""
 

@@ -35,16 +35,23 @@ def _project(f: Any, x: Any, y: Any, z: Any) -> Any:
     return f * x / z, f * y / z
 
 
-def _project_short(f: Any, x: Any, y: Any, z: Any) -> Any:
+def _project_short(f: Any, x: Any, y: Any, z: Any, x_i: Any, y_i: Any) -> None:
     """f/z first: it is neither huge nor tiny, so only the results round."""
     scale = f / z
-    return x * scale, y * scale
+    np.multiply(x, scale, out=x_i)
+    np.multiply(y, scale, out=y_i)
 
 
 _PROJECT = Kernel(
     lambda *args: (_project(*args), None),
     (POSITIVE, REAL, REAL, REAL),
-    (Rule("on-camera-plane", lambda _f, _x, _y, z: z == 0),),
+    (
+        Rule(
+            "on-camera-plane",
+            lambda _f, _x, _y, z: z == 0,
+            lambda _f, _x, _y, z: z[0] <= 0 <= z[1],
+        ),
+    ),
     exact=_project,
     reach=2.0**300,
     outputs=2,

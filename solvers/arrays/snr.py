@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from .domain import NONNEGATIVE, POSITIVE, Kernel, Numbers, Result, extreme
+from .domain import NONNEGATIVE, POSITIVE, Kernel, Numbers, Result, extreme, filled
 
 _REACH = 2.0**300
 _LEAST = 5e-324
@@ -45,7 +45,7 @@ _SNR = Kernel(
     _snr,
     (NONNEGATIVE, NONNEGATIVE),
     reach=_REACH,
-    fast=_snr_short,
+    fast=filled(_snr_short),
 )
 _LOSS = Kernel(_loss, (POSITIVE, NONNEGATIVE))
 _PHOTONS = Kernel(_photons, (NONNEGATIVE, NONNEGATIVE))

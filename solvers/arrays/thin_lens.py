@@ -30,8 +30,9 @@ def _from_focus(f: Any, z: Any) -> Any:
     return z - f
 
 
-def _image_distance_near(f: Any, z: Any) -> Any:
-    return f * (z / (z - f))
+def _image_distance_near(f: Any, z: Any, out: Any) -> None:
+    np.divide(z, z - f, out=out)
+    out *= f
 
 
 _IMAGE_DISTANCE = Kernel(

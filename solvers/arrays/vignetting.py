@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from .domain import NONNEGATIVE, POSITIVE, Kernel, Numbers, Result
 from .double_double import pairs
 
@@ -27,10 +29,20 @@ def _on_pairs(formula: Any) -> Any:
     return lambda r, f: (formula(*pairs(r, f)).rounded(), None)
 
 
-def _cos4_short(r: Any, f: Any) -> Any:
+def _cos4_short(r: Any, f: Any, out: Any) -> None:
+    """In the middle 1 - p (2 - p), where the errors of p count little."""
+    widest, shortest = r.max(), f.min()
+    if 2 * widest <= shortest:
+        _falloff_short(r, f, out)
+        np.subtract(1, out, out=out)
+    elif widest <= shortest:
+        out[...] = _cos4_outside(r, f)
+    else:
+        out[...] = _cos4(*pairs(r, f)).rounded()
+
+
+def _cos4_outside(r: Any, f: Any) -> Any:
     """What rounding the sum loses is put back; it would count twice."""
-    if r.max() > f.min():
-        return _cos4(*pairs(r, f)).rounded()
     A = f * f
     S = r * r
     lost = -S
@@ -44,11 +56,13 @@ def _cos4_short(r: Any, f: Any) -> Any:
     return q
 
 
-def _falloff_short(r: Any, f: Any) -> Any:
+def _falloff_short(r: Any, f: Any, out: Any) -> None:
     """Product p (2 - p) with p = r**2/(r**2 + f**2): no difference of nearly equal values."""
     B = r * r
-    p = B / (B + f * f)
-    return p * (2 - p)
+    p = B + f * f
+    np.divide(B, p, out=p)
+    np.subtract(2, p, out=out)
+    out *= p
 
 
 _COS4 = Kernel(
