@@ -98,7 +98,7 @@ _PLAIN = 0.45
 
 
 def _total_plain(s: Any, way: Any, ratios: tuple[float, float, float], out: Any) -> None:
-    """s way/(A/(2 N c) - N c way**2/(2 A)) with way = s - f: three roundings that count."""
+    """Quotient s w/(A/(2 N c) - N c w**2/(2 A)), w = s - f: three roundings that count."""
     ratio, rest, share = ratios
     below = way * way
     below *= share / 2

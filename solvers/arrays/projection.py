@@ -8,6 +8,7 @@ decimals, because an integer answer is then an integer (2 mm, 5 um, -1, 2 and of
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any, NamedTuple
@@ -116,21 +117,26 @@ def _pixels(f: Array, pitch: Array, x: Array, z: Array, o: Array) -> Any:
     return value, cancelled | (np.abs(twice - np.rint(twice)) < _NEXT_TO_HALF)
 
 
-def _by_integers(f: float, pitch: float, x: Array, z: Array, o: float) -> Array | None:
-    """One quotient of exactly known integers, or None if they are too long."""
+def _by_integers(camera: Sequence[float], x: Array, z: Array, out: Array) -> bool:
+    """One quotient of exactly known integers; false if they are too long or z is not one sign."""
+    f, pitch, o = camera
     scaled_x, scaled_z = _integers(x), _integers(z)
     if scaled_x is None or scaled_z is None:
-        return None
+        return False
     (x, by_x), (z, by_z) = scaled_x, scaled_z
     of_z, of_x, below = _factors(f, pitch, o, by_x, by_z)
     widest = max(float(x.max()), -float(x.min()))
-    deepest = max(float(z.max()), -float(z.min()))
+    nearest, farthest = float(z.min()), float(z.max())
+    deepest = max(farthest, -nearest)
     if max(abs(of_z) * deepest + of_x * widest, below * deepest) >= _LARGEST:
-        return None
-    result: Array = z * float(of_z)
-    result += x * float(of_x)
-    result /= z * float(below)
-    return result
+        return False
+    np.multiply(z, float(of_z), out=out)
+    x *= float(of_x)
+    out += x
+    if below != 1:
+        z *= float(below)
+    out /= z
+    return nearest > 0 or farthest < 0
 
 
 @lru_cache(maxsize=64)
@@ -152,7 +158,8 @@ def _integers(values: Array) -> tuple[Array, int] | None:
     few = values[:_SAMPLE]
     for scale in _SCALES:
         if (np.rint(few * scale) / scale == few).all():
-            whole = np.rint(values * float(scale)) if scale > 1 else np.rint(values)
+            whole = values * float(scale)
+            np.rint(whole, out=whole)
             if ((whole / float(scale) if scale > 1 else whole) == values).all():
                 return whole, scale
     return None
@@ -169,10 +176,8 @@ def _by_blocks(f: Numbers, pitch: Numbers, x: Numbers, z: Numbers, o: Numbers) -
     out = np.empty(columns[0].size)
     for start in range(0, out.size, BLOCK):
         across, depth = (column[start : start + BLOCK] for column in columns)
-        part = _by_integers(camera[0], camera[1], across, depth, camera[2])
-        if part is None or not depth.all():
+        if not _by_integers(camera, across, depth, out[start : start + BLOCK]):
             return None
-        out[start : start + BLOCK] = part
     return out.reshape(np.shape(x))
 
 
