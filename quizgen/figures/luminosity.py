@@ -180,25 +180,26 @@ def alt(values: Values, lang: str, *, quiz: bool) -> str:
         Leave out the values at the marks.
     """
     words = _ALT[lang]
-    told = [words["log" if values["log"] else "figure"]]
+    told = [words["log" if values["log"] else "figure"] + words["seen" if quiz else "curves"]]
     for place, wavelength in enumerate(marks(values)):
         text = f"λ_{place + 1} = {given(wavelength)} nm"
         told.append(text if quiz else f"{text}, {spoken(_reading(values, place, wavelength))}")
     return told[0] + ("".join(f" {text}{words['stop']}" for text in told[1:]))
 
 
-_CURVES_EN = "day (peak at 555 nm) and V' for the eye at night (peak at 507 nm)"
-_CURVES_BN = "দিনের চোখের V (চূড়া 555 nm-এ) আর রাতের চোখের V' (চূড়া 507 nm-এ)"
-
 _ALT = {
     "en": {
-        "figure": f"Two bell-shaped curves over 380 to 780 nm: V for the eye by {_CURVES_EN}.",
-        "log": f"Two curves over 380 to 780 nm, logarithmic axis: V for the eye by {_CURVES_EN}.",
+        "figure": "Two bell-shaped curves over 380 to 780 nm: ",
+        "log": "Two curves over 380 to 780 nm, logarithmic axis: ",
+        "seen": "V solid, V' dashed and at shorter wavelengths.",
+        "curves": "V for the eye by day (peak at 555 nm), V' for the eye at night (507 nm).",
         "stop": ".",
     },
     "bn": {
-        "figure": f"380 থেকে 780 nm জুড়ে ঘণ্টার মতো দুটি রেখা: {_CURVES_BN}।",
-        "log": f"380 থেকে 780 nm জুড়ে দুটি রেখা, লগারিদমিক অক্ষে: {_CURVES_BN}।",
+        "figure": "380 থেকে 780 nm জুড়ে ঘণ্টার মতো দুটি রেখা: ",
+        "log": "380 থেকে 780 nm জুড়ে দুটি রেখা, লগারিদমিক অক্ষে: ",
+        "seen": "V টানা রেখায়, V' কাটা রেখায় ও ছোট তরঙ্গদৈর্ঘ্যের দিকে।",
+        "curves": "দিনের চোখের V (চূড়া 555 nm-এ), রাতের চোখের V' (চূড়া 507 nm-এ)।",
         "stop": "।",
     },
 }

@@ -288,3 +288,14 @@ def test_an_unknown_piece_is_located():
 def test_a_chain_in_a_sentence_is_not_read_as_a_conjunction():
     assert latex(inline(parse("a = b = c")).node).replace(" ", "") == "a=b=c"
     assert "and" in latex(inline(parse("a = b and c = d")).node)
+
+
+def test_every_figure_card_draws_and_hides_its_answer():
+    from quizgen.figures import render
+
+    for entry in entries("figures"):
+        quiz, full = (
+            render(entry.figure, entry.values, quiz=quiz, lang="en") for quiz in (True, False)
+        )
+        assert quiz.svg
+        assert quiz.alt != full.alt

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from quizgen.cards import pictures
+from quizgen import figures
 from quizgen.cards.content import FigureEntry, entries, passage
 from quizgen.cards.deck import Wish
 from quizgen.cards.note import Note
@@ -35,5 +35,5 @@ def notes(wish: Wish) -> Iterator[Note]:
 
 
 def _picture(entry: FigureEntry, langs: tuple[str, ...], *, quiz: bool) -> Picture:
-    drawn = [pictures.draw(entry.figure, entry.values, quiz=quiz, lang=lang) for lang in langs]
+    drawn = [figures.render(entry.figure, entry.values, quiz=quiz, lang=lang) for lang in langs]
     return Picture(entry.figure, drawn[0], " / ".join(figure.alt for figure in drawn))
