@@ -87,7 +87,7 @@ class FigureEntry(Entry, frozen=True, kw_only=True):
     """A picture to name."""
 
     figure: str
-    values: dict[str, int | float | str] = {}
+    values: dict[str, float] = {}
     quiz: bool = True
     ask: Both
     answer: Both
