@@ -7,15 +7,15 @@ are left as they are: whoever puts the result into HTML escapes it.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from functools import lru_cache
-from typing import Any
 
-from quizgen.errors import RenderError
 from quizgen.formula import nodes as n
+from quizgen.formula.emit import known, printer
 from quizgen.formula.names import GREEK, KNOWN
 from quizgen.formula.units import TIGHT, parts
 from quizgen.formula.words import TEXTS
+
+_known = known("LaTeX")
 
 _LETTERS = {char: "\\" + word for word, char in GREEK.items() if word != "lamda"}
 _LETTERS |= {"ε": r"\varepsilon", "φ": r"\varphi", "ℓ": r"\ell"}
@@ -88,20 +88,6 @@ def latex(node: n.Node, lang: str = "en") -> str:
     "p'_{x}"
     """
     return _TOUCHING.sub("} ", _emit(node, lang))
-
-
-def _emit(node: n.Node, lang: str) -> str:
-    rule = _RULES.get(type(node))
-    if rule is None:
-        raise RenderError(f"no LaTeX for {type(node).__name__}")
-    return rule(node, lang)
-
-
-def _known(table: dict[str, str], key: str, what: str) -> str:
-    try:
-        return table[key]
-    except KeyError:
-        raise RenderError(f"no LaTeX for the {what} {key!r}") from None
 
 
 def _number(node: n.Number, _lang: str) -> str:
@@ -241,23 +227,4 @@ def _matrix(node: n.Matrix, lang: str) -> str:
     return r"\begin{pmatrix} " + r" \\ ".join(rows) + r" \end{pmatrix}"
 
 
-_RULES: dict[type, Callable[[Any, str], str]] = {
-    n.Number: _number,
-    n.Ident: _ident,
-    n.Word: _word,
-    n.Text: _text,
-    n.Unit: _unit,
-    n.Op: _op,
-    n.Row: _row,
-    n.Quantity: _quantity,
-    n.Frac: _frac,
-    n.Root: _root,
-    n.Scripts: _scripts,
-    n.Accent: _accent,
-    n.Fence: _fence,
-    n.Func: _func,
-    n.Big: _big,
-    n.Under: _under,
-    n.Cases: _cases,
-    n.Matrix: _matrix,
-}
+_emit = printer("LaTeX", globals())

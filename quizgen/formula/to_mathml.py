@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from functools import lru_cache
 from html import escape
-from typing import Any
 
 from quizgen.errors import RenderError
 from quizgen.formula import nodes as n
+from quizgen.formula.emit import known, printer
 from quizgen.formula.names import GREEK_LETTERS
 from quizgen.formula.units import TIGHT, parts
 from quizgen.formula.words import TEXTS
+
+_known = known("MathML")
 
 THIN = '<mspace width="0.17em"/>'
 _APPLY, _TIMES = "<mo>\u2061</mo>", "<mo>\u2062</mo>"
@@ -64,20 +65,6 @@ def mathml(node: n.Node, lang: str = "en", *, display: bool = False) -> str:
     if isinstance(node, n.Row):
         return start + _joined(node.items, lang) + "</math>"
     return start + _emit(node, lang) + "</math>"
-
-
-def _emit(node: n.Node, lang: str) -> str:
-    rule = _RULES.get(type(node))
-    if rule is None:
-        raise RenderError(f"no MathML for {type(node).__name__}")
-    return rule(node, lang)
-
-
-def _known(table: dict[str, str], key: str, what: str) -> str:
-    try:
-        return table[key]
-    except KeyError:
-        raise RenderError(f"no MathML for the {what} {key!r}") from None
 
 
 def _joined(items: tuple[n.Node, ...], lang: str) -> str:
@@ -266,23 +253,4 @@ def _matrix(node: n.Matrix, lang: str) -> str:
     return f"<mrow>{_between('()', table)}</mrow>"
 
 
-_RULES: dict[type, Callable[[Any, str], str]] = {
-    n.Number: _number,
-    n.Ident: _ident,
-    n.Word: _word,
-    n.Text: _text,
-    n.Unit: _unit,
-    n.Op: _op,
-    n.Row: _row,
-    n.Quantity: _quantity,
-    n.Frac: _frac,
-    n.Root: _root,
-    n.Scripts: _scripts,
-    n.Accent: _accent,
-    n.Fence: _fence,
-    n.Func: _func,
-    n.Big: _big,
-    n.Under: _under,
-    n.Cases: _cases,
-    n.Matrix: _matrix,
-}
+_emit = printer("MathML", globals())

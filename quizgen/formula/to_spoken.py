@@ -7,17 +7,17 @@ where they end, so that a listener can write the formula down.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from functools import lru_cache
-from typing import Any
 
-from quizgen.errors import RenderError
 from quizgen.formula import nodes as n
+from quizgen.formula.emit import known, printer
 from quizgen.formula.names import GREEK
 from quizgen.formula.units import Part, parts
 from quizgen.formula.words import TEXTS, Words
 from quizgen.formula.words_bn import BANGLA
 from quizgen.formula.words_en import ENGLISH
+
+_known = known("reading")
 
 WORDS = {"en": ENGLISH, "bn": BANGLA}
 """Reading tables by language."""
@@ -51,20 +51,6 @@ def spoken(node: n.Node, lang: str = "en") -> str:
     'p prime sub x'
     """
     return _SPACES.sub(" ", _COMMAS.sub(r"\1", _say(node, lang))).strip(" ,")
-
-
-def _say(node: n.Node, lang: str) -> str:
-    rule = _RULES.get(type(node))
-    if rule is None:
-        raise RenderError(f"no reading for {type(node).__name__}")
-    return rule(node, lang)
-
-
-def _known(table: dict[str, Any], key: str, what: str) -> Any:
-    try:
-        return table[key]
-    except KeyError:
-        raise RenderError(f"no reading for the {what} {key!r}") from None
 
 
 def simple(node: n.Node | None) -> bool:
@@ -310,23 +296,4 @@ def _matrix(node: n.Matrix, lang: str) -> str:
     return words.long["matrix"].format("; ".join(said))
 
 
-_RULES: dict[type, Callable[[Any, str], str]] = {
-    n.Number: _number,
-    n.Ident: _ident,
-    n.Word: _word,
-    n.Text: _text,
-    n.Unit: _unit,
-    n.Op: _op,
-    n.Row: _row,
-    n.Quantity: _quantity,
-    n.Frac: _frac,
-    n.Root: _root,
-    n.Scripts: _scripts,
-    n.Accent: _accent,
-    n.Fence: _fence,
-    n.Func: _func,
-    n.Big: _big,
-    n.Under: _under,
-    n.Cases: _cases,
-    n.Matrix: _matrix,
-}
+_say = printer("reading", globals())

@@ -6,15 +6,15 @@ that are meant as such are escaped, and primes stand before subscripts.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import lru_cache
-from typing import Any
 
-from quizgen.errors import RenderError
 from quizgen.formula import nodes as n
+from quizgen.formula.emit import known, printer
 from quizgen.formula.names import KNOWN
 from quizgen.formula.units import TIGHT, parts
 from quizgen.formula.words import TEXTS
+
+_known = known("Typst")
 
 _OPERATORS = {
     "": "",
@@ -62,20 +62,6 @@ def typst(node: n.Node, lang: str = "en") -> str:
         If the layout holds something that has no Typst form.
     """
     return _emit(node, lang)
-
-
-def _emit(node: n.Node, lang: str) -> str:
-    rule = _RULES.get(type(node))
-    if rule is None:
-        raise RenderError(f"no Typst for {type(node).__name__}")
-    return rule(node, lang)
-
-
-def _known(table: dict[str, str], key: str, what: str) -> str:
-    try:
-        return table[key]
-    except KeyError:
-        raise RenderError(f"no Typst for the {what} {key!r}") from None
 
 
 def quoted(text: str) -> str:
@@ -224,23 +210,4 @@ def _matrix(node: n.Matrix, lang: str) -> str:
     return "mat(" + "; ".join(rows) + ")"
 
 
-_RULES: dict[type, Callable[[Any, str], str]] = {
-    n.Number: _number,
-    n.Ident: _ident,
-    n.Word: _word,
-    n.Text: _text,
-    n.Unit: _unit,
-    n.Op: _op,
-    n.Row: _row,
-    n.Quantity: _quantity,
-    n.Frac: _frac,
-    n.Root: _root,
-    n.Scripts: _scripts,
-    n.Accent: _accent,
-    n.Fence: _fence,
-    n.Func: _func,
-    n.Big: _big,
-    n.Under: _under,
-    n.Cases: _cases,
-    n.Matrix: _matrix,
-}
+_emit = printer("Typst", globals())
