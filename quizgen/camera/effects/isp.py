@@ -10,13 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from quizgen.camera.blocks import BLOCK, pointwise
 from quizgen.camera.effects.base import stream
 from quizgen.camera.effects.sensor import CHANNELS, colour_at, fall_off_map
 from quizgen.camera.filters import opencv
 from quizgen.camera.power import encode, encode_by_table
 from quizgen.camera.scene import Image, View
-
-_PART = 1 << 13
 
 
 def demosaic(raw: Image, view: View, rung: str = "") -> Image:
@@ -139,10 +138,11 @@ def rgb_to_hsv(image: Image) -> Image:
     cv2: Any = opencv()
     if cv2 is not None and image.ndim == 3:
         return np.asarray(cv2.cvtColor(np.ascontiguousarray(image), cv2.COLOR_RGB2HSV))
-    flat, result = image.reshape(-1, 3), np.empty((image.size // 3, 3), np.float32)
-    for start in range(0, len(flat), _PART):
-        result[start : start + _PART] = _hsv_part(flat[start : start + _PART])
-    return result.reshape(image.shape)
+
+    def work(part: Image, out: Image) -> None:
+        out.reshape(-1, 3)[...] = _hsv_part(part.reshape(-1, 3))
+
+    return pointwise(image, work)
 
 
 def _hsv_part(colours: Image) -> Image:
@@ -163,10 +163,17 @@ def _hsv_part(colours: Image) -> Image:
 
 def hsv_to_rgb(image: Image) -> Image:
     """Inverse of `rgb_to_hsv`; any finite hue in degrees, taken modulo 360."""
+    turned = image.copy()
+    np.mod(turned[..., 0], np.float32(360.0), out=turned[..., 0])
+    return _to_rgb(turned)
+
+
+def _to_rgb(image: Image) -> Image:
+    """Colours of hues in [0, 720) degrees."""
     cv2: Any = opencv()
     if cv2 is not None and image.ndim == 3:
-        return np.asarray(cv2.cvtColor(_turned_hue(image), cv2.COLOR_HSV2RGB))
-    hue, saturation, value = np.moveaxis(_turned_hue(image), -1, 0)
+        return np.asarray(cv2.cvtColor(image, cv2.COLOR_HSV2RGB))
+    hue, saturation, value = np.moveaxis(image, -1, 0)
     sextant = hue / np.float32(60.0)
     parts = []
     for offset in (5.0, 3.0, 1.0):
@@ -174,12 +181,6 @@ def hsv_to_rgb(image: Image) -> Image:
         weight = np.clip(np.minimum(position, 4 - position), 0, 1)
         parts.append(value - value * saturation * weight)
     return np.stack(parts, axis=-1)
-
-
-def _turned_hue(image: Image) -> Image:
-    result = image.copy()
-    np.mod(result[..., 0], np.float32(360.0), out=result[..., 0])
-    return result
 
 
 def edit_hsv(image: Image, hue: float = 0.0, saturation: float = 1.0, value: float = 1.0) -> Image:
@@ -195,14 +196,28 @@ def edit_hsv(image: Image, hue: float = 0.0, saturation: float = 1.0, value: flo
         Factors; results are clipped to 1. Value stays when only hue or saturation change, the
         luminance does not (errata E04, E05).
     """
-    edited = rgb_to_hsv(np.clip(image, np.float32(0.0), np.float32(1.0)))
-    if hue:
-        edited[..., 0] += np.float32(math.fmod(hue, 360.0))
-    if saturation != 1.0:
-        edited[..., 1] = np.minimum(edited[..., 1] * np.float32(saturation), np.float32(1.0))
-    if value != 1.0:
-        edited[..., 2] = np.minimum(edited[..., 2] * np.float32(value), np.float32(1.0))
-    return hsv_to_rgb(edited)
+    steps = (
+        _colours(1.0, saturation, value),
+        _colours(math.fmod(math.fmod(hue, 360.0) + 360.0, 360.0), 0.0, 0.0),
+        _colours(math.inf, 1.0, 1.0),
+    )
+    return pointwise(image, lambda part, out: _edit_part(part, out, steps))
+
+
+def _colours(first: float, second: float, third: float) -> Image:
+    """One colour, repeated to the length of a piece."""
+    return np.tile(np.asarray([first, second, third], np.float32), BLOCK // 3)
+
+
+def _edit_part(part: Image, out: Image, steps: tuple[Image, Image, Image]) -> None:
+    colours = np.clip(part, np.float32(0.0), np.float32(1.0)).reshape(1, -1, 3)
+    edited = rgb_to_hsv(colours)
+    flat = edited.reshape(-1)
+    factors, shift, most = (step[: flat.size] for step in steps)
+    flat *= factors
+    flat += shift
+    np.minimum(flat, most, out=flat)
+    out[...] = _to_rgb(edited).reshape(-1)
 
 
 def hsv_edit(image: Image, view: View, rung: str = "") -> Image:
