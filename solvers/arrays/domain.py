@@ -30,7 +30,7 @@ Numbers = npt.ArrayLike
 Result = Any
 """A float for scalar arguments, else an array (masked where there is no answer)."""
 
-BLOCK = 16384
+BLOCK = 32768
 """Elements per block: small enough for the level-2 cache, large enough to hide the loop."""
 
 

@@ -26,6 +26,17 @@ def two_sum(a: Any, b: Any) -> tuple[Any, Any]:
     return s, (a - (s - t)) + (b - t)
 
 
+def two_difference(a: Array, b: Array) -> tuple[Array, Array]:
+    """Difference of two arrays and its rounding error, with few temporaries."""
+    s = a - b
+    t = s - a
+    lost = s - t
+    np.subtract(a, lost, out=lost)
+    t += b
+    lost -= t
+    return s, lost
+
+
 def split(a: Any) -> tuple[Any, Any]:
     """Upper and lower half of a double, exactly."""
     c = a * SPLITTER

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from .domain import Array
-from .double_double import split, two_product, two_sum
+from .double_double import split, two_difference, two_product, two_sum
 from .tables import CENTRAL, MILLS, MILLS_SCALE, MILLS_SHIFT
 
 _PEAK = 0.3989422804014327
@@ -146,7 +146,7 @@ _FINE = 1.5 * 2.0**28
 
 def pdf_near_centre(x: Array, mu: Array, sigma: Array, out: Array) -> None:
     """With z = h + y and h in 26 bits, the exponent -h**2/2 - y (h + y/2) < 2 rounds once."""
-    distance, lost = (x, None) if mu[0] == 0 else _two_difference(x, mu)
+    distance, lost = (x, None) if mu[0] == 0 else two_difference(x, mu)
     upper, lower = split(sigma)
     h = distance * (1 / sigma)
     h += _FINE
@@ -166,17 +166,6 @@ def pdf_near_centre(x: Array, mu: Array, sigma: Array, out: Array) -> None:
     h -= out
     np.exp(h, out=out)
     out *= _PEAK / sigma
-
-
-def _two_difference(a: Array, b: Array) -> tuple[Array, Array]:
-    """Difference of an array and one number with its rounding error, in place."""
-    s = a - b
-    t = s - a
-    lost = s - t
-    np.subtract(a, lost, out=lost)
-    t += b
-    lost -= t
-    return s, lost
 
 
 _QUANTUM = 1.5 * 2.0**32
