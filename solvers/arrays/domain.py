@@ -30,8 +30,11 @@ Numbers = npt.ArrayLike
 Result = Any
 """A float for scalar arguments, else an array (masked where there is no answer)."""
 
-BLOCK = 32768
-"""Elements per block: small enough for the level-2 cache, large enough to hide the loop."""
+BLOCK = 12288
+"""Elements per block: temporaries stay in the level-2 cache and are cheap to allocate."""
+
+WIDE_BLOCK = 32768
+"""Elements per block of short ways with few temporaries, where the loop itself would weigh."""
 
 
 Limits = tuple[float, float]
@@ -122,6 +125,8 @@ class Kernel:
         Whether ``fast`` also takes magnitudes below ``1/reach``.
     fits : callable, optional
         Further condition of ``fast``, on the limits of the arguments.
+    wide : bool
+        Whether blocks are wide without ``fast``, too.
     """
 
     compute: Callable[..., Any]
@@ -134,6 +139,7 @@ class Kernel:
     watched: Sequence[int] | None = None
     tiny: bool = False
     fits: Callable[..., bool] = lambda *_limits: True
+    wide: bool = False
 
     def __call__(self, *args: Numbers) -> Result:
         """Run the kernel on scalars or arrays that broadcast together."""
@@ -167,11 +173,12 @@ class Kernel:
         masks: list[tuple[int, Flags]] = []
         fixed = [_limits(arg) if arg.size == 1 else None for arg in args]
         checks = [self._check(i) for i in range(len(args))]
-        for start, block in _blocks(args, columns[0].size):
+        width = BLOCK if self.fast is None and not self.wide else WIDE_BLOCK
+        for start, block in _blocks(args, columns[0].size, width):
             limits = [
                 known or check(arg) for known, check, arg in zip(fixed, checks, block, strict=True)
             ]
-            parts = [column[start : start + BLOCK] for column in columns]
+            parts = [column[start : start + width] for column in columns]
             bad = self._fill(parts, block, limits)
             if bad is not None:
                 masks.append((start, bad))
@@ -317,9 +324,9 @@ def _flat(array: Array, shape: tuple[int, ...]) -> Array:
     return np.ascontiguousarray(np.broadcast_to(array, shape)).reshape(-1)
 
 
-def _blocks(args: list[Array], size: int) -> Iterator[tuple[int, list[Array]]]:
-    for start in range(0, size, BLOCK):
-        yield start, [arg if arg.size == 1 else arg[start : start + BLOCK] for arg in args]
+def _blocks(args: list[Array], size: int, width: int) -> Iterator[tuple[int, list[Array]]]:
+    for start in range(0, size, width):
+        yield start, [arg if arg.size == 1 else arg[start : start + width] for arg in args]
 
 
 def _with_mask(column: Array, masks: list[tuple[int, Flags]]) -> Any:

@@ -124,7 +124,7 @@ def _with_toe(bright: Array, x: Array, dark: Any, line: Any, slope: float) -> Ar
 
 
 _SRGB_ENCODE = Kernel(_srgb_encode, (_INTENSITY,))
-_SRGB_DECODE = Kernel(_srgb_decode, (_INTENSITY,))
+_SRGB_DECODE = Kernel(_srgb_decode, (_INTENSITY,), wide=True)
 
 
 def srgb_encode(linear: Numbers) -> Result:

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from .domain import Array
-from .double_double import Pair, split, two_difference, two_sum
+from .double_double import SPLITTER, Pair, split, two_difference, two_sum
 from .power import halves, raised
 
 _TOE = 2.0**-900
@@ -69,8 +69,10 @@ def _direct(e: Fraction) -> tuple[Exactly, Exactly, Exactly]:
 
 
 def _horner(coefficients: Sequence[float], x: Array) -> Array:
-    total = np.full_like(x, coefficients[-1])
-    for c in reversed(coefficients[:-1]):
+    *rest, second, last = coefficients
+    total = x * last
+    total += second
+    for c in reversed(rest):
         total *= x
         total += c
     return total
@@ -78,8 +80,10 @@ def _horner(coefficients: Sequence[float], x: Array) -> Array:
 
 def _short_quotient(top: Pair, below: Pair) -> Pair:
     """Quotient with a higher half of 26 bits: products with it, and its square, are exact."""
-    high = top.high / below.high
-    high = split(high)[0]
+    rough = top.high / below.high
+    high = rough * SPLITTER
+    np.subtract(high, rough, out=rough)
+    high -= rough
     upper, lower = split(below.high)
     upper *= high
     np.subtract(top.high, upper, out=upper)

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from .domain import BLOCK, REAL, Array, Kernel, Numbers, Result, Rule, nearest
+from .domain import REAL, WIDE_BLOCK, Array, Kernel, Numbers, Result, Rule, nearest
 from .double_double import Pair, pairs
 
 _CANCELLED = 2.0**-48
@@ -65,14 +65,14 @@ def _by_whole_numbers(I: Any, ends: tuple[Any, ...]) -> Any:
     slope, start, width = line
     flat = np.asarray(I, dtype=np.float64).reshape(-1)
     out = np.empty(flat.size)
-    for first in range(0, flat.size, BLOCK):
-        block = flat[first : first + BLOCK]
+    for first in range(0, flat.size, WIDE_BLOCK):
+        block = flat[first : first + WIDE_BLOCK]
         top = block * slope
         top += start
         whole = bool((np.rint(block) == block).all())
         if not (whole and float(top.max()) < _LARGEST and float(top.min()) > -_LARGEST):
             return None
-        np.divide(top, width, out=out[first : first + BLOCK])
+        np.divide(top, width, out=out[first : first + WIDE_BLOCK])
     return out.reshape(np.shape(I))
 
 

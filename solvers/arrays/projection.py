@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .domain import BLOCK, POSITIVE, REAL, Array, Kernel, Numbers, Result, Rule
+from .domain import POSITIVE, REAL, WIDE_BLOCK, Array, Kernel, Numbers, Result, Rule
 from .double_double import pairs
 
 _LARGEST = 2.0**53
@@ -174,9 +174,9 @@ def _by_blocks(f: Numbers, pitch: Numbers, x: Numbers, z: Numbers, o: Numbers) -
         return None
     columns = [np.asarray(arg, dtype=np.float64).reshape(-1) for arg in (x, z)]
     out = np.empty(columns[0].size)
-    for start in range(0, out.size, BLOCK):
-        across, depth = (column[start : start + BLOCK] for column in columns)
-        if not _by_integers(camera, across, depth, out[start : start + BLOCK]):
+    for start in range(0, out.size, WIDE_BLOCK):
+        across, depth = (column[start : start + WIDE_BLOCK] for column in columns)
+        if not _by_integers(camera, across, depth, out[start : start + WIDE_BLOCK]):
             return None
     return out.reshape(np.shape(x))
 
