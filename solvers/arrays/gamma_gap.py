@@ -80,7 +80,8 @@ def _horner(coefficients: Sequence[float], x: Array) -> Array:
 
 def _short_quotient(top: Pair, below: Pair) -> Pair:
     """Quotient with a higher half of 26 bits: products with it, and its square, are exact."""
-    rough = top.high / below.high
+    inverse = 1 / below.high  # the lower half makes up for all of its error
+    rough = top.high * inverse
     high = rough * SPLITTER
     np.subtract(high, rough, out=rough)
     high -= rough
@@ -92,7 +93,7 @@ def _short_quotient(top: Pair, below: Pair) -> Pair:
     upper += top.low
     np.multiply(high, below.low, out=lower)
     upper -= lower
-    upper /= below.high
+    upper *= inverse
     return Pair(high, upper)
 
 
