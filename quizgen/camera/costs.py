@@ -13,7 +13,7 @@ import math
 from quizgen.camera.draw import sheets
 from quizgen.camera.effects.optics import slices, turns
 from quizgen.camera.effects.optics_bounds import blur_of, map_range
-from quizgen.camera.filters import opencv
+from quizgen.camera.filters import goes_by_slabs, opencv
 from quizgen.camera.kernels import Kernel, disc, line
 from quizgen.camera.scene import View
 
@@ -37,16 +37,16 @@ POINTWISE: dict[str, Pair] = {
     "demosaicing": (1.64, 173),
     "flat field": (1.34, 88.2),
     "white balance": (1.55, 76.5),
-    "gamma": (3.3, 150),
-    "gamma/table": (1.3, 65),
-    "hsv edit": (38.3, 2551),
+    "gamma": (1.9, 92),
+    "gamma/table": (1.5, 76),
+    "hsv edit": (38.4, 1490),
     "gaussian noise": (7.18, 302),
     "impulse noise": (4.13, 200),
     "normalisation": (0.313, 36.7),
     "projection": (0.05, 0.05),
 }
 
-POINTWISE_OPENCV: dict[str, Pair] = {"hsv edit": (3.39, 190)}
+POINTWISE_OPENCV: dict[str, Pair] = {"hsv edit": (1.5, 75)}
 
 SAMPLE: Pair = (41.7, 916)
 SAMPLE_OPENCV: Pair = (1.37, 68.2)
@@ -56,7 +56,8 @@ LATERAL: Pair = (2.46, 306)
 TAP: Pair = (0.49, 30.1)
 FOURIER: Pair = (26.1, 2861)
 TAP_OPENCV: Pair = (0.017, 1.74)
-FOURIER_OPENCV: Pair = (11, 599)
+SLAB_TAP_OPENCV: Pair = (0.045, 1.4)
+FOURIER_OPENCV: Pair = (9.5, 390)
 _CALL = 0.01
 FACTS_PER_MEGAPIXEL = 35.0
 """Measuring a picture's steps, ms."""
@@ -75,6 +76,8 @@ def _convolution(kernel: Kernel, view: View, *, opencv_used: bool) -> float:
     if opencv_used:
         if height * width <= 11 * 11:
             return 0.1 + at_size(TAP_OPENCV, view.megapixels) * float(20 + height * width)
+        if goes_by_slabs(kernel):
+            return at_size(SLAB_TAP_OPENCV, view.megapixels) * taps
         return at_size(FOURIER_OPENCV, view.megapixels)
     few = taps <= 49
     return at_size(TAP, view.megapixels) * taps if few else at_size(FOURIER, view.megapixels)
