@@ -6,6 +6,7 @@ import math
 import operator
 from collections.abc import Callable
 from functools import reduce
+from struct import pack, unpack
 from typing import Any
 
 
@@ -57,3 +58,14 @@ OPS: dict[str, Callable[..., Any]] = {
     "or": lambda *args: any(args),
     "not": operator.not_,
 }
+
+
+def single(x: Any) -> Any:
+    """Round to float32; truth values stay."""
+    return x if isinstance(x, bool) else unpack("f", pack("f", x))[0]
+
+
+SINGLE_OPS: dict[str, Callable[..., Any]] = {
+    name: (lambda *args, op=op: single(op(*args))) for name, op in OPS.items()
+}
+"""The same operators, each result rounded to float32."""

@@ -187,6 +187,14 @@ def floats() -> Field:
     return Field("float64", float, _floats.OPS)
 
 
+@cache
+def singles() -> Field:
+    """Numbers rounded to float32 after every operation."""
+    from quizgen import _floats
+
+    return Field("float32", lambda q: _floats.single(float(q)), _floats.SINGLE_OPS)
+
+
 def evaluate(expr: Expr, env: Env, field: Field | None = None) -> Any:
     """Evaluate a tree once (compile it instead when it is needed often).
 

@@ -18,6 +18,8 @@ MINUS = "\u2212"
 LONGEST_DECIMAL = 6
 """A terminating decimal with more places than this is shown as a fraction or rounded."""
 LARGEST_DENOMINATOR = 9999
+SMALLEST_MAGNITUDE = -6
+"""Power of ten below which a value is written with one."""
 
 
 def rational(value: int | str | Fraction) -> fmpq:
@@ -120,7 +122,14 @@ def exact_text(value: Any, *, minus: str = MINUS) -> str | None:
 def rounded_text(
     value: Any, *, decimals: int | None = None, figures: int = 4, minus: str = MINUS
 ) -> str:
-    """Round for showing: to ``decimals`` places, or to ``figures`` significant figures."""
+    """Round for showing: to ``decimals`` places, or to ``figures`` significant figures.
+
+    A tiny value without a number of places is written as ``1.478e-11``.
+    """
+    if decimals is None and value != 0 and magnitude(value) < SMALLEST_MAGNITUDE:
+        power = magnitude(value)
+        scaled = value * rational(Fraction(10) ** -power)
+        return f"{rounded_text(scaled, figures=figures, minus=minus)}e{power}"
     count = decimals_for(value, figures) if decimals is None else decimals
     return decimal_text(round_to(value, count), count, minus=minus)
 

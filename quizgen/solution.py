@@ -8,8 +8,9 @@ sentence of why per step.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import lru_cache
 from typing import Any
 
@@ -17,13 +18,25 @@ from quizgen import formula as printing
 from quizgen.chain import ChainStep
 from quizgen.draw import Draw, plan_of
 from quizgen.errors import BankError
-from quizgen.expr import PRECISION, Expr, Sym, exact, names, taken_branch
+from quizgen.expr import (
+    PRECISION,
+    Expr,
+    Sym,
+    compile_expr,
+    exact,
+    floats,
+    names,
+    singles,
+    taken_branch,
+)
+from quizgen.locale import word
 from quizgen.numbers import exact_text, rational, rounded_text, short_decimal
 from quizgen.reader import to_text
-from quizgen.text import Block, CodeBlock, Inline, Slot, Words, fill, fill_text
+from quizgen.text import Block, CodeBlock, Inline, Slot, Table, Words, fill, fill_text
 from quizgen.units import shown as unit_shown
 
 NBSP = "\u00a0"
+SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 STEP_FIGURES = 6
 """Significant figures of an intermediate value that has no short exact form."""
 
@@ -74,6 +87,7 @@ class Solution:
     check: tuple[Block, ...]
     note: tuple[Block, ...]
     why: tuple[Block, ...] = ()
+    precision: tuple[Block, ...] = ()
 
 
 def filled(parts: Any, drawn: Draw, lang: str, *, hidden: bool = False) -> Any:
@@ -155,7 +169,8 @@ def quantity_text(value: Any, unit: str) -> str:
 def with_unit(text: str, unit: str) -> str:
     """A number and its unit; only the degree sign stands close."""
     shown = unit_shown(unit)
-    return f"{text}{'' if shown in {'', '°'} else NBSP}{shown}"
+    readable = re.sub(r"e(-?\d+)$", lambda m: f"·10{m[1].translate(SUPERSCRIPTS)}", text)
+    return f"{readable}{'' if shown in {'', '°'} else NBSP}{shown}"
 
 
 def sentence(
@@ -192,8 +207,45 @@ def solve(drawn: Draw, lang: str, built: tuple[Mapping[str, Any], ...]) -> Solut
         parts=tuple(_part(drawn, lang, i, spec) for i, spec in enumerate(built)),
         check=filled(text.sections.get("check", ()), drawn, lang),
         note=filled(text.sections.get("note", ()), drawn, lang),
+        precision=precision_table(drawn, lang),
         why=filled(text.sections.get("why", ()), drawn, lang),
     )
+
+
+def precision_table(drawn: Draw, lang: str) -> tuple[Block, ...]:
+    """What the template's chosen steps come to in float32, in float64 and exactly."""
+    chosen = drawn.template.rules.precision
+    if not chosen:
+        return ()
+    head = tuple((Words(word(lang, f"precision.{name}")),) for name in ("way", "value"))
+    several = len(chosen) > 1
+    rows = []
+    for name in chosen:
+        for way, text in _ways(drawn, name):
+            label = (
+                f"{name}: {word(lang, f'precision.{way}')}"
+                if several
+                else word(lang, f"precision.{way}")
+            )
+            rows.append(((Words(label),), (Words(text),)))
+    return (Table(head, tuple(rows)),)
+
+
+def _ways(drawn: Draw, name: str) -> Iterator[tuple[str, str]]:
+    chain = drawn.template.chain
+    for way, number_system in (("float32", singles()), ("float64", floats())):
+        env = {n: number_system.constant(_fraction(drawn.values[n])) for n in chain.given}
+        try:
+            for step in chain.steps:
+                env[step.name] = compile_expr(step.expr, number_system)(env)
+            yield way, with_unit(f"{env[name]:.9g}".replace("e-0", "e-"), "")
+        except (ZeroDivisionError, ValueError, OverflowError):
+            yield way, "-"
+    yield "exact", with_unit(rounded_text(drawn.values[name], figures=9), "")
+
+
+def _fraction(value: Any) -> Fraction:
+    return Fraction(int(value.p), int(value.q))
 
 
 def _part(drawn: Draw, lang: str, index: int, spec: Mapping[str, Any]) -> PartSolution:

@@ -88,6 +88,7 @@ class Rules(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     reference: dict[str, Scalar] | None = None
     pool: int | None = None
     apart: tuple[str, ...] = ()
+    precision: tuple[str, ...] = ()
 
 
 PART_LABELS = "abcdefghij"
@@ -246,6 +247,9 @@ def check_against_chain(template: Template) -> None:
         strangers = set(listed) - set(template.chain.traps)
         if strangers:
             raise BankError(f"{path}: {sorted(strangers)} is not a trap of {rules.solver!r}")
+    strangers = set(rules.precision) - set(template.chain.by_name)
+    if strangers:
+        raise BankError(f"{path}: precision names {sorted(strangers)}, which are not steps")
     for name in rules.reference or {}:
         if name not in rules.draw:
             raise BankError(f"{path}: reference names {name!r}, which is not drawn")

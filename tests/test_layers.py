@@ -33,7 +33,7 @@ ALLOWED = {
     "check": {"errors", "expr", "chain", "numbers", "units", "reader", "locale"},
     "asking": {"locale", "units"},
     "specs": {"errors", "expr", "traps", "draw", "numbers", "text", "reader", "solution"},
-    "solution": {"errors", "expr", "chain", "draw", "numbers", "units", "text", "reader", "formula",
+    "solution": {"errors", "expr", "locale", "chain", "draw", "numbers", "units", "text", "reader", "formula",
                  "specs", "check"},
     "question": {"errors", "expr", "traps", "draw", "numbers", "template", "text", "reader", "figures",
                  "asking", "specs", "solution"},

@@ -261,7 +261,7 @@ class _Sheet:
         solutions = [key.solution for key in item.keys]
         texts = [
             self._mistakes(s) if section == "mistakes" else self._remark(s, section)
-            for section in ("why", "check", "mistakes", "note")
+            for section in ("why", "check", "precision", "mistakes", "note")
             for s in solutions
         ]
         return "\n" + "\n".join(filter(None, texts))
@@ -283,7 +283,8 @@ class _Sheet:
 
 
 def _heading(section: str, lang: str) -> str:
-    return f"#heading(level: 3)[#{string(word(lang, f'solution.{section}'))};]"
+    key = "precision.title" if section == "precision" else f"solution.{section}"
+    return f"#heading(level: 3)[#{string(word(lang, key))};]"
 
 
 @cache

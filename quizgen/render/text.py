@@ -48,9 +48,11 @@ def question_text(item: Item) -> str:
             lines.append(f"   {mark}  {inline(text)}")
         lines += [f"   [{hint}]" for hint in part.field.hints]
         lines += _solution(solved, question.lang)
-    for name in ("why", "check", "note"):
+    titles = {"why": "solution.why", "check": "solution.check", "precision": "precision.title",
+              "note": "solution.note"}  # fmt: skip
+    for name, title in titles.items():
         found = list(blocks(getattr(key.solution, name)))
-        lines += ["", f"{word(question.lang, f'solution.{name}')}:", *found] if found else []
+        lines += ["", f"{word(question.lang, title)}:", *found] if found else []
     return "\n".join(lines)
 
 
