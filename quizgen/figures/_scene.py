@@ -7,8 +7,7 @@ pixels are the same on every machine. An edit of the colours changes the palette
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from colorsys import hsv_to_rgb, rgb_to_hsv
+from colorsys import hsv_to_rgb
 from functools import cache
 
 import numpy as np
@@ -58,11 +57,6 @@ def _rgb(hsv: Hsv) -> Colour:
 
 PALETTE: tuple[Colour, ...] = tuple(_rgb(hsv) for hsv in _COLOURS)
 """Colours of the unedited scene."""
-
-
-def edited(palette: tuple[Colour, ...], edit: Callable[[float, float, float], Hsv]) -> list[Colour]:
-    """Apply an edit of hue (0 to 1), saturation and value to every colour of a palette."""
-    return [_rgb(edit(*rgb_to_hsv(*(channel / 255 for channel in colour)))) for colour in palette]
 
 
 @cache

@@ -12,7 +12,7 @@ from quizgen.figures._parameters import Parameter, Values
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from quizgen.figures._scene import Colour, Hsv
+    from quizgen.figures._scene import Colour
 
 DARK = "keep"
 
@@ -72,11 +72,12 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
     wide = (WIDTH - 3 * _GAP) / 2
     high = round(wide * _scene.HEIGHT / _scene.WIDTH)
     pen = Pen(WIDTH, 2 * (high + _CAPTION) + _GAP)
+    palettes = _palettes(values)
     for place, edit in enumerate(edit_order(values["order"])):
         left = _GAP + (place % 2) * (wide + _GAP)
         low = (1 - place // 2) * (high + _CAPTION) + _CAPTION
         box = (left, low, wide, high)
-        figure.add_artist(Picture(_png(int(values["scene"]), _palette(values, edit)), box))
+        figure.add_artist(Picture(_png(int(values["scene"]), palettes[edit]), box))
         frame = [(left, low), (left + wide, low), (left + wide, low + high), (left, low + high)]
         pen.area("frames", frame, THIN)
         pen.label((left + wide / 2, low - 7.5), _caption(values, place, edit, quiz=quiz))
@@ -98,21 +99,22 @@ def _symbols(values: Values, edit: str) -> str:
     }[edit]
 
 
-def _palette(values: Values, edit: str) -> tuple[Colour, ...]:
-    from quizgen.figures._scene import PALETTE, edited
+def _palettes(values: Values) -> dict[str, tuple[Colour, ...]]:
+    """The scene's colours under each edit, by the camera's own editing step."""
+    import numpy as np
 
-    if edit == "original":
-        return PALETTE
-    return tuple(edited(PALETTE, lambda *hsv: _edited(values, edit, hsv)))
+    from quizgen.camera import pictures
+    from quizgen.camera.filters import everywhere_alike
+    from quizgen.figures._scene import PALETTE
 
-
-def _edited(values: Values, edit: str, hsv: Hsv) -> Hsv:
-    hue, saturation, value = hsv
-    if edit == "V":
-        return (hue, saturation, value * values["a"])
-    if edit == "S":
-        return (hue, saturation * values["b"], value)
-    return ((hue + values["delta"] / 360) % 1.0, saturation, value)
+    colours = np.asarray(PALETTE, np.float32)[None] / np.float32(255.0)
+    with everywhere_alike():
+        made = pictures.hsv_edits(colours, values["a"], values["b"], values["delta"])
+    edited = {
+        name: tuple((int(r), int(g), int(b)) for r, g, b in pictures.codes(image)[0])
+        for name, image in zip(("original", "V", "S", "H"), made, strict=True)
+    }
+    return {**edited, "original": PALETTE}
 
 
 @cache
