@@ -12,7 +12,15 @@ import numpy as np
 import pytest
 
 from quizgen.camera import pictures, simulate
-from quizgen.figures import artefacts, depth_of_field, luminosity, noise, normalisation, render
+from quizgen.figures import (
+    artefacts,
+    bayer,
+    depth_of_field,
+    luminosity,
+    noise,
+    normalisation,
+    render,
+)
 from quizgen.figures._parameters import complete
 from quizgen.figures._photo import photo_png
 
@@ -195,3 +203,18 @@ def test_photographs_are_the_same_bytes_with_and_without_opencv():
     ]  # fmt: skip
     assert found[0] == found[1]
     assert len(found[0].split()) == 14
+
+
+@pytest.mark.parametrize("phase", range(4))
+@pytest.mark.parametrize("site", [(2, 2), (3, 2), (2, 3), (3, 3)])
+def test_the_bayer_diagram_averages_the_sites_that_the_camera_does(phase, site):
+    """The figure's neighbours give what the simulator's demosaicing gives at the same site."""
+    raw = np.random.Generator(np.random.SFC64(7)).integers(20, 236, (6, 6)).astype(np.float32)
+    _, _, full = pictures.bayer(np.repeat(raw[..., None], 3, axis=2), bayer.PATTERNS[phase])
+    x, y = site
+    values = {"phase": phase, "size": 6, "x": x, "y": y}
+    for index, channel in enumerate("RGB"):
+        if channel == bayer.letter(values, x, y):
+            continue
+        mean = np.mean([raw[v, u] for u, v in bayer.neighbours(values, channel)])
+        assert full[y, x, index] == pytest.approx(mean, abs=1e-4)
