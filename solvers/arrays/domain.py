@@ -30,12 +30,8 @@ Numbers = npt.ArrayLike
 Result = Any
 """A float for scalar arguments, else an array (masked where there is no answer)."""
 
-BLOCK = 12288
-"""Elements per block: temporaries stay in the level-2 cache and are cheap to allocate."""
-
-WIDE_BLOCK = 32768
-"""Elements per block of short ways with few temporaries, where the loop itself would weigh."""
-
+BLOCK = 32768
+"""Elements per block: temporaries stay near the processor, and calls are few."""
 
 Limits = tuple[float, float]
 """Least and largest value of a block (NaN when there is one)."""
@@ -125,8 +121,6 @@ class Kernel:
         Whether ``fast`` also takes magnitudes below ``1/reach``.
     fits : callable, optional
         Further condition of ``fast``, on the limits of the arguments.
-    wide : bool
-        Whether blocks are wide without ``fast``, too.
     """
 
     compute: Callable[..., Any]
@@ -139,16 +133,12 @@ class Kernel:
     watched: Sequence[int] | None = None
     tiny: bool = False
     fits: Callable[..., bool] = lambda *_limits: True
-    wide: bool = False
 
     def __call__(self, *args: Numbers) -> Result:
         """Run the kernel on scalars or arrays that broadcast together."""
-        arrays = [np.asarray(arg, dtype=np.float64) for arg in args]
-        shape = np.broadcast_shapes(*[array.shape for array in arrays])
+        shape, columns = flattened(*args)
         with np.errstate(all="ignore"):
-            if shape == ():
-                return self._scalar([array.reshape(1) for array in arrays])
-            return self._array([_flat(array, shape) for array in arrays], shape)
+            return self._array(columns, shape) if shape else self._scalar(columns)
 
     def _scalar(self, args: list[Array]) -> Result:
         reason = self._why_not(args)
@@ -173,12 +163,11 @@ class Kernel:
         masks: list[tuple[int, Flags]] = []
         fixed = [_limits(arg) if arg.size == 1 else None for arg in args]
         checks = [self._check(i) for i in range(len(args))]
-        width = BLOCK if self.fast is None and not self.wide else WIDE_BLOCK
-        for start, block in _blocks(args, columns[0].size, width):
+        for start, block in _blocks(args, columns[0].size):
             limits = [
                 known or check(arg) for known, check, arg in zip(fixed, checks, block, strict=True)
             ]
-            parts = [column[start : start + width] for column in columns]
+            parts = [column[start : start + BLOCK] for column in columns]
             bad = self._fill(parts, block, limits)
             if bad is not None:
                 masks.append((start, bad))
@@ -239,8 +228,24 @@ class Kernel:
         values, doubtful = self.compute(*args)
         flags = far if doubtful is None else doubtful if far is None else far | doubtful
         if flags is not None and flags.any():
-            _settle(values, flags, self.exact, args)
+            return _settled(values, flags, self.exact, args)
         return values
+
+
+def in_short_blocks(fill: Callable[..., bool], kernel: Kernel, *args: Numbers) -> Result:
+    """Run ``fill(*blocks, out)`` on arrays, and the kernel on the blocks that it refuses."""
+    shape, columns = flattened(*args)
+    result = np.empty(math.prod(shape))
+    masks: list[tuple[int, Flags]] = []
+    with np.errstate(all="ignore"):
+        for start, block in _blocks(columns, result.size):
+            part = result[start : start + BLOCK]
+            if not fill(*block, part):
+                careful = kernel(*block)
+                part[...] = np.ma.getdata(careful)
+                if isinstance(careful, np.ma.MaskedArray):
+                    masks.append((start, np.ma.getmaskarray(careful)))
+    return _with_mask(result, masks).reshape(shape)
 
 
 def answered(result: Result) -> Any:
@@ -307,26 +312,49 @@ def read_decimal(value: Any) -> Fraction:
     return Fraction(repr(value)) if isinstance(value, float) else Fraction(value)
 
 
-def _settle(values: Any, flags: Flags, exact: Exact, args: Sequence[Array]) -> None:
+def _settled(values: Any, flags: Flags, exact: Exact, args: Sequence[Array]) -> Any:
+    """The values, exact where they are flagged."""
     columns = values if isinstance(values, tuple) else (values,)
-    flags = np.broadcast_to(flags, columns[0].shape)
-    for i in np.flatnonzero(flags):
+    shape = max(arg.size for arg in args)
+    columns = tuple(
+        column if column.size == shape else np.full(shape, column) for column in columns
+    )
+    for i in np.flatnonzero(np.broadcast_to(flags, shape)):
         answer = exact(*[Fraction(float(arg[i if arg.size > 1 else 0])) for arg in args])
-        for column, value in zip(
-            columns, answer if isinstance(values, tuple) else (answer,), strict=True
-        ):
+        answers = answer if isinstance(values, tuple) else (answer,)
+        for column, value in zip(columns, answers, strict=True):
             column[i] = nearest(value)
+    return columns if isinstance(values, tuple) else columns[0]
 
 
-def _flat(array: Array, shape: tuple[int, ...]) -> Array:
-    if array.size == 1:
-        return array.reshape(1)
-    return np.ascontiguousarray(np.broadcast_to(array, shape)).reshape(-1)
+def flattened(*args: Numbers) -> tuple[tuple[int, ...], list[Array]]:
+    """Give the common shape of some arguments and their values in a row.
+
+    What is the same number throughout, like the one camera of a picture, becomes one value.
+    """
+    arrays = [np.asarray(arg, dtype=np.float64) for arg in args]
+    shape = np.broadcast_shapes(*[array.shape for array in arrays])
+    single = [_is_one_number(array) for array in arrays]
+    if all(single) and math.prod(shape) > 1:
+        return shape, [np.full(math.prod(shape), array.flat[0]) for array in arrays]
+    return shape, [
+        array.reshape(-1)[:1]
+        if one
+        else np.ascontiguousarray(np.broadcast_to(array, shape)).reshape(-1)
+        for array, one in zip(arrays, single, strict=True)
+    ]
 
 
-def _blocks(args: list[Array], size: int, width: int) -> Iterator[tuple[int, list[Array]]]:
-    for start in range(0, size, width):
-        yield start, [arg if arg.size == 1 else arg[start : start + width] for arg in args]
+def _is_one_number(array: Array) -> bool:
+    if array.size < 2:
+        return array.size == 1
+    first = array.flat[0]
+    return bool(array.flat[-1] == first) and bool((array == first).all())
+
+
+def _blocks(args: list[Array], size: int) -> Iterator[tuple[int, list[Array]]]:
+    for start in range(0, size, BLOCK):
+        yield start, [arg if arg.size == 1 else arg[start : start + BLOCK] for arg in args]
 
 
 def _with_mask(column: Array, masks: list[tuple[int, Flags]]) -> Any:

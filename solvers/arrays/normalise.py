@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from .domain import REAL, WIDE_BLOCK, Array, Kernel, Numbers, Result, Rule, nearest
+from .domain import REAL, Array, Kernel, Numbers, Result, Rule, in_short_blocks, nearest
 from .double_double import Pair, pairs
 
 _CANCELLED = 2.0**-48
@@ -57,23 +57,39 @@ def _whole_line(*ends: float) -> tuple[float, float, float] | None:
     return float((d - c) // common), float((c * b - d * a) // common), float((b - a) // common)
 
 
-def _by_whole_numbers(I: Any, ends: tuple[Any, ...]) -> Any:
-    """Whole intensities between whole ends: one quotient of exactly known numbers, or None."""
-    line = _whole_line(*map(float, ends)) if all(np.ndim(end) == 0 for end in ends) else None
-    if line is None or np.ndim(I) == 0:
-        return None
+def _of_whole_numbers(*blocks: Array) -> bool:
+    """Whole intensities between whole ends: one quotient of exactly known numbers."""
+    I, *ends, out = blocks
+    if any(end.size > 1 for end in ends):
+        return _between(*blocks)
+    line = _whole_line(*[end.item() for end in ends])
+    if line is None:
+        return False
     slope, start, width = line
-    flat = np.asarray(I, dtype=np.float64).reshape(-1)
-    out = np.empty(flat.size)
-    for first in range(0, flat.size, WIDE_BLOCK):
-        block = flat[first : first + WIDE_BLOCK]
-        top = block * slope
-        top += start
-        whole = bool((np.rint(block) == block).all())
-        if not (whole and float(top.max()) < _LARGEST and float(top.min()) > -_LARGEST):
-            return None
-        np.divide(top, width, out=out[first : first + WIDE_BLOCK])
-    return out.reshape(np.shape(I))
+    top = I * slope
+    top += start
+    np.divide(top, width, out=out)
+    return _whole(I) and float(top.max()) < _LARGEST and float(top.min()) > -_LARGEST
+
+
+def _between(
+    I: Array, low: Array, high: Array, new_low: Array, new_high: Array, out: Array
+) -> bool:
+    """Below 2**25 every product is below 2**51, so that their sum is exact."""
+    for block in (I, low, high, new_low, new_high):
+        if not (_whole(block) and float(block.max()) < _SHORT and float(block.min()) > -_SHORT):
+            return False
+    width = high - low
+    if float(width.min()) <= 0:
+        return False
+    np.multiply(new_high - new_low, I - low, out=out)
+    out += new_low * width
+    out /= width
+    return True
+
+
+def _whole(values: Array) -> bool:
+    return bool((np.rint(values) == values).all())
 
 
 @lru_cache(maxsize=64)
@@ -129,11 +145,11 @@ def normalise(
     DomainError
         ``empty-range`` (high <= low), ``not-finite`` (arrays: masked).
     """
-    ends = (low, high, new_low, new_high)
-    with np.errstate(all="ignore"):
-        value = _by_whole_numbers(I, ends)
-    if value is None:
-        value = _NORMALISE(I, *ends)
+    args = (I, low, high, new_low, new_high)
+    if all(np.ndim(arg) == 0 for arg in args):
+        value = _NORMALISE(*args)
+    else:
+        value = in_short_blocks(_of_whole_numbers, _NORMALISE, *args)
     return _clamped(value, new_low, new_high) if clamp else value
 
 

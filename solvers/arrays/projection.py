@@ -10,18 +10,24 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from fractions import Fraction
-from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from .domain import POSITIVE, REAL, WIDE_BLOCK, Array, Kernel, Numbers, Result, Rule
-from .double_double import pairs
+from .decimals import Reader, Whole, as_pair, read
+from .domain import (
+    POSITIVE,
+    REAL,
+    Array,
+    Kernel,
+    Numbers,
+    Result,
+    Rule,
+    in_short_blocks,
+)
 
 _LARGEST = 2.0**53
-_SCALES = (1, 10, 10**3, 10**6, 10**9)
-_NEXT_TO_HALF = 2.0**-20
-_SAMPLE = 64
+_CANCELLED = 2.0**-40
 
 
 class Projected(NamedTuple):
@@ -105,87 +111,76 @@ def _pixel(f: Any, pitch: Any, x: Any, z: Any, o: Any) -> Any:
     return o + f * x / (pitch * z)
 
 
-def _decimal_pixel(*args: Fraction) -> Fraction:
-    result: Fraction = _pixel(*[Fraction(repr(float(arg))) for arg in args])
+def _exact_pixel(*args: Fraction) -> Fraction:
+    result: Fraction = _pixel(*[read(float(arg)) for arg in args])
     return result
 
 
-def _pixels(f: Array, pitch: Array, x: Array, z: Array, o: Array) -> Any:
-    value = _pixel(*pairs(f, pitch, x, z, o)).rounded()
-    twice = 2 * value
-    cancelled = np.abs(value) < np.abs(value - o)
-    return value, cancelled | (np.abs(twice - np.rint(twice)) < _NEXT_TO_HALF)
+def _pixels(*args: Array) -> Any:
+    out = np.empty(max(arg.size for arg in args))
+    if _by_integers([Reader() for _ in args], args, out):
+        return out, None
+    f, pitch, x, z, o = map(as_pair, args)
+    value = _pixel(f, pitch, x, z, o).rounded()
+    return value, np.abs(value) < _CANCELLED * np.abs(o.high)
 
 
-def _by_integers(camera: Sequence[float], x: Array, z: Array, out: Array) -> bool:
-    """One quotient of exactly known integers; false if they are too long or z is not one sign."""
-    f, pitch, o = camera
-    scaled_x, scaled_z = _integers(x), _integers(z)
-    if scaled_x is None or scaled_z is None:
+def _by_integers(readers: Sequence[Reader], blocks: Sequence[Array], out: Array) -> bool:
+    """One quotient of exactly known integers; false if they are too long or an answer misses."""
+    wholes = [w for reader, block in zip(readers, blocks, strict=True) if (w := reader(block))]
+    if len(wholes) < len(readers):
         return False
-    (x, by_x), (z, by_z) = scaled_x, scaled_z
-    of_z, of_x, below = _factors(f, pitch, o, by_x, by_z)
-    widest = max(float(x.max()), -float(x.min()))
-    nearest, farthest = float(z.min()), float(z.max())
-    deepest = max(farthest, -nearest)
-    if max(abs(of_z) * deepest + of_x * widest, below * deepest) >= _LARGEST:
+    f, pitch, x, z, o = wholes
+    on_plane = z.low <= 0 <= z.high and (z.m is None or not z.m.all())
+    if f.low <= 0 or pitch.low <= 0 or on_plane:
         return False
-    np.multiply(z, float(of_z), out=out)
-    x *= float(of_x)
-    out += x
-    if below != 1:
-        z *= float(below)
-    out /= z
-    return nearest > 0 or farthest < 0
+    a, b, c = _factors(f, pitch, x, z, o)
+    depth, width = pitch.size * z.size, f.size * x.size
+    if max(abs(a) * o.size * depth + abs(b) * width, abs(c) * depth) >= _LARGEST:
+        return False
+    below, above = _product(pitch, z), _product(f, x)
+    if o.m is None:
+        np.multiply(below, float(a), out=out)
+    else:
+        np.multiply(below, o.m, out=out)
+        _scale_up(out, a)
+    out += _scale_up(above, b)
+    out /= _scale_up(below, c)
+    return True
 
 
-@lru_cache(maxsize=64)
-def _factors(f: float, pitch: float, o: float, by_x: int, by_z: int) -> tuple[int, int, int]:
-    """Integers a, b, c with u = (a z + b x)/(c z) for whole x and z."""
-    g, start = Fraction(repr(f)) / Fraction(repr(pitch)), Fraction(repr(o))
+def _factors(f: Whole, pitch: Whole, x: Whole, z: Whole, o: Whole) -> tuple[int, int, int]:
+    """Integers with u = (a o pitch z + b f x)/(c pitch z), the letters standing for ``m``."""
+    depth = pitch.number * z.number * f.scale * x.scale
     factors = (
-        start.numerator * g.denominator * by_x,
-        start.denominator * g.numerator * by_z,
-        start.denominator * g.denominator * by_x,
+        o.number * depth,
+        f.number * x.number * pitch.scale * z.scale * o.scale,
+        o.scale * depth,
     )
     common = math.gcd(*factors)
     a, b, c = (factor // common for factor in factors)
     return a, b, c
 
 
-def _integers(values: Array) -> tuple[Array, int] | None:
-    """Integers m and a power of ten with values = m/10**k, all read as decimals."""
-    few = values[:_SAMPLE]
-    for scale in _SCALES:
-        if (np.rint(few * scale) / scale == few).all():
-            whole = values * float(scale)
-            np.rint(whole, out=whole)
-            if ((whole / float(scale) if scale > 1 else whole) == values).all():
-                return whole, scale
-    return None
+def _product(one: Whole, other: Whole) -> Array:
+    """The product of what varies; overwrites its blocks."""
+    if one.m is None or other.m is None:
+        only = one.m if other.m is None else other.m
+        return np.ones(1) if only is None else only
+    return np.multiply(one.m, other.m, out=one.m)
 
 
-def _by_blocks(f: Numbers, pitch: Numbers, x: Numbers, z: Numbers, o: Numbers) -> Array | None:
-    """The short decimals of an exam, or None when anything needs a closer look."""
-    if any(np.ndim(arg) for arg in (f, pitch, o)) or np.ndim(x) == 0 or np.shape(x) != np.shape(z):
-        return None
-    camera = [float(np.asarray(arg, dtype=np.float64)) for arg in (f, pitch, o)]
-    if not (all(map(math.isfinite, camera)) and camera[0] > 0 and camera[1] > 0):
-        return None
-    columns = [np.asarray(arg, dtype=np.float64).reshape(-1) for arg in (x, z)]
-    out = np.empty(columns[0].size)
-    for start in range(0, out.size, WIDE_BLOCK):
-        across, depth = (column[start : start + WIDE_BLOCK] for column in columns)
-        if not _by_integers(camera, across, depth, out[start : start + WIDE_BLOCK]):
-            return None
-    return out.reshape(np.shape(x))
+def _scale_up(values: Array, factor: int) -> Array:
+    if factor != 1:
+        values *= float(factor)
+    return values
 
 
 _PIXEL = Kernel(
     _pixels,
     (POSITIVE, POSITIVE, REAL, REAL, REAL),
     (Rule("on-camera-plane", lambda _f, _pitch, _x, z, _o: z == 0),),
-    exact=_decimal_pixel,
+    exact=_exact_pixel,
 )
 
 
@@ -204,10 +199,9 @@ def pixel(f: Numbers, pitch: Numbers, x: Numbers, z: Numbers, o: Numbers) -> Res
     Returns
     -------
     float or array
-        Pixels. Arguments are read as decimals (0.1 is one tenth). Scalars are correctly
-        rounded. Arrays are correctly rounded when the decimals have at most nine places and
-        their integers stay below 2**53; longer ones are within 4 units in the last place, and
-        settled exactly (10 us each) next to whole and half pixels and where terms cancel.
+        Pixels, correctly rounded (in arrays up to 2**-90 next to ties). Doubles that name a
+        decimal of at most fifteen digits are read as it: 0.1 is one tenth (see ``decimals``).
+        Arrays are fastest when no decimal has more than nine places.
 
     Raises
     ------
@@ -216,16 +210,17 @@ def pixel(f: Numbers, pitch: Numbers, x: Numbers, z: Numbers, o: Numbers) -> Res
     """
     if all(np.ndim(arg) == 0 for arg in (f, pitch, x, z, o)):
         return _pixel_scalar(f, pitch, x, z, o)
-    with np.errstate(all="ignore"):
-        short = _by_blocks(f, pitch, x, z, o)
-    return _PIXEL(f, pitch, x, z, o) if short is None else short
+    readers = [Reader() for _ in range(5)]
+    return in_short_blocks(
+        lambda *blocks: _by_integers(readers, blocks[:-1], blocks[-1]), _PIXEL, f, pitch, x, z, o
+    )
 
 
 _PIXEL_SCALAR = Kernel(
     lambda *_args: (np.zeros(1), np.ones(1, dtype=bool)),
     _PIXEL.spans,
     _PIXEL.rules,
-    exact=_decimal_pixel,
+    exact=_exact_pixel,
 )
 
 
