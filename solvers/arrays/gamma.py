@@ -124,7 +124,7 @@ def _with_toe(bright: Array, x: Array, dark: Any, line: Any, slope: float) -> Ar
 
 
 _SRGB_ENCODE = Kernel(_srgb_encode, (_INTENSITY,))
-_SRGB_DECODE = Kernel(_srgb_decode, (_INTENSITY,), wide=True)
+_SRGB_DECODE = Kernel(_srgb_decode, (_INTENSITY,))
 
 
 def srgb_encode(linear: Numbers) -> Result:
@@ -171,6 +171,8 @@ def srgb_decode(encoded: Numbers) -> Result:
 
 @lru_cache(maxsize=16)
 def _gap_kernel(e: Fraction) -> Kernel:
+    if e == 1:
+        return Kernel(lambda a, b: np.zeros(max(a.size, b.size)), (_INTENSITY,) * 2)
     gap = Gap(e)
     return Kernel(gap, (_INTENSITY,) * 2, fast=filled(gap.moderate), reach=GAP_REACH)
 

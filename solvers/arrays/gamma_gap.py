@@ -1,7 +1,8 @@
 """How the gap enc(mean) - mean(enc) is computed, on blocks of ordinary arrays.
 
 With m the mean and d = |b - a|/(a + b) it is m**e g(d**2),
-g(q) = 1 - ((1 + d)**e + (1 - d)**e)/2: a polynomial in q = d**2 while d is not close to 1.
+g(q) = 1 - ((1 + d)**e + (1 - d)**e)/2, q = d**2. While d is not close to 1, g/q is a polynomial in
+w = q/(1 - _BEND q): g is singular for q >= 1, and this keeps w as far from there as it can be.
 """
 
 from __future__ import annotations
@@ -17,16 +18,20 @@ import numpy as np
 
 from .domain import Array
 from .double_double import SPLITTER, Pair, split, two_difference, two_sum
+from .logarithm import log_pair
 from .power import halves, raised
 
 _TOE = 2.0**-900
 REACH = 2.0**400
 """Squares of values from 1/REACH to REACH neither overflow nor underflow."""
 
-_SERIES = 0.55
-_SHIFTED = 0.85
-_CENTRE = 0.5125
-_MIDST = 0.925
+_WIDE = 0.85
+"""From this d on, (1 - d)**e is computed as a power."""
+
+_FLAT, _STEEP = 0.27, 0.75
+_BEND = 0.65625
+_CENTRE = _WIDE**2 / (1 - _BEND * _WIDE**2) / 2
+_MIDST = (_WIDE + 1) / 2
 _DIGITS = decimal.Context(prec=60)
 
 Exactly = Callable[[decimal.Decimal], decimal.Decimal]
@@ -50,22 +55,31 @@ def _interpolate(function: Exactly, low: float, high: float, centre: float, coun
     return result
 
 
-def _direct(e: Fraction) -> tuple[Exactly, Exactly, Exactly]:
-    """g(q)/q, g(q) and 1 - (1 + d)**e/2 in sixty-digit decimals."""
+def _left_out(e: Fraction) -> tuple[int, int]:
+    """Which line k + m x to take from x**e, so that g is no small difference for e near 0 or 1."""
+    return int(e < _FLAT), int(e > _STEEP)
+
+
+def _direct(e: Fraction) -> tuple[Exactly, Exactly]:
+    """g(q)/q in terms of w, and g + (x**e - k - m x)/2 for x = 1 - d, in sixty-digit decimals."""
     exponent = _DIGITS.divide(*map(decimal.Decimal, e.as_integer_ratio()))
+    bend = decimal.Decimal(_BEND)
+    constant, slope = _left_out(e)
 
     def power(x: decimal.Decimal) -> decimal.Decimal:
         return _DIGITS.power(x, exponent)
 
-    def gap_of(q: decimal.Decimal) -> decimal.Decimal:
+    def over_q(w: decimal.Decimal) -> decimal.Decimal:
+        q = _DIGITS.divide(w, _DIGITS.fma(bend, w, 1))
         d = _DIGITS.sqrt(q)
         pair = power(_DIGITS.add(1, d)), power(_DIGITS.subtract(1, d))
-        return _DIGITS.subtract(1, _DIGITS.divide(_DIGITS.add(*pair), 2))
+        return _DIGITS.divide(_DIGITS.subtract(1, _DIGITS.divide(_DIGITS.add(*pair), 2)), q)
 
     def smooth(d: decimal.Decimal) -> decimal.Decimal:
-        return _DIGITS.subtract(1, _DIGITS.divide(power(_DIGITS.add(1, d)), 2))
+        kept = _DIGITS.fma(slope, _DIGITS.subtract(1, d), constant)
+        return _DIGITS.subtract(1, _DIGITS.divide(_DIGITS.add(power(_DIGITS.add(1, d)), kept), 2))
 
-    return (lambda q: _DIGITS.divide(gap_of(q), q)), gap_of, smooth
+    return over_q, smooth
 
 
 def _horner(coefficients: Sequence[float], x: Array) -> Array:
@@ -115,12 +129,10 @@ class Gap:
     def __init__(self, e: Fraction) -> None:
         self.fraction = e
         self.exponent = halves(e)
-        over_q, of_q, smooth = _direct(e)
-        first, *rest = _interpolate(over_q, 0.0, _SERIES**2, 0.0, 15)
+        over_q, smooth = _direct(e)
+        first, *rest = _interpolate(over_q, 0.0, 2 * _CENTRE, _CENTRE, 19)
         self.start, self.series = Pair(*halves(first)), [float(c) for c in rest]
-        first, *rest = _interpolate(of_q, _SERIES**2, _SHIFTED**2, _CENTRE, 25)
-        self.around_start, self.around = Pair(*halves(first)), [float(c) for c in rest]
-        first, *rest = _interpolate(smooth, _SHIFTED, 1.0, _MIDST, 13)
+        first, *rest = _interpolate(smooth, _WIDE, 1.0, _MIDST, 13)
         self.smooth_start, self.smooth = Pair(*halves(first)), [float(c) for c in rest]
 
     def __call__(self, a: Array, b: Array) -> Array:
@@ -156,26 +168,26 @@ class Gap:
         return shape
 
     def shape(self, d: Pair) -> tuple[Array, Array]:
-        """The function g of the relative difference, piece by piece."""
-        q = _short_square(d)
-        size = np.abs(d.high)
-        small, wide = size <= _SERIES, size > _SHIFTED
-        shape, rest = np.empty_like(size), np.empty_like(size)
-        for piece, argument, flags in (
-            (self.small, q, small),
-            (self.middle, q, ~(small | wide)),
-            (self.wide, d, wide),
-        ):
-            where = np.flatnonzero(flags)
-            if where.size:
-                found = piece(Pair(argument.high.take(where), argument.low.take(where)))
-                shape[where], rest[where] = found.high, found.low
+        """The function g of the relative difference."""
+        wide = np.flatnonzero(np.abs(d.high) > _WIDE)
+        if not wide.size:
+            found = self.narrow(_short_square(d))
+            return found.high, found.low
+        shape, rest = np.empty_like(d.high), np.empty_like(d.high)
+        other = np.flatnonzero(np.abs(d.high) <= _WIDE)
+        for where, piece in ((wide, self.wide), (other, lambda d: self.narrow(_short_square(d)))):
+            found = piece(Pair(d.high.take(where), d.low.take(where)))
+            shape[where], rest[where] = found.high, found.low
         return shape, rest
 
-    def small(self, q: Pair) -> Pair:
+    def narrow(self, q: Pair) -> Pair:
         """The product q (c0 + t); only its own rounding is not kept in the lower half."""
-        t = _horner(self.series, q.high)
-        t *= q.high
+        x = q.high * -_BEND
+        x += 1
+        np.divide(q.high, x, out=x)
+        x -= _CENTRE
+        t = _horner(self.series, x)
+        t *= x
         factor = t + self.start.high
         low = self.start.high - factor
         low += t
@@ -186,23 +198,26 @@ class Gap:
         factor *= q.high
         return Pair(factor, low)
 
-    def middle(self, q: Pair) -> Pair:
-        """The polynomial around _CENTRE."""
-        x = q.high - _CENTRE
-        x += q.low
-        t = _horner(self.around, x)
-        t *= x
-        high, low = two_sum(self.around_start.high, t)
-        low += self.around_start.low
-        return Pair(high, low)
-
     def wide(self, d: Pair) -> Pair:
-        """With (1 - d)**e from the power function; the rest is smooth next to d = 1."""
+        """With x**e for x = 1 - |d| from the power function; the rest is smooth next to x = 0."""
         sign = np.where(d.high < 0, -1.0, 1.0)
         d = Pair(d.high * sign, d.low * sign)
-        x = (d.high - _MIDST) + d.low
-        smooth, error = two_sum(self.smooth_start.high, x * _horner(self.smooth, x))
-        left, below = two_sum(1 - d.high, -d.low)
-        power = raised(left, self.exponent)
-        lost = power * (self.exponent[0] * (below / np.maximum(left, _TOE)))
-        return Pair(smooth - power / 2, error + self.smooth_start.low - lost / 2)
+        away = (d.high - _MIDST) + d.low
+        smooth, error = two_sum(self.smooth_start.high, away * _horner(self.smooth, away))
+        x, below = two_sum(1 - d.high, -d.low)
+        x = np.maximum(x, _TOE)
+        curved = self.curved(x)
+        constant, slope = _left_out(self.fraction)
+        lost = self.exponent[0] * ((curved + constant + slope * x) * (below / x)) - slope * below
+        shape, rest = two_difference(smooth, curved / 2)
+        return Pair(shape, rest + (error + self.smooth_start.low - lost / 2))
+
+    def curved(self, x: Array) -> Array:
+        """The power x**e without the line that is left out."""
+        constant, slope = _left_out(self.fraction)
+        if not constant and not slope:
+            return raised(x, self.exponent)
+        turn = log_pair(x) * Pair(*halves(self.fraction - slope))
+        less_one = np.expm1(turn.high)
+        less_one += turn.low * (less_one + 1)
+        return x * less_one if slope else less_one
