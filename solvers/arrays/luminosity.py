@@ -1,20 +1,22 @@
-"""Luminous flux of lines and bands, and the energy of photons.
+"""Luminous flux of lines and bands, the energy of photons and the light of black bodies.
 
 Sources: CIE 018 (V(lambda), linear between table points, zero outside; Km = 683 lm/W);
-SI Brochure 2019 (h, c, e exact).
+SI Brochure 2019 (h, c, e, k exact); Planck, Ann. Phys. 309 (1901) 553.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
 from .cie1924 import FIRST_NM, STEP_NM, V
-from .domain import NONNEGATIVE, POSITIVE, Array, Kernel, Numbers, Result, Rule
-from .gaussian import interval, pdf
+from .domain import NONNEGATIVE, POSITIVE, Array, Kernel, Numbers, Result, Rule, nearest
+from .double_double import Pair, two_product, two_sum
+from .gaussian import pdf
 
 KM = 683.0
 """Lumens per watt at the peak."""
@@ -24,79 +26,128 @@ _HC = 1.9864458571489286e-25
 _TABLE = np.array(V)
 _EDGES = FIRST_NM + STEP_NM * np.arange(_TABLE.size)
 _LAST_NM = float(_EDGES[-1])
-_PER_FWHM = 1 / (2 * math.sqrt(2 * math.log(2)))
-_NARROW = STEP_NM / 4
-_WIDE = STEP_NM * 2
+_SIGMA = 0.42466090014400953
+_SIGMA_LOST = -1.2979732052298702e-17
+"""Standard deviation of a line of unit full width at half maximum, 1/sqrt(8 ln 2)."""
+
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
+_FALL = 4.0
+"""Twelve nodes integrate a fall by exp(4) to all digits."""
+
+_FALLS = _FALL * np.arange(12)
+"""A piece counts until the line has fallen by exp(44)."""
+
+
+def _between(i: Any, t: Array) -> Array:
+    """V at t nm beyond table point i: two positive terms, exact factors."""
+    value: Array = (_TABLE[i] * (STEP_NM - t) + _TABLE[i + 1] * t) / STEP_NM
+    return value
 
 
 def _photopic(wavelength: Array) -> Array:
-    position = (np.clip(wavelength, FIRST_NM, _LAST_NM) - FIRST_NM) / STEP_NM
-    index = np.minimum(position.astype(np.intp), _TABLE.size - 2)
-    share = position - index
+    # Differences of whole numbers and wavelengths are exact; a quotient by the step is not.
+    above = np.clip(wavelength, FIRST_NM, _LAST_NM) - FIRST_NM
+    i = np.minimum((above / STEP_NM).astype(np.intp), _TABLE.size - 2)
+    i -= above < i * STEP_NM
     inside = (wavelength >= FIRST_NM) & (wavelength <= _LAST_NM)
-    # A sum of two positive terms keeps its digits; v + share (w - v) would not.
-    return np.where(inside, _TABLE[index] * (1 - share) + _TABLE[index + 1] * share, 0.0)
+    return np.where(inside, _between(i, above - i * STEP_NM), 0.0)
 
 
 def _band(low: Array, high: Array) -> Array:
     """Mean of V over a band; the midpoint rule is exact on each straight piece."""
     low, high = np.broadcast_arrays(low, high)
-    total = np.zeros(low.shape)
-    for start in _EDGES[:-1]:
-        left, right = np.maximum(low, start), np.minimum(high, start + STEP_NM)
-        width = np.maximum(right - left, 0.0)
-        total += width * np.where(width > 0, _photopic((left + right) / 2), 0.0)
+    total, lost = np.zeros(low.shape), np.zeros(low.shape)
+    for i, start in enumerate(_EDGES[:-1]):
+        left, right = (np.clip(end, start, start + STEP_NM) - start for end in (low, high))
+        if not np.any(right > left):
+            continue
+        total, rest = two_sum(total, (right - left) * _between(i, (left + right) / 2))
+        lost += rest
     empty = low == high
-    return np.where(empty, _photopic(low), total / np.where(empty, 1.0, high - low))
-
-
-def _quadrature(nodes: int) -> tuple[Array, Array]:
-    """Wavelengths and weights times V for Gauss quadrature on every straight piece."""
-    x, w = np.polynomial.legendre.leggauss(nodes)
-    points = (_EDGES[:-1, None] + STEP_NM * (0.5 + 0.5 * x)).ravel()
-    weights = np.tile(0.5 * STEP_NM * w, _EDGES.size - 1)
-    return points, weights * _photopic(points)
-
-
-_FEW, _MANY = _quadrature(6), _quadrature(20)
+    mean = (total + lost) / np.where(empty, 1.0, high - low)
+    return np.where(empty, _photopic(low), mean)
 
 
 def _line(centre: Array, fwhm: Array) -> Array:
-    centre, sigma = np.broadcast_arrays(centre, fwhm * _PER_FWHM)
-    return np.array([_one_line(float(c), float(s)) for c, s in zip(centre, sigma, strict=True)])
+    centre, fwhm = np.broadcast_arrays(centre, fwhm)
+    return np.array([_one_line(float(c), float(w)) for c, w in zip(centre, fwhm, strict=True)])
 
 
-def _one_line(centre: float, sigma: float) -> float:
-    """Mean of V under a normalised Gaussian line."""
-    if sigma == 0 or math.isinf(1 / sigma):
+def _one_line(centre: float, fwhm: float) -> float:
+    """Mean of V under a normalised Gaussian line.
+
+    Each straight piece of V is integrated from its end next to the centre outwards, in steps
+    over which the line falls by exp(4), so that nothing cancels and tails keep their digits.
+    """
+    sigma, lost = two_product(fwhm, _SIGMA) if fwhm < _HUGE else (fwhm * _SIGMA, 0.0)
+    if not sigma > 0 or math.isinf(1 / sigma):
         return float(_photopic(np.array([centre]))[0])
-    if sigma >= _NARROW:
-        points, weights = _FEW if sigma >= _WIDE else _MANY
-        t = (points - centre) / sigma
-        return float(np.sum(weights * np.exp(-t * t / 2)) / sigma) / math.sqrt(2 * math.pi)
-    return _narrow_line(centre, sigma)
+    i, near, far = _pieces(centre)
+    away = np.abs(near - centre) / sigma
+    height = pdf(near, centre, sigma)
+    i, near, far, away, height = (part[height > 0] for part in (i, near, far, away, height))
+    height *= 1 + (away * away - 1) * ((lost + fwhm * _SIGMA_LOST) / sigma)
+    ends = 2 * _FALLS / (np.sqrt(away[:, None] ** 2 + 2 * _FALLS) + away[:, None] + _LEAST)
+    ends = np.minimum(ends, np.abs(far - near)[:, None] / sigma)
+    start, width = ends[:, :-1, None], np.diff(ends)[:, :, None]
+    s = start + width * (0.5 + 0.5 * _NODES)
+    at = (near - _EDGES[i])[:, None, None] + sigma * s * np.sign(far - near)[:, None, None]
+    under = np.exp(-s * (away[:, None, None] + s / 2)) * _between(i[:, None, None], at)
+    parts = (under * (0.5 * width * _WEIGHTS)).sum(axis=(1, 2)) * sigma
+    return math.fsum(height * parts)
 
 
-def _narrow_line(centre: float, sigma: float) -> float:
-    """Closed form on the pieces within reach of a line much narrower than they are."""
-    total = 0.0
-    for i, start in enumerate(_EDGES[:-1]):
-        if start - 40 * sigma > centre or start + STEP_NM + 40 * sigma < centre:
-            continue
-        a, b = (start - centre) / sigma, (start + STEP_NM - centre) / sigma
-        slope = (V[i + 1] - V[i]) / STEP_NM
-        at_centre = V[i] * (start + STEP_NM - centre) / STEP_NM
-        at_centre += V[i + 1] * (centre - start) / STEP_NM
-        part = at_centre * interval(a, b) + slope * sigma * (pdf(a) - pdf(b))
-        total += max(part, 0.0)
-    return total
+_LEAST, _HUGE = 1e-300, 1e150
 
 
+def _pieces(centre: float) -> tuple[Array, Array, Array]:
+    """Straight pieces of V on one side of the centre: index, end next to it, other end."""
+    i = np.arange(_TABLE.size - 1)
+    start, stop = _EDGES[:-1], _EDGES[1:]
+    before = stop <= centre
+    near, far = np.where(before, stop, start), np.where(before, start, stop)
+    split = np.flatnonzero((start < centre) & (centre < stop))
+    near[split] = centre
+    return np.append(i, i[split]), np.append(near, near[split]), np.append(far, start[split])
+
+
+def _planck(wavelength: Array, temperature: Array) -> Array:
+    """1/(exp(x) - 1) with x = c2/(wavelength temperature) to twice the working precision."""
+    x = _C2 / (Pair(wavelength) * Pair(temperature))
+    high = np.minimum(x.high, _DARK)
+    less_one = np.expm1(np.minimum(high, _STEEP))
+    less_one += (less_one + 1) * x.low
+    steep = np.exp(-high)
+    steep -= steep * x.low
+    return np.where(high < _STEEP, 1 / less_one, steep)
+
+
+def _planck_far(wavelength: Fraction, temperature: Fraction) -> float:
+    """The same for magnitudes whose product leaves the range of doubles."""
+    x = _C2_EXACT / (wavelength * temperature)
+    if x > _DARK:
+        return 0.0
+    if x < _FLAT:
+        return nearest(1 / x)
+    high = float(x)
+    low = float(x - Fraction(high))
+    if high < _STEEP:
+        return 1 / (math.expm1(high) + math.exp(high) * low)
+    return math.exp(-high) * (1 - low)
+
+
+_C2_EXACT = Fraction(272115870842319, 18913000)
+_FLAT = Fraction(1, 2**60)
+_C2 = Pair(14387768.775039338, 4.460310775877047e-10)
+"""Second radiation constant h c/k in nanometre kelvin."""
+
+_STEEP, _DARK = 40.0, 760.0
 _PHOTOPIC = Kernel(_photopic, (NONNEGATIVE,))
 _BAND = Kernel(_band, (NONNEGATIVE,) * 2, (Rule("reversed", lambda low, high: high < low),))
 _LINE = Kernel(_line, (NONNEGATIVE, NONNEGATIVE))
 _ENERGY = Kernel(lambda wavelength: _HC / wavelength, (POSITIVE,))
 _ENERGY_EV = Kernel(lambda wavelength: _HC_EV_NM / wavelength, (POSITIVE,))
+_PLANCK = Kernel(lambda *args: (_planck(*args), None), (POSITIVE, POSITIVE), exact=_planck_far)
 
 
 def photopic(wavelength: Numbers) -> Result:
@@ -214,3 +265,26 @@ def photon_energy_ev(wavelength: Numbers) -> Result:
         ``not-positive``, ``not-finite`` (arrays: masked).
     """
     return _ENERGY_EV(wavelength)
+
+
+def planck_factor(wavelength: Numbers, temperature: Numbers) -> Result:
+    """Photons per mode of a black body, 1/(exp(h c/(lambda k T)) - 1).
+
+    Parameters
+    ----------
+    wavelength : array_like
+        Nanometres, > 0.
+    temperature : array_like
+        Kelvin, > 0.
+
+    Returns
+    -------
+    float or array
+        Pure number; 0 where it is below the smallest double (lambda T < 19000 nm K).
+
+    Raises
+    ------
+    DomainError
+        ``not-positive``, ``not-finite`` (arrays: masked).
+    """
+    return _PLANCK(wavelength, temperature)
