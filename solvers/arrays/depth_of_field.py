@@ -80,24 +80,29 @@ _LEAST = 2.0**-900
 def _total_short(f: Any, N: Any, c: Any, s: Any, out: Any) -> None:
     """By the shortest way that keeps its digits."""
     way = s - f
-    if f.size == N.size == c.size == 1:
-        ratio, rest, share = _ratios(f.item(), N.item(), c.item())
-        lost = s - way
-        lost -= f
-        if not lost.any():
-            _total_plain(s, way, (ratio, rest, share), out)
-            if way.max() * share > _PLAIN:
-                where = np.flatnonzero(way > _PLAIN / share)
-                out[where] = _total_balanced(f, N, c, s.take(where))
-            return
-    out[...] = _total_balanced(f, N, c, s)
+    lost = s - way
+    lost -= f
+    if lost.any():
+        out[...] = _total_balanced(f, N, c, s)
+        return
+    one = f.size == N.size == c.size == 1
+    if not one:
+        f, N, c, s, way = np.broadcast_arrays(f, N, c, s, way)
+    ratios = _ratios(f.item(), N.item(), c.item()) if one else _all_ratios(f, N, c)
+    _total_plain(s, way, ratios, out)
+    limit = _PLAIN / ratios[2]
+    if (way.max() if one else (way - limit).max()) > (limit if one else 0):
+        where = np.flatnonzero(way > limit)
+        out[where] = _total_balanced(
+            *[arg.take(where) if arg.size > 1 else arg for arg in (f, N, c, s)]
+        )
 
 
 _PLAIN = 0.45
 """Share of the hyperfocal distance up to which 1 - q**2 adds at most one unit of error."""
 
 
-def _total_plain(s: Any, way: Any, ratios: tuple[float, float, float], out: Any) -> None:
+def _total_plain(s: Any, way: Any, ratios: tuple[Any, Any, Any], out: Any) -> None:
     """Quotient s w/(A/(2 N c) - N c w**2/(2 A)), w = s - f: three roundings that count."""
     ratio, rest, share = ratios
     below = way * way
@@ -114,6 +119,23 @@ def _ratios(f: float, N: float, c: float) -> tuple[float, float, float]:
     half = Fraction(f) ** 2 / (2 * Fraction(N) * Fraction(c))
     ratio = nearest(half)
     return ratio, nearest(half - Fraction(ratio)), nearest(1 / (2 * half))
+
+
+def _all_ratios(f: Any, N: Any, c: Any) -> tuple[Any, Any, Any]:
+    """The same for many cameras."""
+    below, below_lost = two_product(N, c)
+    top, top_lost = two_product(f, f)
+    ratio = top / below
+    product, lost = two_product(ratio, below)
+    top -= product
+    top -= lost
+    top += top_lost
+    below_lost *= ratio
+    top -= below_lost
+    top /= below
+    top *= 0.5
+    ratio *= 0.5
+    return ratio, top, 0.5 / ratio
 
 
 def _total_balanced(f: Any, N: Any, c: Any, s: Any) -> Any:

@@ -40,7 +40,8 @@ def two_difference(a: Array, b: Array) -> tuple[Array, Array]:
 def split(a: Any) -> tuple[Any, Any]:
     """Upper and lower half of a double, exactly."""
     c = a * SPLITTER
-    high = c - (c - a)
+    high = c - a
+    high = np.subtract(c, high, out=high) if isinstance(high, np.ndarray) else c - high
     return high, a - high
 
 
@@ -55,9 +56,12 @@ def _product(a: Any, a_halves: Any, b: Any, b_halves: Any) -> tuple[Any, Any]:
     b_high, b_low = b_halves
     e = a_high * b_high
     e -= p
-    e += a_high * b_low
-    e += a_low * b_high
-    e += a_low * b_low
+    t = a_high * b_low
+    if not isinstance(t, np.ndarray):
+        return p, ((e + t) + a_low * b_high) + a_low * b_low
+    e += t
+    e += np.multiply(a_low, b_high, out=t)
+    e += np.multiply(a_low, b_low, out=t)
     return p, e
 
 

@@ -44,10 +44,10 @@ def _cos4_short(r: Any, f: Any, out: Any) -> None:
 def _cos4_outside(r: Any, f: Any) -> Any:
     """What rounding the sum loses is put back; it would count twice."""
     A = f * f
-    S = r * r
-    lost = -S
-    S += A
-    lost += S - A  # exact because r <= f
+    B = r * r
+    S = A + B
+    lost = S - A  # exact because r <= f
+    lost -= B
     q = A / S
     lost /= S
     q *= q
