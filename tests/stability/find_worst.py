@@ -122,6 +122,16 @@ SPACES = {
     "gamma.srgb_encode": lambda rng: (10 ** rng.uniform(-3, 0),),
     "gamma.srgb_decode": lambda rng: (10 ** rng.uniform(-2, 0),),
     "gamma.gap": lambda rng: (rng.uniform(0, 1), 10 ** rng.uniform(-3, 0)),
+    "luminosity.photopic": lambda rng: (rng.uniform(355, 835),),
+    "luminosity.band_flux": lambda rng: (lambda a: (1.0, a, a + 10 ** rng.uniform(-9, 2.5)))(
+        rng.uniform(300, 830)
+    ),
+    "luminosity.line_flux": lambda rng: (1.0, rng.uniform(300, 900), 10 ** rng.uniform(-3, 2)),
+    "luminosity.planck_factor": lambda rng: (10 ** rng.uniform(2, 5), 10 ** rng.uniform(1, 4)),
+    "projection.pixel": lambda rng: (
+        *(positive(rng) / 1000, 1e-6 * positive(rng)),
+        *(round(rng.uniform(-2, 2), 6), positive(rng), rng.uniform(0, 4000)),
+    ),
     "vignetting.cos4": lambda rng: (positive(rng), positive(rng)),
     "vignetting.falloff": lambda rng: (positive(rng), positive(rng)),
 }

@@ -376,9 +376,46 @@ def vignetting():
         yield "falloff", (r, f), "small angle, overflow"
 
 
+def luminosity():
+    for at in (
+        0.0,
+        359.9,
+        360.0,
+        after(360.0),
+        689.86089,
+        555.0,
+        557.3,
+        829.999,
+        830.0,
+        830.1,
+        LARGE,
+    ):
+        yield "photopic", (at,), "seams and ends of the table"
+    for low, high in (
+        (555.0, 555.0), (555.0, after(555.0)), (689.8608941060015, 689.86089412064),
+        (359.0, 360.0), (345.8634125509302, 373.14133280118375), (0.0, 1000.0), (400.0, 700.0),
+        (829.9999999, 900.0), (540.0, 545.0), (1e-300, LARGE),
+    ):  # fmt: skip
+        yield "band_flux", (0.005, low, high), "seams, narrow bands, bands beyond the table"
+    for centre, fwhm in (
+        (532.0, 0.0), (532.0, 1e-300), (532.0, 1e-9), (555.0, 0.1), (557.5, 1.0), (650.0, 20.0),
+        (308.0805239558281, 3.368600580051465), (881.8036875491763, 25.02325813593652),
+        (300.0, 9.0), (360.0, 1e-3), (830.0, 2.0), (700.0, 300.0), (555.0, 1e6), (890.0, 3.9),
+    ):  # fmt: skip
+        yield "line_flux", (0.005, centre, fwhm), "narrow, wide, and lines outside the table"
+    for wavelength in (555.0, 1e-9, 380.0, LARGE, 1e-320):
+        yield "photon_energy_ev", (wavelength,), "range"
+        yield "photon_energy", (wavelength * 1e-9 if wavelength > 1e-9 else wavelength,), "range"
+    for wavelength, temperature in (
+        (555.0, 5778.0), (10000.0, 300.0), (500.0, 40.0), (1e9, 2.7), (1e12, 1e6), (550.0, 35.2),
+        (1e150, 2.0833333333333332e-146), (1e-200, 1e-200), (1e200, 1e200), (1e154, 1e-3), (300.0, 64.0),
+    ):  # fmt: skip
+        yield "planck_factor", (wavelength, temperature), "long waves, cold bodies, range"
+
+
 FAMILIES = (
     gaussian, thin_lens, blur, depth_of_field, stops, distortion, hsv, normalise, projection,
-    weak_perspective, snr, poisson, gamma, vignetting,
+    weak_perspective, snr, poisson, gamma, vignetting, luminosity,
 )  # fmt: skip
 
 

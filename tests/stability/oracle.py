@@ -1,6 +1,6 @@
 """Reference values: the textbook formulas in mpmath, at whatever precision settles 45 digits.
 
-Nothing here uses the code under test. ``reference(name, args)`` takes doubles, reads them as the
+Nothing here computes with the code under test (the table of V(lambda) is read from it). ``reference(name, args)`` takes doubles, reads them as the
 binary numbers they are, and returns an ``mpf`` with at least 45 correct digits.
 """
 
@@ -9,9 +9,12 @@ binary numbers they are, and returns an ``mpf`` with at least 45 correct digits.
 from __future__ import annotations
 
 from fractions import Fraction
+from itertools import pairwise
 
 import mpmath as mp
 from mpmath import mpf
+
+from solvers.arrays.cie1924 import FIRST_NM, STEP_NM, V
 
 
 def reference(name, args, digits=45):
@@ -176,9 +179,15 @@ def normalise(I, low, high, new_low, new_high):
     return new_low + (I - low) / (high - low) * (new_high - new_low)
 
 
+def as_decimal(value):
+    """The decimal of at most 15 digits whose nearest double this is, or else the double."""
+    text = f"{value:.15g}"
+    return Fraction(text) if float(text) == value else Fraction(value)
+
+
 def pixel(*args):
-    """On the shortest decimals that read as these doubles, with fractions."""
-    f, pitch, x, z, o = (Fraction(repr(float(arg))) for arg in args)
+    """On the decimals that these doubles stand for, with fractions."""
+    f, pitch, x, z, o = (as_decimal(float(arg)) for arg in args)
     u = o + f * x / (pitch * z)
     return mpf(u.numerator) / u.denominator
 
@@ -260,6 +269,58 @@ def cos4(r, f):
     return 1 / (1 + (r / f) ** 2) ** 2
 
 
+def table():
+    """V(lambda) of CIE 1924, read as the decimals of the table: wavelength and value."""
+    return [(mpf(FIRST_NM + STEP_NM * i), mpf(repr(v))) for i, v in enumerate(V)]
+
+
+def segments():
+    return pairwise(table())
+
+
+def photopic(wavelength):
+    for (x0, v0), (x1, v1) in segments():
+        if x0 <= wavelength <= x1:
+            return v0 + (v1 - v0) * (wavelength - x0) / (x1 - x0)
+    return mpf(0)
+
+
+def band_flux(power, low, high):
+    if low == high:
+        return power * 683 * photopic(low)
+    total = mpf(0)
+    for (x0, _), (x1, _) in segments():
+        a, b = max(low, x0), min(high, x1)
+        if a < b:
+            total += (b - a) * (photopic(a) + photopic(b)) / 2
+    return power * 683 * total / (high - low)
+
+
+def line_flux(power, centre, fwhm):
+    """Closed form on each straight piece."""
+    if fwhm == 0:
+        return power * 683 * photopic(centre)
+    sigma, total = fwhm / mp.sqrt(8 * mp.log(2)), mpf(0)
+    for (x0, v0), (x1, v1) in segments():
+        a, b, slope = (x0 - centre) / sigma, (x1 - centre) / sigma, (v1 - v0) / (x1 - x0)
+        line = v0 + slope * (centre - x0)
+        total += line * interval(a, b) + slope * sigma * (mp.npdf(a) - mp.npdf(b))
+    return power * 683 * total
+
+
+def photon_energy(wavelength):
+    return mpf("6.62607015e-34") * 299792458 / wavelength
+
+
+def photon_energy_ev(wavelength):
+    return photon_energy(wavelength * mpf("1e-9")) / mpf("1.602176634e-19")
+
+
+def planck_factor(wavelength, temperature):
+    x = photon_energy(wavelength * mpf("1e-9")) / (mpf("1.380649e-23") * temperature)
+    return mpf(0) if x > 10**6 else 1 / mp.expm1(x)
+
+
 FORMULAS = {
     "gaussian.pdf": pdf,
     "gaussian.upper_tail": upper_tail,
@@ -306,6 +367,12 @@ FORMULAS = {
     "gamma.gap": gap,
     "gamma.srgb_encode": srgb_encode,
     "gamma.srgb_decode": srgb_decode,
+    "luminosity.photopic": photopic,
+    "luminosity.band_flux": band_flux,
+    "luminosity.line_flux": line_flux,
+    "luminosity.photon_energy": photon_energy,
+    "luminosity.photon_energy_ev": photon_energy_ev,
+    "luminosity.planck_factor": planck_factor,
     "vignetting.cos4": cos4,
     "vignetting.falloff": lambda r, f: 1 - cos4(r, f),
 }

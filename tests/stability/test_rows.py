@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 import math
+import warnings
 from pathlib import Path
 
 import mpmath as mp
@@ -56,9 +58,30 @@ def test_all_rows_of_a_function_in_one_array():
             assert error(name, float(value), truth) <= tolerance, (name, args)
 
 
+def patterns(count):
+    """Which arguments are one number and which are arrays; not all are numbers."""
+    return list(itertools.product((False, True), repeat=count))[:-1]
+
+
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: f"{row[0]}({row[1]})")
+def test_some_arguments_as_numbers(row):
+    """Whatever is an array and whatever one number for all, the answer stays."""
+    name, args, truth, tolerance = read(row)
+    for fixed in patterns(len(args)):
+        mixed = [
+            arg if one else np.array([arg, arg * 1.001])
+            for arg, one in zip(args, fixed, strict=True)
+        ]
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", RuntimeWarning)  # the other element may overflow
+            values = function(name)(*mixed)
+        assert answered(values)[0]
+        assert error(name, float(values[0]), truth) <= tolerance, fixed
+
+
 def test_rows_are_many_and_for_every_family():
     families = {row[0].split(".")[0] for row in ROWS}
-    assert len(families) == 14
+    assert len(families) == 15
     assert len(ROWS) > 600
 
 

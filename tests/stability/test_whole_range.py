@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import math
 import warnings
+from fractions import Fraction
 
+import mpmath as mp
 import numpy as np
 import pytest
 from functions import function
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from oracle import FORMULAS
+from ulp import ulps
 
-from solvers.arrays import bayer, luminosity, statistics, stops
+from solvers.arrays import bayer, statistics, stops
 from solvers.arrays.domain import DomainError, answered
 
 ANY = st.floats(allow_nan=False, allow_infinity=False)
@@ -23,11 +26,6 @@ NUMBER = st.one_of(ANY, ANY.map(abs), EDGES, NEAR_ONE, UNIT)
 ARGUMENTS = {name: formula.__code__.co_argcount for name, formula in FORMULAS.items()}
 ARGUMENTS |= {"projection.pixel": 5, "hsv.red": 3, "hsv.green": 3, "hsv.blue": 3}
 OTHERS = {
-    "luminosity.photopic": (luminosity.photopic, 1),
-    "luminosity.band_flux": (luminosity.band_flux, 3),
-    "luminosity.line_flux": (luminosity.line_flux, 3),
-    "luminosity.photon_energy": (luminosity.photon_energy, 1),
-    "luminosity.photon_energy_ev": (luminosity.photon_energy_ev, 1),
     "stops.nominal": (stops.nominal, 1),
 }
 CASES = {name: (function(name), count) for name, count in ARGUMENTS.items()} | OTHERS
@@ -71,6 +69,36 @@ def test_statistics_of_anything(values):
         spread = statistics.variance(values, ddof=0)
     assert min(values) - math.ulp(min(values)) <= centre <= max(values) + math.ulp(max(values))
     assert spread >= 0
+
+
+RNG = np.random.default_rng(7)
+NOISE = RNG.normal(0, 3, 5000)
+IMAGES = {
+    **{f"offset {offset:g}": offset + NOISE for offset in (0, 1e6, 1e8, 1e12, 1e15, -1e15)},
+    "bytes": RNG.integers(0, 256, (60, 70), dtype=np.uint8),
+    "bright 16 bit": RNG.integers(60000, 60010, (60, 70), dtype=np.uint16),
+    "float32": (1e6 + NOISE).astype(np.float32),
+    "both signs": np.concatenate([NOISE, -NOISE, [1e-9]]),
+    "cancels": np.array([1e16, 1.0, -1e16, 3.0]),
+    "one bright": np.append(np.ones(3000), 1e9),
+    "constant": np.full(3000, 0.1),
+    "huge": 1e150 * (NOISE + 9),
+    "tiny": 1e-150 * NOISE,
+}
+
+
+@pytest.mark.parametrize("name", IMAGES)
+def test_statistics_of_images(name):
+    """Against exact fractions: a large offset, cancellation, small integers."""
+    image = IMAGES[name]
+    exact = [Fraction(float(value)) for value in image.ravel()]
+    centre = sum(exact) / len(exact)
+    spread = sum((value - centre) ** 2 for value in exact) / (len(exact) - 1)
+    with mp.workdps(45):
+        for value, truth in (
+            (statistics.mean(image), centre), (statistics.variance(image), spread),
+        ):  # fmt: skip
+            assert ulps(value, mp.mpf(truth.numerator) / truth.denominator) <= 4
 
 
 @given(st.lists(st.integers(0, 255), min_size=1, max_size=4))
