@@ -95,6 +95,57 @@ def others(rng: np.random.Generator) -> Iterator[Case]:
     yield Case("V(lambda)", textbook_v, light.photopic, [380 + 400 * unit])
 
 
+def more(rng: np.random.Generator) -> Iterator[Case]:
+    """Further functions of the same families."""
+    gaussian, field, lens = arrays("gaussian"), arrays("depth_of_field"), arrays("thin_lens")
+    snr, distortion, light = arrays("snr"), arrays("distortion"), arrays("luminosity")
+    statistics = arrays("statistics")
+    k, s = rng.integers(0, 13, COUNT) / 4, 100.0 * rng.integers(5, 60, COUNT)
+    unit, nm = rng.integers(1, 256, COUNT) / 255, 1.0 * rng.integers(380, 781, COUNT)
+    yield Case("log tail", lambda k: np.log(textbook_tail(k)), gaussian.log_tail, [k])
+    yield Case("inverse tail", textbook_quantile, gaussian.inverse_tail, [unit / 2])
+    yield Case("interval", textbook_interval, gaussian.interval, [k, k + 1])
+    yield Case("expected pixels", textbook_expected, gaussian.expected_beyond, [1e6, k])
+    yield Case(
+        "hyperfocal", lambda f, N, c: f * f / (N * c) + f, field.hyperfocal, [50.0, k + 1, 0.03]
+    )
+    yield Case("focus shift", lambda f, z: 1 / (1 / f - 1 / z) - f, lens.focus_shift, [50.0, s])
+    yield Case("photons for snr", textbook_photons, snr.photons_for, [k + 1, 5.0])
+    yield Case("displacement", textbook_shift, distortion.displacement, [unit, -0.2, 0.05])
+    yield Case("fold radius", lambda k1: np.sqrt(-1 / (3 * k1)), distortion.fold_radius, [-unit])
+    yield Case("photon energy", lambda nm: 1239.841984 / nm, light.photon_energy_ev, [nm])
+    yield Case("mean", lambda image: image.sum() / image.size, statistics.mean, [s])
+    yield Case("variance", textbook_variance, statistics.variance, [s])
+
+
+def textbook_quantile(p: Any) -> Any:
+    import scipy.special
+
+    return ROOT2 * scipy.special.erfcinv(2 * p)
+
+
+def textbook_interval(a: Any, b: Any) -> Any:
+    import scipy.special
+
+    return (scipy.special.erf(b / ROOT2) - scipy.special.erf(a / ROOT2)) / 2
+
+
+def textbook_expected(M: Any, k: Any) -> Any:
+    return 2 * M * textbook_tail(k)
+
+
+def textbook_photons(S: Any, r: Any) -> Any:
+    return (S * S + S * np.sqrt(S * S + 4 * r * r)) / 2
+
+
+def textbook_shift(r: Any, k1: Any, k2: Any) -> Any:
+    return r - r * (1 + k1 * r**2 + k2 * r**4)
+
+
+def textbook_variance(image: Any) -> Any:
+    return ((image - image.mean()) ** 2).sum() / (image.size - 1)
+
+
 def textbook_pdf(x: Any, mu: float, sigma: float) -> Any:
     return np.exp(-((x - mu) ** 2) / (2 * sigma**2)) / (np.sqrt(2 * np.pi) * sigma)
 
@@ -214,7 +265,7 @@ def main() -> int:
     print(f"{'':20} {'a million draws':^25} {'one camera':^25}")
     timed = f"{'textbook':>9} {'stable':>8} {'ratio':>6}"
     print(f"{'function':20} {timed} {timed} {'limit':>6} {'peer':>8}")
-    for case in (*from_families(rng), *others(rng)):
+    for case in (*from_families(rng), *others(rng), *more(rng)):
         drawn = least(case.drawn(), peer=False)
         camera = least(case, peer=True)
         shown = [f"{t:9.2f} {s:8.2f} {s / t:6.2f}" for t, s in (drawn, camera[:2])]

@@ -14,7 +14,19 @@ from typing import Any
 import numpy as np
 
 from .distortion_exact import beyond_exactly, fold_exactly, invert_exactly
-from .domain import NONNEGATIVE, REAL, Array, Flags, Kernel, Numbers, Result, Rule, extreme, nearest
+from .domain import (
+    NONNEGATIVE,
+    REAL,
+    Array,
+    Flags,
+    Kernel,
+    Limits,
+    Numbers,
+    Result,
+    Rule,
+    extreme,
+    nearest,
+)
 from .double_double import Pair, pair, pairs
 
 _REACH = 2.0**60
@@ -87,6 +99,32 @@ def _displacement(r: Array, k1: Array, k2: Array) -> Any:
 
 def _displacement_exact(r: Any, k1: Any, k2: Any) -> Any:
     return -r * _factor(r * r, k1, k2)
+
+
+def _no_cancellation(r: Limits, k1: Limits, k2: Limits) -> bool:
+    """Whether k2 r**2 has the sign of k1 or is at most half of it."""
+    if k2 == (0.0, 0.0) or (k1[0] >= 0 and k2[0] >= 0) or (k1[1] <= 0 and k2[1] <= 0):
+        return True
+    return max(k2[1], -k2[0]) * r[1] ** 2 <= 0.5 * max(k1[0], -k1[1])
+
+
+def _displacement_short(r: Array, k1: Array, k2: Array, out: Array) -> None:
+    r2 = r * r
+    slope = k2 * r2
+    slope = slope + k1
+    np.multiply(r2, r, out=out)
+    out *= slope
+    np.negative(out, out=out)
+
+
+def _is_plain_barrel(k1: Limits, k2: Limits) -> bool:
+    return k1[1] < 0 and k2 == (0.0, 0.0)
+
+
+def _fold_of_barrel(k1: Array, _k2: Array, out: Array) -> None:
+    np.multiply(k1, -3, out=out)
+    np.sqrt(out, out=out)
+    np.divide(1, out, out=out)
 
 
 def _fold(k1: Array, k2: Array) -> Any:
@@ -225,8 +263,14 @@ _DISTORT = Kernel(
     fast=_distort_short,
     tiny=True,
 )
-_DISPLACEMENT = Kernel(_displacement, (NONNEGATIVE, REAL, REAL), exact=_displacement_exact)
-_FOLD = Kernel(_fold, (REAL, REAL), exact=fold_exactly)
+_DISPLACEMENT = Kernel(
+    _displacement,
+    (NONNEGATIVE, REAL, REAL),
+    exact=_displacement_exact,
+    fast=_displacement_short,
+    fits=_no_cancellation,
+)
+_FOLD = Kernel(_fold, (REAL, REAL), exact=fold_exactly, fast=_fold_of_barrel, fits=_is_plain_barrel)
 _INVERSE = Kernel(_inverse, (NONNEGATIVE, REAL, REAL), _BEYOND, exact=invert_exactly, reach=_REACH)
 _CORRECTION = Kernel(
     _correction, (NONNEGATIVE, REAL, REAL), _BEYOND, exact=_correction_exact, reach=_REACH

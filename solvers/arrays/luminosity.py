@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 
 from .cie1924 import FIRST_NM, STEP_NM, V
-from .domain import NONNEGATIVE, POSITIVE, Array, Kernel, Numbers, Result, Rule, nearest
-from .double_double import Pair, two_product, two_sum
+from .domain import NONNEGATIVE, POSITIVE, Array, Kernel, Limits, Numbers, Result, Rule, nearest
+from .double_double import Pair, split, two_product, two_sum
 from .gaussian import pdf
 
 KM = 683.0
@@ -122,6 +122,44 @@ def _planck(wavelength: Array, temperature: Array) -> Array:
     return np.where(high < _STEEP, 1 / less_one, steep)
 
 
+def _planck_short(wavelength: Array, temperature: Array, out: Array) -> None:
+    """With E = exp(-x) below 1/2 it is E/(1 - E).
+
+    x = h + y with h in 26 bits, so that its products with halves of the wavelength are exact, and
+    a short series for exp(-y).
+    """
+    rate = _C2 / Pair(temperature)
+    inverse = 1 / wavelength
+    h = inverse * rate.high
+    h += _FINE
+    h -= _FINE
+    upper, lower = (half * h for half in split(wavelength))
+    y = rate.high - upper
+    y -= lower
+    y += rate.low
+    y *= inverse
+    np.exp(np.negative(h, out=h), out=h)
+    np.multiply(y, 0.5, out=upper)
+    upper -= 1
+    y *= upper
+    y *= h
+    h += y
+    np.subtract(1, h, out=y)
+    np.divide(h, y, out=out)
+
+
+_FINE = 1.5 * 2.0**32
+"""Adding and taking away this rounds a number below 64 to a multiple of 2**-20."""
+
+
+def _is_dark(wavelength: Limits, temperature: Limits) -> bool:
+    """Whether x stays between 0.7 and 63."""
+    return (
+        wavelength[1] * temperature[1] < _C2.high / 0.7
+        and wavelength[0] * temperature[0] > _C2.high / 63
+    )
+
+
 def _planck_far(wavelength: Fraction, temperature: Fraction) -> float:
     """The same for magnitudes whose product leaves the range of doubles."""
     x = _C2_EXACT / (wavelength * temperature)
@@ -145,9 +183,29 @@ _STEEP, _DARK = 40.0, 760.0
 _PHOTOPIC = Kernel(_photopic, (NONNEGATIVE,))
 _BAND = Kernel(_band, (NONNEGATIVE,) * 2, (Rule("reversed", lambda low, high: high < low),))
 _LINE = Kernel(_line, (NONNEGATIVE, NONNEGATIVE))
-_ENERGY = Kernel(lambda wavelength: _HC / wavelength, (POSITIVE,))
-_ENERGY_EV = Kernel(lambda wavelength: _HC_EV_NM / wavelength, (POSITIVE,))
-_PLANCK = Kernel(lambda *args: (_planck(*args), None), (POSITIVE, POSITIVE), exact=_planck_far)
+
+
+def _over_wavelength(constant: float) -> Kernel:
+    def divide(wavelength: Array, out: Array) -> None:
+        np.divide(constant, wavelength, out=out)
+
+    return Kernel(
+        lambda wavelength: constant / wavelength,
+        (POSITIVE,),
+        fast=divide,
+        reach=math.inf,
+        tiny=True,
+    )
+
+
+_ENERGY, _ENERGY_EV = _over_wavelength(_HC), _over_wavelength(_HC_EV_NM)
+_PLANCK = Kernel(
+    lambda *args: (_planck(*args), None),
+    (POSITIVE, POSITIVE),
+    exact=_planck_far,
+    fast=_planck_short,
+    fits=_is_dark,
+)
 
 
 def photopic(wavelength: Numbers) -> Result:
