@@ -9,10 +9,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from quizgen.expr import Expr, substitute
+from quizgen.expr import Call, Expr, Num, substitute
 
 Inputs = Callable[[Any, int], list[Any]]
 """Random generator and count to columns of doubles."""
@@ -68,7 +69,7 @@ class Family:
         if isinstance(self.source, str):
             return parse(self.source)
         replaced: dict[str, Expr] = {name: parse(text) for name, text in self.given.items()}
-        return substitute(_flat(*self.source), replaced)
+        return _without_ones(substitute(_flat(*self.source), replaced))
 
     @cached_property
     def stable(self) -> Callable[..., Any]:
@@ -88,6 +89,14 @@ def _flat(solver: str, quantity: str) -> Expr:
     for step in solver_module(solver).MODEL.chain().steps:
         known[step.name] = substitute(step.expr, known)
     return known[quantity]
+
+
+def _without_ones(expr: Expr) -> Expr:
+    """Leave out divisions by a quantity that was replaced by 1."""
+    if not isinstance(expr, Call):
+        return expr
+    args = tuple(map(_without_ones, expr.args))
+    return args[0] if expr.op == "div" and args[1] == Num(Fraction(1)) else Call(expr.op, args)
 
 
 def _near(rng: Any, x: Any, nearest: float = -14, farthest: float = -2) -> Any:

@@ -16,7 +16,7 @@ from typing import Any
 from quizgen.tradeoff.families import Family
 from quizgen.tradeoff.ladder import Rung, rungs, truths
 
-ARRAY = 16384
+ARRAY = 100_000
 """Elements in a timed array."""
 
 WORST_BITS = 64.0

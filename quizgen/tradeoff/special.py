@@ -100,7 +100,16 @@ def _poisson_rungs(family: Family) -> list[Rung]:
         Rung("float64", "array", textbook, _to(np.float64)),
         Rung("arb", "scalar", lambda row: _poisson_ball(row, 63), tuple, to_float),
         Rung("mpmath", "scalar", lambda row: _poisson_precise(row, DIGITS), tuple, float),
+        Rung("sympy", "scalar", _poisson_symbolic, tuple, float),
     ]
+
+
+def _poisson_symbolic(row: Row) -> Any:
+    import sympy
+
+    # Floats, because SymPy would write the gamma function of a whole number out as a factorial.
+    k, lam = (sympy.Float(value, DIGITS + 20) for value in row)
+    return sympy.exp(k * sympy.log(lam) - lam - sympy.loggamma(k + 1))
 
 
 def _log_gamma() -> Callable[[Any], Any]:

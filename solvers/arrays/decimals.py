@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from decimal import Decimal
 from fractions import Fraction
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -30,6 +31,7 @@ _PLACES = (1, 10, 10**3, 10**6, 10**9)
 _SAMPLE = 64
 
 
+@lru_cache(maxsize=256)
 def read(value: float) -> Fraction:
     """Read one double."""
     text = repr(value)

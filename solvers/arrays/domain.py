@@ -33,6 +33,11 @@ Result = Any
 BLOCK = 32768
 """Elements per block: temporaries stay near the processor, and calls are few."""
 
+# The C library gives temporaries from 128 KiB on back to the system one by one, which can cost
+# twice the computation, until it has seen a larger array come and go. This one is never written
+# to and takes no memory.
+np.empty(16 * BLOCK)
+
 Limits = tuple[float, float]
 """Least and largest value of a block (NaN when there is one)."""
 
