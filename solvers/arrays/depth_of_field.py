@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from .domain import POSITIVE, Kernel, Numbers, Result, Rule, filled, nearest
-from .double_double import pairs, two_product, two_sum
+from .double_double import Pair, pairs, two_product, two_sum
 
 _CLOSE = 2.0**-40
 """Relative distance from the hyperfocal distance below which A - B is settled exactly."""
@@ -90,14 +90,18 @@ def _total_short(f: Any, N: Any, c: Any, s: Any, out: Any) -> None:
         f, N, c, s, way = np.broadcast_arrays(f, N, c, s, way)
     ratios = _ratios(f.item(), N.item(), c.item()) if one else _all_ratios(f, N, c)
     _total_plain(s, way, ratios, out)
-    limit = _PLAIN / ratios[2]
-    if (way.max() if one else (way - limit).max()) > (limit if one else 0):
-        where = np.flatnonzero(way > limit)
-        out[where] = _total_balanced(
-            *[arg.take(where) if arg.size > 1 else arg for arg in (f, N, c, s)]
-        )
+    share = ratios[2]
+    if way.max() * np.max(share) > _PLAIN:
+        q = way * share
+        out[q > _BEYOND] = math.inf
+        where = np.flatnonzero((q > _PLAIN) & (q <= _BEYOND))
+        some = [arg.take(where) if np.size(arg) > 1 else arg for arg in (s, way, *ratios)]
+        out[where], doubtful = _total_close(*some)
+        for i in where[doubtful]:
+            out[i] = _settled(_TOTAL, (f, N, c, s), i)
 
 
+_BEYOND = 1.001
 _PLAIN = 0.45
 """Share of the hyperfocal distance up to which 1 - q**2 adds at most one unit of error."""
 
@@ -113,6 +117,15 @@ def _total_plain(s: Any, way: Any, ratios: tuple[Any, Any, Any], out: Any) -> No
     out /= below
 
 
+def _total_close(s: Any, way: Any, ratio: Any, rest: Any, share: Any) -> tuple[Any, Any]:
+    """Quotient s w/((2 r - w)(1 + q)/2), r = A/(2 N c): the difference keeps its digits."""
+    gap = (2 * ratio - way) + 2 * rest
+    below = gap * (0.5 + 0.5 * (way * share))
+    with_limit = gap > 0
+    value = s * way / np.where(with_limit, below, 1.0)
+    return np.where(with_limit, value, math.inf), np.abs(gap) < _CLOSE * way
+
+
 @lru_cache(maxsize=64)
 def _ratios(f: float, N: float, c: float) -> tuple[float, float, float]:
     """A/(2 N c) and what rounding it lost, and N c/A."""
@@ -123,19 +136,16 @@ def _ratios(f: float, N: float, c: float) -> tuple[float, float, float]:
 
 def _all_ratios(f: Any, N: Any, c: Any) -> tuple[Any, Any, Any]:
     """The same for many cameras."""
-    below, below_lost = two_product(N, c)
-    top, top_lost = two_product(f, f)
-    ratio = top / below
-    product, lost = two_product(ratio, below)
-    top -= product
-    top -= lost
-    top += top_lost
-    below_lost *= ratio
-    top -= below_lost
-    top /= below
-    top *= 0.5
-    ratio *= 0.5
-    return ratio, top, 0.5 / ratio
+    below = Pair(*two_product(N, c))
+    top = Pair(f * f) if _squares_are_exact(f) else pairs(f)[0] * f
+    half = top / below
+    half.high *= 0.5
+    half.low *= 0.5
+    return half.high, half.low, 0.5 / half.high
+
+
+def _squares_are_exact(f: Any) -> bool:
+    return float(f.max()) < 2.0**26 and bool((np.rint(f) == f).all())
 
 
 def _total_balanced(f: Any, N: Any, c: Any, s: Any) -> Any:
