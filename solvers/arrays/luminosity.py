@@ -265,8 +265,8 @@ def line_flux(power: Numbers, centre: Numbers, fwhm: Numbers = 0.0) -> Result:
     Returns
     -------
     float or array
-        Lumens; the integral under V(lambda) is closed form for narrow lines and Gauss quadrature
-        on each straight piece for wide ones, so no line falls between grid points.
+        Lumens; every straight piece of V(lambda) is integrated from its end next to the centre, so
+        no line falls between grid points. Shares of the power below 1e-300 lose digits.
 
     Raises
     ------

@@ -126,7 +126,7 @@ SPACES = {
     "luminosity.band_flux": lambda rng: (lambda a: (1.0, a, a + 10 ** rng.uniform(-9, 2.5)))(
         rng.uniform(300, 830)
     ),
-    "luminosity.line_flux": lambda rng: (1.0, rng.uniform(300, 900), 10 ** rng.uniform(-3, 2)),
+    "luminosity.line_flux": lambda rng: (1.0, rng.uniform(340, 850), 10 ** rng.uniform(-3, 2)),
     "luminosity.planck_factor": lambda rng: (10 ** rng.uniform(2, 5), 10 ** rng.uniform(1, 4)),
     "projection.pixel": lambda rng: (
         *(positive(rng) / 1000, 1e-6 * positive(rng)),
