@@ -34,6 +34,7 @@ from quizgen.numbers import exact_text, rational, rounded_text, short_decimal
 from quizgen.reader import to_text
 from quizgen.text import Block, CodeBlock, Inline, Slot, Table, Words, fill, fill_text
 from quizgen.units import shown as unit_shown
+from quizgen.units import unit
 
 NBSP = "\u00a0"
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -232,16 +233,17 @@ def precision_table(drawn: Draw, lang: str) -> tuple[Block, ...]:
 
 
 def _ways(drawn: Draw, name: str) -> Iterator[tuple[str, str]]:
-    chain = drawn.template.chain
+    chain, shown = drawn.template.chain, drawn.template.units.get(name, "")
     for way, number_system in (("float32", singles()), ("float64", floats())):
         env = {n: number_system.constant(_fraction(drawn.values[n])) for n in chain.given}
         try:
             for step in chain.steps:
                 env[step.name] = compile_expr(step.expr, number_system)(env)
-            yield way, with_unit(f"{env[name]:.9g}".replace("e-0", "e-"), "")
+            text = f"{env[name] / float(unit(shown).factor):.9g}"
+            yield way, with_unit(text.replace("e-0", "e-"), shown)
         except (ZeroDivisionError, ValueError, OverflowError):
             yield way, "-"
-    yield "exact", with_unit(rounded_text(drawn.values[name], figures=9), "")
+    yield "exact", with_unit(rounded_text(drawn.in_unit(name), figures=9), shown)
 
 
 def _fraction(value: Any) -> Fraction:

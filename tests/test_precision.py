@@ -31,5 +31,44 @@ def test_the_far_tail_in_three_number_systems(bank, seed):
         assert exact == pytest.approx(float(mpmath.erfc(mpmath.mpf(k) / mpmath.sqrt(2))), rel=1e-8)
 
 
+def rows(one):
+    (table,) = precision_table(one, "en")
+    return [shown(row[1][0].text.split("\N{NO-BREAK SPACE}")[0].rstrip("°")) for row in table.rows]
+
+
+def given(one, name):
+    return int(one.values[name].p) / int(one.values[name].q)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_source_next_to_the_focal_plane(bank, seed):
+    one = draw(bank.template("XFlens"), seed)
+    f, d = given(one, "f"), given(one, "d")
+    single, double, exact = rows(one)
+    f32 = np.float32(f)
+    z32 = np.float32(f32 + np.float32(d))
+    by32 = np.float32(1) / (np.float32(1) / f32 - np.float32(1) / z32)
+    assert single == pytest.approx(float(by32), rel=1e-8)
+    assert exact == pytest.approx(f + f * f / d, rel=1e-8)
+    assert double == pytest.approx(exact, rel=1e-8)
+    lost = 6e-8 * f / d
+    assert lost / 300 < abs(single / exact - 1) < 4 * lost
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_the_hue_next_to_gray(bank, seed):
+    one = draw(bank.template("XFgray"), seed)
+    u, v = given(one, "u"), given(one, "v")
+    single, double, exact = rows(one)
+    gray = np.float32(given(one, "B"))
+    red, green = (gray + np.float32(n) / np.float32(1e7) for n in (u, v))
+    assert single == pytest.approx(
+        float(np.float32(60) * ((green - gray) / (red - gray))), rel=1e-8
+    )
+    assert exact == pytest.approx(60 * v / u, rel=1e-8)
+    assert double == pytest.approx(exact, rel=1e-7)
+    assert abs(single - exact) < 30
+
+
 def test_other_questions_show_no_such_table(bank):
     assert precision_table(draw(bank.template("C13"), 0), "en") == ()
