@@ -89,12 +89,14 @@ def _one_line(centre: float, fwhm: float) -> float:
     height *= 1 + (away * away - 1) * ((lost + fwhm * _SIGMA_LOST) / sigma)
     ends = 2 * _FALLS / (np.sqrt(away[:, None] ** 2 + 2 * _FALLS) + away[:, None] + _LEAST)
     ends = np.minimum(ends, np.abs(far - near)[:, None] / sigma)
-    start, width = ends[:, :-1, None], np.diff(ends)[:, :, None]
-    s = start + width * (0.5 + 0.5 * _NODES)
-    at = (near - _EDGES[i])[:, None, None] + sigma * s * np.sign(far - near)[:, None, None]
-    under = np.exp(-s * (away[:, None, None] + s / 2)) * _between(i[:, None, None], at)
-    parts = (under * (0.5 * width * _WEIGHTS)).sum(axis=(1, 2)) * sigma
-    return math.fsum(height * parts)
+    piece, step = np.nonzero(np.diff(ends) > 0)
+    start, stop = ends[piece, step], ends[piece, step + 1]
+    i, near, far, away, height = (part[piece, None] for part in (i, near, far, away, height))
+    half = 0.5 * (stop - start)[:, None]
+    s = start[:, None] + half * (1 + _NODES)
+    at = (near - _EDGES[i]) + sigma * s * np.sign(far - near)
+    parts = np.exp(-s * (away + 0.5 * s)) * _between(i, at) * (half * _WEIGHTS)
+    return math.fsum(height[:, 0] * (parts.sum(axis=1) * sigma))
 
 
 _LEAST, _HUGE = 1e-300, 1e150
