@@ -274,19 +274,20 @@ _MIDDLE = 0.38
 def inverse_tail(p: Array) -> Array:
     """Solve Q(k) = p, for the probability from the centre or the logarithm of the tail."""
     less = np.minimum(p, 1 - p)
-    share, lost = two_difference(np.full_like(p, 0.5), less)
     log = np.log(less)
-    t = np.sqrt(-2 * log)
+    t = np.sqrt(-2 * log)  # the start is 26.2.23 of the handbook
     k = t - (2.515517 + t * (0.802853 + t * 0.010328)) / (
         1 + t * (1.432788 + t * (0.189269 + t * 0.001308))
     )
     np.maximum(k, 0.0, out=k)
-    k = _either(share < _MIDDLE, _from_share, _from_log, k, share, lost, log)
-    return np.where(p > 0.5, -k, k)
+    k = _either(less > 0.5 - _MIDDLE, _from_share, _from_log, k, less, log)
+    return k if p.max() <= 0.5 else np.where(p > 0.5, -k, k)
 
 
-def _from_share(k: Array, share: Array, lost: Array, _log: Array) -> Array:
+def _from_share(k: Array, less: Array, _log: Array) -> Array:
     """Solve P(0 < n < k) = share, with density d the second derivative is -k d."""
+    share = 0.5 - less
+    lost = (0.5 - share) - less
     for _ in range(_STEPS):
         square = k * k
         miss = (k * horner(CENTRAL, square) - share - lost) * np.exp(0.5 * square) / _PEAK
@@ -294,7 +295,7 @@ def _from_share(k: Array, share: Array, lost: Array, _log: Array) -> Array:
     return k
 
 
-def _from_log(k: Array, _share: Array, _lost: Array, log: Array) -> Array:
+def _from_log(k: Array, _less: Array, log: Array) -> Array:
     """Solve ln Q(k) = log, whose slope is minus the hazard h and the next one h (k - h)."""
     for _ in range(_STEPS):
         square, lost = two_product(k, k)
