@@ -4,8 +4,12 @@ Each module draws one figure and has four names:
 
 * ``PARAMETERS``: parameter name to unit, meaning and default
 * ``draw(figure, values, *, quiz)``: draws on an empty matplotlib ``Figure``
-* ``alt(values, lang, *, quiz)``: the same picture in words, without the answer in quiz mode
+* ``alt(values, lang, *, quiz)``: the same picture in words, in "en" or "bn"
 * ``DARK``: ``"invert"`` for line art on nothing, ``"keep"`` for pictures on white
+
+``values`` maps every parameter to a float in its unit. ``quiz`` hides what a question asks for;
+the docstrings of ``draw`` and ``alt`` say what that is. Values that cannot be drawn raise
+``BankError``.
 
 Nothing here loads NumPy or matplotlib before the first figure is drawn.
 """

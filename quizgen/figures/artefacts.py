@@ -64,17 +64,7 @@ CAPTIONS: Mapping[str, str] = {
 
 
 def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
-    """Draw the figure.
-
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-        An empty figure.
-    values : mapping of str to float
-        As ``PARAMETERS`` says.
-    quiz : bool
-        Leave out the symbols of the cause.
-    """
+    """Draw the figure; in a quiz, leave out the symbols of the cause."""
     from quizgen.camera import Camera, simulate
     from quizgen.camera.filters import everywhere_alike
     from quizgen.figures._pen import WIDTH, Pen
@@ -223,17 +213,7 @@ def _street(side: float) -> tuple[Thing, ...]:
 
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
-    """Describe the figure in words.
-
-    Parameters
-    ----------
-    values : mapping of str to float
-        As ``PARAMETERS`` says.
-    lang : {"en", "bn"}
-        Language.
-    quiz : bool
-        Say what is seen, not what it is called.
-    """
+    """Describe the figure in words; in a quiz, say what is seen, not what it is called."""
     words = _ALT[lang]
     seen, name = words[KINDS[int(values["kind"])]]
     told = f"{words['figure'][0]} {seen}"

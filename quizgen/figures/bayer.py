@@ -50,16 +50,7 @@ _MARGIN = 8.0
 
 
 def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
-    """Draw the figure.
-
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-        An empty figure.
-    values : mapping of str to float
-        As ``PARAMETERS`` says.
-    quiz : bool
-        Leave out the arrows and the results.
+    """Draw the figure; in a quiz, leave out the arrows and the results.
 
     Raises
     ------
@@ -246,17 +237,7 @@ def _arrows(pen: Pen, values: Values, cell: float) -> None:
 
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
-    """Describe the figure in words.
-
-    Parameters
-    ----------
-    values : mapping of str to float
-        As ``PARAMETERS`` says.
-    lang : {"en", "bn"}
-        Language.
-    quiz : bool
-        Leave out which sites are used and the results.
-    """
+    """Describe the figure in words; in a quiz, leave out which sites are used and the results."""
     words, x, y = _ALT[lang], int(values["x"]), int(values["y"])
     text = words["figure"].format(
         pattern=PATTERNS[int(values["phase"])],

@@ -42,17 +42,7 @@ class _Layout:
 
 
 def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
-    """Draw the figure.
-
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-        An empty figure.
-    values : mapping of str to float
-        As ``PARAMETERS`` says.
-    quiz : bool
-        Hide the diameter of the blur disc.
-    """
+    """Draw the figure; in a quiz, hide the diameter of the blur disc."""
     from quizgen.figures._pen import Pen
 
     pen, place = Pen(), _layout(values)
@@ -164,17 +154,7 @@ def _labels(values: Values, *, quiz: bool) -> dict[str, str]:
 
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
-    """Describe the figure in words.
-
-    Parameters
-    ----------
-    values : mapping of str to float
-        As ``PARAMETERS`` says.
-    lang : {"en", "bn"}
-        Language.
-    quiz : bool
-        Leave the diameter of the blur disc out.
-    """
+    """Describe the figure in words; in a quiz, leave the diameter of the blur disc out."""
     words = _ALT[lang]
     text = words["figure"].format(
         D=given(values["D"]), z_p=given(values["z_p"]), z_s=given(values["z_s"])

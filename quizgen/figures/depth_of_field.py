@@ -73,17 +73,7 @@ def photographed(values: Values) -> tuple[Scene, Camera]:
 
 
 def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
-    """Draw the figure.
-
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-        An empty figure.
-    values : mapping of str to float
-        As ``PARAMETERS`` says.
-    quiz : bool
-        Show letters without the f-numbers.
-    """
+    """Draw the figure; in a quiz, show letters without the f-numbers."""
     from quizgen.camera import pictures
     from quizgen.camera.filters import everywhere_alike
     from quizgen.figures._pen import WIDTH, Pen
@@ -129,14 +119,7 @@ def discs(values: Values, number: float) -> tuple[float, ...]:
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words.
 
-    Parameters
-    ----------
-    values : mapping of str to float
-        As ``PARAMETERS`` says.
-    lang : {"en", "bn"}
-        Language.
-    quiz : bool
-        Say how sharp the objects are instead of the f-numbers.
+    In a quiz, say how sharp the objects are instead of the f-numbers.
     """
     words = _ALT[lang]
     depths = [given(values[f"z_{place}"]) for place in (1, 2, 3)]

@@ -38,16 +38,7 @@ _SAMPLES = 33
 
 
 def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
-    """Draw the figure.
-
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-        An empty figure.
-    values : mapping of str to float
-        As ``PARAMETERS`` says.
-    quiz : bool
-        Leave the coefficients out.
+    """Draw the figure; in a quiz, leave the coefficients out.
 
     Raises
     ------
@@ -171,14 +162,7 @@ def _caption(pen: Pen, values: Values) -> None:
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words.
 
-    Parameters
-    ----------
-    values : mapping of str to float
-        As ``PARAMETERS`` says.
-    lang : {"en", "bn"}
-        Language.
-    quiz : bool
-        Leave the coefficients and the kind of distortion out.
+    In a quiz, leave the coefficients and the kind of distortion out.
     """
     words = _ALT[lang]
     text = words["figure"].format(step=given(_step(values)), extent=given(shown_extent(values)))

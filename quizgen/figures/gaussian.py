@@ -37,16 +37,7 @@ _SPAN = 4.4
 
 
 def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
-    """Draw the figure.
-
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-        An empty figure.
-    values : mapping of str to float
-        As ``PARAMETERS`` says.
-    quiz : bool
-        Hide the density at the mean and the probability.
+    """Draw the figure; in a quiz, hide the density at the mean and the probability.
 
     Raises
     ------
@@ -245,14 +236,7 @@ def _inside(values: Values) -> float:
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words.
 
-    Parameters
-    ----------
-    values : mapping of str to float
-        As ``PARAMETERS`` says.
-    lang : {"en", "bn"}
-        Language.
-    quiz : bool
-        Leave the density at the mean and the probability out.
+    In a quiz, leave the density at the mean and the probability out.
     """
     words = _ALT[lang]
     text = words["figure"].format(

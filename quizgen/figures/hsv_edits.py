@@ -54,17 +54,7 @@ def edit_order(order: float) -> tuple[str, ...]:
 
 
 def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
-    """Draw the figure.
-
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-        An empty figure.
-    values : mapping of str to float
-        As ``PARAMETERS`` says.
-    quiz : bool
-        Show letters without the edits.
-    """
+    """Draw the figure; in a quiz, show letters without the edits."""
     from quizgen.figures import _scene
     from quizgen.figures._pen import THIN, WIDTH, Pen
     from quizgen.figures._picture import Picture
@@ -133,17 +123,7 @@ def _png(scene: int, palette: tuple[Colour, ...]) -> bytes:
 
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
-    """Describe the figure in words.
-
-    Parameters
-    ----------
-    values : mapping of str to float
-        As ``PARAMETERS`` says.
-    lang : {"en", "bn"}
-        Language.
-    quiz : bool
-        Leave out which edit made which picture.
-    """
+    """Describe the figure in words; in a quiz, leave out which edit made which picture."""
     words = _ALT[lang]
     if quiz:
         return words["figure"] + words["quiz"]

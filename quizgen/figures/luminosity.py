@@ -51,17 +51,7 @@ def read(wavelength: float, *, night: bool) -> float:
 
 
 def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
-    """Draw the figure.
-
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-        An empty figure.
-    values : mapping of str to float
-        As ``PARAMETERS`` says.
-    quiz : bool
-        Leave out the values at the marks.
-    """
+    """Draw the figure; in a quiz, leave out the values at the marks."""
     from quizgen.figures._pen import WIDTH, Pen
 
     apart = len(marks(values)) < 2 or abs(values["m_1"] - values["m_2"]) >= 5
@@ -168,17 +158,7 @@ def _reading(values: Values, place: int, wavelength: float) -> str:
 
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
-    """Describe the figure in words.
-
-    Parameters
-    ----------
-    values : mapping of str to float
-        As ``PARAMETERS`` says.
-    lang : {"en", "bn"}
-        Language.
-    quiz : bool
-        Leave out the values at the marks.
-    """
+    """Describe the figure in words; in a quiz, leave out the values at the marks."""
     words = _ALT[lang]
     told = [words["log" if values["log"] else "figure"] + words["seen" if quiz else "curves"]]
     for place, wavelength in enumerate(marks(values)):

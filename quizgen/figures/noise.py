@@ -65,17 +65,7 @@ def scene() -> Image:
 
 
 def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
-    """Draw the figure.
-
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-        An empty figure.
-    values : mapping of str to float
-        As ``PARAMETERS`` says.
-    quiz : bool
-        Show letters without the noise.
-    """
+    """Draw the figure; in a quiz, show letters without the noise."""
     from quizgen.camera import pictures
     from quizgen.figures._pen import WIDTH, Pen
 
@@ -121,17 +111,7 @@ def _symbols(values: Values, kind: str) -> str:
 
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
-    """Describe the figure in words.
-
-    Parameters
-    ----------
-    values : mapping of str to float
-        As ``PARAMETERS`` says.
-    lang : {"en", "bn"}
-        Language.
-    quiz : bool
-        Say what is seen, not which noise it is.
-    """
+    """Describe the figure in words; in a quiz, say what is seen, not which noise it is."""
     words = _ALT[lang]
     told = []
     for place, kind in enumerate(noise_order(values["order"])):

@@ -58,17 +58,7 @@ def sample(low: float, high: float, share: float, seed: int) -> Image:
 
 
 def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
-    """Draw the figure.
-
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-        An empty figure.
-    values : mapping of str to float
-        As ``PARAMETERS`` says.
-    quiz : bool
-        Leave out I_min and I_max.
-    """
+    """Draw the figure; in a quiz, leave out I_min and I_max."""
     from quizgen.camera import pictures
     from quizgen.figures._pen import Pen
 
@@ -108,17 +98,7 @@ def _limits(pen: Pen, values: Values) -> None:
 
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
-    """Describe the figure in words.
-
-    Parameters
-    ----------
-    values : mapping of str to float
-        As ``PARAMETERS`` says.
-    lang : {"en", "bn"}
-        Language.
-    quiz : bool
-        Leave out I_min and I_max.
-    """
+    """Describe the figure in words; in a quiz, leave out I_min and I_max."""
     words = _ALT[lang]
     told = [words["before"].format(given(values["a"]), given(values["b"])), words[_after(values)]]
     if values["share"]:

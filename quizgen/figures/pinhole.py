@@ -65,16 +65,7 @@ class _Layout:
 
 
 def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
-    """Draw the figure.
-
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-        An empty figure.
-    values : mapping of str to float
-        As ``PARAMETERS`` says.
-    quiz : bool
-        Hide the height of the image point.
+    """Draw the figure; in a quiz, hide the height of the image point.
 
     Raises
     ------
@@ -229,17 +220,7 @@ def _points(pen: Pen, place: _Layout, *, physical: bool) -> None:
 
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
-    """Describe the figure in words.
-
-    Parameters
-    ----------
-    values : mapping of str to float
-        As ``PARAMETERS`` says.
-    lang : {"en", "bn"}
-        Language.
-    quiz : bool
-        Leave the height of the image point out.
-    """
+    """Describe the figure in words; in a quiz, leave the height of the image point out."""
     words = {name: spoken(label) for name, label in _labels(values, quiz=quiz).items()}
     text = _ALT[lang]["figure"].format(**words)
     if values["physical"]:

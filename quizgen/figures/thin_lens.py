@@ -53,17 +53,7 @@ class _Layout:
 
 
 def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
-    """Draw the figure.
-
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-        An empty figure.
-    values : mapping of str to float
-        As ``PARAMETERS`` says.
-    quiz : bool
-        Hide the image distance.
-    """
+    """Draw the figure; in a quiz, hide the image distance."""
     from quizgen.figures._pen import Pen
 
     pen, place = Pen(), _layout(values)
@@ -212,17 +202,7 @@ def _labels(values: Values, *, quiz: bool) -> dict[str, str]:
 
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
-    """Describe the figure in words.
-
-    Parameters
-    ----------
-    values : mapping of str to float
-        As ``PARAMETERS`` says.
-    lang : {"en", "bn"}
-        Language.
-    quiz : bool
-        Leave the image distance out.
-    """
+    """Describe the figure in words; in a quiz, leave the image distance out."""
     image, words = _image_distance(values), _ALT[lang]
     text = words["figure"].format(f=given(values["f"]), z=given(values["z"]))
     if quiz:

@@ -12,23 +12,14 @@ from fractions import Fraction
 from functools import cache, reduce
 from typing import Any
 
+from quizgen._floats import OPS
 from quizgen.expr import Call, Expr, Field, Num, walk
 
-_ARITHMETIC: dict[str, Callable[..., Any]] = {
-    "add": lambda *args: reduce(operator.add, args),
-    "mul": lambda *args: reduce(operator.mul, args),
-    "sub": operator.sub,
-    "neg": operator.neg,
-    "div": operator.truediv,
-    "pow": operator.pow,
-    "abs": abs,
-    "eq": operator.eq,
-    "ne": operator.ne,
-    "lt": operator.lt,
-    "le": operator.le,
-    "gt": operator.gt,
-    "ge": operator.ge,
+_SAME = ("add", "mul", "sub", "neg", "div", "abs", "eq", "ne", "lt", "le", "gt", "ge")
+_ARITHMETIC: dict[str, Callable[..., Any]] = {name: OPS[name] for name in _SAME} | {
+    "pow": operator.pow
 }
+"""Python's own operators, which every number system here understands."""
 
 
 @cache

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from quizgen.tradeoff.families import Family
-from quizgen.tradeoff.ladder import DIGITS, MOST_BITS, Rung, to_float
+from quizgen.tradeoff.ladder import DIGITS, Rung, ball_value, to_float
 
 Row = Sequence[float]
 
@@ -49,18 +49,12 @@ def _to(number: Any) -> Callable[[Any], Any]:
 
 def _inverse_ball(row: Row, wanted: int = 200) -> Any:
     """Closed form of the cubic with balls: 2/sqrt(-3 k1) sin(asin(r_d/fold)/3)."""
-    import flint
 
-    precision = 100
-    while precision <= MOST_BITS:
-        with flint.ctx.workprec(precision):
-            r_d, k1 = flint.arb(row[0]), flint.arb(row[1])
-            size = (-3 * k1).sqrt()
-            value = 2 / size * ((3 * size * r_d / 2).asin() / 3).sin()
-            if value.is_finite() and value.rel_accuracy_bits() >= wanted:
-                return value
-        precision *= 2
-    raise ArithmeticError("no root below the fold")
+    def closed_form(env: Any) -> Any:
+        size = (-3 * env["k1"]).sqrt()
+        return 2 / size * ((3 * size * env["r_d"] / 2).asin() / 3).sin()
+
+    return ball_value(closed_form, {"r_d": row[0], "k1": row[1]}, wanted)
 
 
 def _inverse_precise(row: Row, digits: int = 80) -> Any:
@@ -124,17 +118,12 @@ def _log_gamma() -> Callable[[Any], Any]:
 
 
 def _poisson_ball(row: Row, wanted: int = 200) -> Any:
-    import flint
 
-    precision = 100
-    while precision <= MOST_BITS:
-        with flint.ctx.workprec(precision):
-            k, lam = flint.arb(row[0]), flint.arb(row[1])
-            value = (k * lam.log() - lam - (k + 1).lgamma()).exp()
-            if value.rel_accuracy_bits() >= wanted:
-                return value
-        precision *= 2
-    raise ArithmeticError("a ball does not become small enough")
+    def pmf(env: Any) -> Any:
+        k, lam = env["k"], env["lam"]
+        return (k * lam.log() - lam - (k + 1).lgamma()).exp()
+
+    return ball_value(pmf, {"k": row[0], "lam": row[1]}, wanted)
 
 
 def _poisson_precise(row: Row, digits: int = 80) -> Any:

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from .domain import POSITIVE, Kernel, Numbers, Result, Rule, filled, nearest
+from .domain import POSITIVE, Kernel, Numbers, Result, Rule, exactly, filled, nearest
 from .double_double import Pair, pairs, two_product, two_sum
 
 _CLOSE = 2.0**-40
@@ -176,9 +176,8 @@ def _or_long(value: Any, q: Any, limit: float, kernel: Kernel, args: Any) -> Any
 
 
 def _settled(kernel: Kernel, args: Any, i: int) -> float:
-    values = (Fraction(float(arg[i if arg.size > 1 else 0])) for arg in args)
     exact: Any = kernel.exact
-    return nearest(exact(*values))
+    return nearest(exact(*exactly(args, i)))
 
 
 def _limited_exact(formula: Any) -> Any:

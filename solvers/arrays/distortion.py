@@ -24,6 +24,7 @@ from .domain import (
     Numbers,
     Result,
     Rule,
+    exactly,
     extreme,
     nearest,
 )
@@ -83,8 +84,7 @@ def _by_pairs(where: Any, args: tuple[Array, ...], results: tuple[Array, Array])
     for result, value in zip(results, values, strict=True):
         result[where] = value
     for i in where[doubtful]:
-        exact = (Fraction(float(arg[i if arg.size > 1 else 0])) for arg in args)
-        results[0][i], results[1][i] = map(nearest, _forward(*exact))
+        results[0][i], results[1][i] = map(nearest, _forward(*exactly(args, i)))
 
 
 _ALLOWED = 3.0

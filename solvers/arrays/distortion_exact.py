@@ -11,7 +11,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from .domain import Array, Flags, nearest
+from .domain import Array, Flags, exactly, nearest
 
 _BITS = 400
 
@@ -52,7 +52,7 @@ def beyond_exactly(beyond: Flags, unsure: Flags, args: tuple[Array, ...]) -> Fla
     size = max(arg.size for arg in args)
     result = np.array(np.broadcast_to(beyond, (size,)))
     for i in np.flatnonzero(np.broadcast_to(unsure, (size,))):
-        r_d, k1, k2 = (Fraction(float(arg[i if arg.size > 1 else 0])) for arg in args)
+        r_d, k1, k2 = exactly(args, i)
         fold = _fold(k1, k2)
         result[i] = fold is not None and r_d > _distorted(fold, k1, k2)
     return result

@@ -325,11 +325,16 @@ def _settled(values: Any, flags: Flags, exact: Exact, args: Sequence[Array]) -> 
         column if column.size == shape else np.full(shape, column) for column in columns
     )
     for i in np.flatnonzero(np.broadcast_to(flags, shape)):
-        answer = exact(*[Fraction(float(arg[i if arg.size > 1 else 0])) for arg in args])
+        answer = exact(*exactly(args, i))
         answers = answer if isinstance(values, tuple) else (answer,)
         for column, value in zip(columns, answers, strict=True):
             column[i] = nearest(value)
     return columns if isinstance(values, tuple) else columns[0]
+
+
+def exactly(args: Sequence[Array], i: Any) -> list[Fraction]:
+    """Element i of every argument; a single number stands for all elements."""
+    return [Fraction(float(arg[i if arg.size > 1 else 0])) for arg in args]
 
 
 def flattened(*args: Numbers) -> tuple[tuple[int, ...], list[Array]]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import decimal
 import math
 import operator
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
@@ -19,6 +19,7 @@ import numpy as np
 from .domain import Array
 from .double_double import SPLITTER, Pair, split, two_difference, two_sum
 from .logarithm import log_pair
+from .polynomial import horner
 from .power import halves, raised
 
 _TOE = 2.0**-900
@@ -80,16 +81,6 @@ def _direct(e: Fraction) -> tuple[Exactly, Exactly]:
         return _DIGITS.subtract(1, _DIGITS.divide(_DIGITS.add(power(_DIGITS.add(1, d)), kept), 2))
 
     return over_q, smooth
-
-
-def _horner(coefficients: Sequence[float], x: Array) -> Array:
-    *rest, second, last = coefficients
-    total = x * last
-    total += second
-    for c in reversed(rest):
-        total *= x
-        total += c
-    return total
 
 
 def _short_quotient(top: Pair, below: Pair) -> Pair:
@@ -186,7 +177,7 @@ class Gap:
         x += 1
         np.divide(q.high, x, out=x)
         x -= _CENTRE
-        t = _horner(self.series, x)
+        t = horner(self.series, x)
         t *= x
         factor = t + self.start.high
         low = self.start.high - factor
@@ -203,7 +194,7 @@ class Gap:
         sign = np.where(d.high < 0, -1.0, 1.0)
         d = Pair(d.high * sign, d.low * sign)
         away = (d.high - _MIDST) + d.low
-        smooth, error = two_sum(self.smooth_start.high, away * _horner(self.smooth, away))
+        smooth, error = two_sum(self.smooth_start.high, away * horner(self.smooth, away))
         x, below = two_sum(1 - d.high, -d.low)
         x = np.maximum(x, _TOE)
         curved = self.curved(x)

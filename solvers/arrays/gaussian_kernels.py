@@ -8,13 +8,13 @@ rounding alone would cost 1400 units in the last place.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from .domain import Array
 from .double_double import split, two_difference, two_product, two_sum
+from .polynomial import horner
 from .tables import CENTRAL, MILLS, MILLS_SCALE, MILLS_SHIFT
 
 _PEAK = 0.3989422804014327
@@ -32,15 +32,6 @@ _CENTRAL = 0.7
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 _TOP = 2.0**300
-
-
-def horner(coefficients: Sequence[float], x: Array) -> Array:
-    """Polynomial with the coefficients in ascending order."""
-    total = np.full_like(x, coefficients[-1])
-    for c in reversed(coefficients[:-1]):
-        total *= x
-        total += c
-    return total
 
 
 def mills(k: Array) -> tuple[Array, Array]:

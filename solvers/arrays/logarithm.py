@@ -12,6 +12,7 @@ import numpy as np
 
 from .domain import Array
 from .double_double import Pair, pairs
+from .polynomial import horner
 
 LN2 = Pair(0.6931471805599453, 2.3190468138462996e-17)
 _THIRD = Pair(1 / 3, 1.850371707708594e-17)
@@ -22,11 +23,7 @@ _ROOT_HALF = 0.7071067811865476
 
 def atanh_series(s2: Pair) -> Pair:
     """Series atanh(s)/s - 1 = s**2/3 + s**4/5 + ... for s**2 below 0.03."""
-    rest = np.full_like(s2.high, _TAIL[-1])
-    for c in reversed(_TAIL[:-1]):
-        rest *= s2.high
-        rest += c
-    return s2 * (_THIRD + s2 * (_FIFTH + s2 * rest))
+    return s2 * (_THIRD + s2 * (_FIFTH + s2 * horner(_TAIL, s2.high)))
 
 
 def log_pair(x: Any) -> Pair:

@@ -12,8 +12,9 @@ import math
 import numpy as np
 
 from .domain import NONNEGATIVE, Array, Kernel, Numbers, Result, Rule
-from .gaussian_kernels import horner, mills
+from .gaussian_kernels import mills
 from .logarithm import ratio_excess
+from .polynomial import horner
 from .tables import STIRLING, TEMME
 
 _ROOT_TWO_PI = 2.5066282746310007
@@ -31,10 +32,7 @@ _UNIFORM_TO = 0.5
 def _stirling_error(k: Array) -> Array:
     """Difference ln k! - ln(sqrt(2 pi k) (k/e)**k)."""
     inverse = 1 / np.maximum(k, 1.0)
-    square = inverse * inverse
-    total = np.full_like(inverse, _SERIES[-1])
-    for c in reversed(_SERIES[:-1]):
-        total = total * square + c
+    total = horner(_SERIES, inverse * inverse)
     table = _TABLE[np.minimum(k, 15.0).astype(np.intp)]
     return np.where(k < 16, table, total * inverse)
 
