@@ -1,0 +1,71 @@
+"""Digests of two papers, one deck and three draws of every template, names of templates aside.
+
+A change that must not alter what a person gets leaves them as they are. One that must writes them
+anew with ``uv run python tests/golden/golden_papers.py`` and says in the changelog what changed.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+from dataclasses import replace
+from pathlib import Path
+
+from quizgen.bank import builtin
+from quizgen.blueprint import load
+from quizgen.cards import build as build_deck
+from quizgen.cards.tables import tsv
+from quizgen.exam import Paper, build, form_bytes, key_bytes
+from quizgen.question import compose
+from quizgen.render import KINDS, RENDERERS, render
+
+STORED = Path(__file__).with_name("digests.tsv")
+PAPERS = {"mock": (11, "both"), "trial": (5, "both")}
+"""Blueprint to seed and languages."""
+
+
+def without_names(data: bytes, names: list[str]) -> bytes:
+    """The bytes with the names of templates blotted out."""
+    longest_first = sorted(names, key=len, reverse=True)
+    pattern = rb"(?<![\w-])(?:" + b"|".join(re.escape(n.encode()) for n in longest_first)
+    return re.sub(pattern + rb")(?![\w-])", b"NAME", data)
+
+
+def paper(blueprint: str) -> Paper:
+    """The paper under a fixed code: a code names the files behind it, which may change."""
+    seed, langs = PAPERS[blueprint]
+    return replace(build(builtin(), load(blueprint), seed, langs), code="golden")
+
+
+def files_of(made: Paper) -> dict[str, bytes]:
+    """Every file that a paper consists of."""
+    rendered = {f"{kind}.{name}": render(made, kind, name) for name in RENDERERS for kind in KINDS}
+    return {**rendered, "key.json": key_bytes(made), "answers.toml": form_bytes(made)}
+
+
+def drawn(name: str) -> bytes:
+    """What three draws of a template are marked by."""
+    template = builtin().template(name)
+    keys = [compose(template, seed, figures=False)[1] for seed in range(3)]
+    table = [[key.identity.split("(")[1], key.specs, key.chain] for key in keys]
+    return json.dumps(table, sort_keys=True, ensure_ascii=False).encode()
+
+
+def digests() -> dict[str, str]:
+    """Name of each file to the digest of its bytes."""
+    found = {
+        f"{name}/{file}": data for name in PAPERS for file, data in files_of(paper(name)).items()
+    }
+    found["deck/cards.tsv"] = tsv(build_deck("both"))
+    names = list(builtin().paths)
+    found |= {f"draws/{name}": drawn(name) for name in names}
+    return {
+        name: hashlib.sha256(without_names(data, names)).hexdigest()
+        for name, data in found.items()
+    }  # fmt: skip
+
+
+if __name__ == "__main__":
+    rows = sorted(digests().items())
+    STORED.write_text("".join(f"{name}\t{digest}\n" for name, digest in rows), encoding="utf-8")
