@@ -12,9 +12,9 @@ from typing import Any
 
 from flint import fmpq
 
-from quizgen.chain import Chain, ChainStep
 from quizgen.check import Context, mark
-from quizgen.reader import parse
+from quizgen.maths.chain import Chain, ChainStep
+from quizgen.maths.notation import parse
 
 Task = tuple[dict[str, Any], str]
 BANGLA = str.maketrans("0123456789", "০১২৩৪৫৬৭৮৯")

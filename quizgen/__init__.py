@@ -24,8 +24,8 @@ from typing import Any
 _HOMES = {
     "Bank": "quizgen.bank",
     "builtin": "quizgen.bank",
-    "Model": "quizgen.model",
-    "Step": "quizgen.model",
+    "Model": "quizgen.maths.model",
+    "Step": "quizgen.maths.model",
     "compose": "quizgen.question",
     "build": "quizgen.exam",
     "rebuild": "quizgen.exam",

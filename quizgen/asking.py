@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from quizgen.locale import word
-from quizgen.units import shown
+from quizgen.maths.units import shown
 
 
 def hints(answer: Mapping[str, Any], spec: Mapping[str, Any], lang: str) -> tuple[str, ...]:

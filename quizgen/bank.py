@@ -14,8 +14,8 @@ from functools import cache, cached_property
 from pathlib import Path
 from types import ModuleType
 
-from quizgen.chain import Chain
 from quizgen.errors import BankError, QuizgenError
+from quizgen.maths.chain import Chain
 from quizgen.template import Rules, Template, check_against_chain, digest_of, read_rules
 from quizgen.text import Text, read_text
 

@@ -20,8 +20,8 @@ import flint
 from flint import fmpq
 
 from quizgen.errors import DrawError, MathError
-from quizgen.expr import PRECISION, Compiled, compile_expr, exact, names
-from quizgen.numbers import places, rational, to_float
+from quizgen.maths.numbers import places, rational, to_float
+from quizgen.maths.tree import PRECISION, Compiled, compile_expr, exact, names
 from quizgen.template import KeepRule, Template
 from quizgen.traps import PartPlan, factor
 

@@ -20,7 +20,7 @@ from quizgen.bank import LANGUAGES
 from quizgen.check import mark, show
 from quizgen.draw import Draw, draw, plan_of, reference
 from quizgen.errors import QuizgenError
-from quizgen.numbers import to_float
+from quizgen.maths.numbers import to_float
 from quizgen.question import identity, put_into_words
 from quizgen.solution import key_field
 from quizgen.specs import build, plain

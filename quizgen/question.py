@@ -16,7 +16,7 @@ from quizgen.draw import Draw, draw, reference
 from quizgen.errors import BankError
 from quizgen.figures import Figure
 from quizgen.figures import render as render_figure
-from quizgen.numbers import key_text, to_float
+from quizgen.maths.numbers import key_text, to_float
 from quizgen.solution import Solution
 from quizgen.template import Template
 from quizgen.text import Block, Inline
@@ -216,7 +216,7 @@ def _lettered(
 def figure_values(drawn: Draw) -> dict[str, Any]:
     """Parameters of the template's figure, as floats in shown units (words stay words)."""
     from quizgen.draw import plan_of
-    from quizgen.expr import compile_expr, exact
+    from quizgen.maths.tree import compile_expr, exact
 
     rule = drawn.template.rules.figure
     if rule is None:
@@ -246,7 +246,7 @@ def chain_table(drawn: Draw) -> dict[str, Any] | None:
     chain = drawn.template.chain
     if not chain.steps:
         return None
-    from quizgen.reader import to_text
+    from quizgen.maths.notation import to_text
 
     units = drawn.template.units
     return {

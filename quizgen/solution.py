@@ -15,10 +15,13 @@ from functools import lru_cache
 from typing import Any
 
 from quizgen import formula as printing
-from quizgen.chain import ChainStep
 from quizgen.draw import Draw, plan_of
 from quizgen.errors import BankError
-from quizgen.expr import (
+from quizgen.locale import word
+from quizgen.maths.chain import ChainStep
+from quizgen.maths.notation import to_text
+from quizgen.maths.numbers import exact_text, rational, rounded_text, short_decimal
+from quizgen.maths.tree import (
     PRECISION,
     Expr,
     Sym,
@@ -29,12 +32,9 @@ from quizgen.expr import (
     singles,
     taken_branch,
 )
-from quizgen.locale import word
-from quizgen.numbers import exact_text, rational, rounded_text, short_decimal
-from quizgen.reader import to_text
+from quizgen.maths.units import shown as unit_shown
+from quizgen.maths.units import unit
 from quizgen.text import Block, CodeBlock, Inline, Slot, Table, Words, fill, fill_text
-from quizgen.units import shown as unit_shown
-from quizgen.units import unit
 
 NBSP = "\u00a0"
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")

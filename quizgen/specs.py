@@ -12,8 +12,8 @@ from typing import Any
 
 from quizgen.draw import Draw, plan_of, shuffled
 from quizgen.errors import BankError
-from quizgen.expr import Num, compile_expr, exact, substitute
-from quizgen.numbers import exact_text, key_text
+from quizgen.maths.numbers import exact_text, key_text
+from quizgen.maths.tree import Num, compile_expr, exact, substitute
 from quizgen.text import Code, Formula, Slot, Styled, Words
 from quizgen.traps import answer_names, factor
 
@@ -260,7 +260,7 @@ def _code(drawn: Draw, _index: int, answer: Mapping[str, Any]) -> Spec:
 
 def _witness(drawn: Draw, _index: int, answer: Mapping[str, Any]) -> Spec:
     """Conditions with the drawn values in place."""
-    from quizgen.reader import parse, to_text
+    from quizgen.maths.notation import parse, to_text
 
     known = {n: Num(Fraction(key_text(v)), decimal=v.q != 1) for n, v in drawn.shown.items()}
 

@@ -16,11 +16,11 @@ from typing import Any, Literal
 
 import msgspec
 
-from quizgen.chain import Chain
 from quizgen.errors import BankError, FormulaError
-from quizgen.expr import Expr, names
-from quizgen.reader import parse
-from quizgen.units import unit
+from quizgen.maths.chain import Chain
+from quizgen.maths.notation import parse
+from quizgen.maths.tree import Expr, names
+from quizgen.maths.units import unit
 
 Scalar = int | float | str
 

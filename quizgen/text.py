@@ -29,8 +29,8 @@ from pathlib import Path
 from typing import Any
 
 from quizgen.errors import BankError, FormulaError
-from quizgen.expr import Expr
-from quizgen.reader import parse
+from quizgen.maths.notation import parse
+from quizgen.maths.tree import Expr
 
 NAMED_SECTIONS = frozenset({"steps", "traps", "options", "words", "gaps", "points"})
 PROSE_SECTIONS = frozenset({"why", "check", "note"})

@@ -5,7 +5,7 @@ Source: Burger & Burge, Digital Image Processing, 2nd ed. (2016), section 12.1 (
 
 from sympy import evaluate, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 L_r, L_g, L_b, R_r, R_g, R_b = symbols("L_r L_g L_b R_r R_g R_b", real=True)
 r, g, b = symbols("r g b", real=True)

@@ -5,7 +5,7 @@ Source: Burger & Burge, Digital Image Processing, 2nd ed. (2016), section 12.1; 
 
 from sympy import evaluate, floor, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 W, H = symbols("W H", integer=True)
 x_r, y_r = symbols("x_R y_R", integer=True)

@@ -5,7 +5,7 @@ Source: S. J. Ray, Applied Photographic Optics, 3rd ed. (2002), chapter 22 (dept
 
 from sympy import Abs, evaluate, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 f, N_1, N_2, p = symbols("f N_1 N_2 p", positive=True)
 z_p, z_s = symbols("z'_p z'_s", positive=True)

@@ -5,7 +5,7 @@ Source: Burger & Burge, Digital Image Processing, 2nd ed. (2016), section 1.3.
 
 from sympy import evaluate, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 c_1, c_2, c_3, c_4 = symbols("c_1:5", integer=True)
 e_1, e_2, e_3, e_4 = symbols("e_1:5", integer=True)

@@ -5,7 +5,7 @@ Source: Burger & Burge, Digital Image Processing, 2nd ed. (2016), sections 4.1.2
 
 from sympy import Piecewise, evaluate, floor, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 I, I_min, I_max = symbols("I I_min I_max", real=True)
 d, w, t, N_c = symbols("d w t N_c", real=True)

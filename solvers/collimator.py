@@ -5,7 +5,7 @@ Source: E. Hecht, Optics, 5th ed. (2017), section 5.2.3 (Newton: x_o x_i = f^2).
 
 from sympy import Rational, evaluate, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 f, d = symbols("f d", positive=True)
 x, image, z, F = symbols("x' z' z F", real=True)

@@ -8,7 +8,7 @@ from typing import Any
 
 from sympy import Add, Max, Min, evaluate, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 G_1, G_2, G_3, G_4 = symbols("G_1 G_2 G_3 G_4", real=True)
 R_1, R_2, R_3, R_4, B = symbols("R_1 R_2 R_3 R_4 B", real=True)

@@ -6,7 +6,7 @@ Source: R. C. Gonzalez, R. E. Woods, Digital Image Processing, 4th ed. (2018), s
 
 from sympy import Add, Max, Rational, evaluate, floor, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 i = symbols("i_1:5", integer=True)
 f = symbols("f_1:5", integer=True)

@@ -5,7 +5,7 @@ Source: Abramowitz & Stegun, Handbook of Mathematical Functions (1964), 7.1.1, 7
 
 from sympy import erf, erfc, evaluate, exp, pi, sqrt, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 k = symbols("k", positive=True)
 a, P, D = symbols("a P D", real=True)

@@ -5,7 +5,7 @@ Source: C. Poynton, Digital Video and HD, 2nd ed. (2012), chapter 27.
 
 from sympy import evaluate, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 a, b, gamma = symbols("a b gamma", positive=True)
 m, E_1, e_a, e_b, E_2, L = symbols("m E_1 e_a e_b E_2 L", real=True)

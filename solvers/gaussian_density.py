@@ -5,7 +5,7 @@ Source: M. Abramowitz, I. Stegun, Handbook of Mathematical Functions (1964), 26.
 
 from sympy import evaluate, exp, pi, sqrt, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 sigma, n_1, n_2 = symbols("sigma n_1 n_2", positive=True)
 g_0, g_1, g_2 = symbols("g_0 g_1 g_2", real=True)

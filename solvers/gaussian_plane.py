@@ -5,7 +5,7 @@ Source: R. A. Johnson, D. W. Wichern, Applied Multivariate Statistical Analysis 
 
 from sympy import evaluate, exp, pi, sqrt, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 sigma_1, sigma_2 = symbols("sigma_1 sigma_2", positive=True)
 x, y = symbols("x y", real=True)

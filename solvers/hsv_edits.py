@@ -6,7 +6,7 @@ V and H the other channels keep their proportions to it.
 
 from sympy import Max, Min, Piecewise, Rational, evaluate, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 R, G, B, a, b, delta = symbols("R G B a b delta", real=True)
 V, m = symbols("V m", real=True)

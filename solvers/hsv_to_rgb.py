@@ -7,7 +7,7 @@ from typing import Any
 
 from sympy import Abs, Mod, Or, Piecewise, evaluate, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 H, S, V = symbols("H S V", real=True)
 C, h, X, m, R, G, B = symbols("C h X m R G B", real=True)

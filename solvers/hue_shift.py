@@ -5,7 +5,7 @@ Source: OpenCV documentation, "Color conversions"; Python reference, floor divis
 
 from sympy import Mod, evaluate, floor, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 h, d = symbols("h d", integer=True)
 o, c = symbols("o c", integer=True)

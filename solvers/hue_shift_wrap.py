@@ -5,7 +5,7 @@ Source: NumPy reference, "Data type objects": unsigned integers wrap around.
 
 from sympy import Mod, evaluate, floor, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 h, d = symbols("h d", integer=True)
 o, s, w, c = symbols("o s w c", integer=True)

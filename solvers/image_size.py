@@ -5,7 +5,7 @@ Source: Hartley & Zisserman, Multiple View Geometry, 2nd ed. (2004), eq. 6.1 for
 
 from sympy import evaluate, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 p_y, p_z, f, s, S = symbols("p_y p_z f s S", positive=True)
 h, n, z_1, q = symbols("p'_y n z_1 q", positive=True)

@@ -5,7 +5,7 @@ Source: NumPy manual, data types; section 2.3 of the notes.
 
 from sympy import Mod, Piecewise, evaluate, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 b, a = symbols("b a", integer=True)
 levels, largest, size, after = symbols("L M B A", integer=True)

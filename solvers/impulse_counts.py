@@ -5,7 +5,7 @@ Source: Gonzalez & Woods, Digital Image Processing, 4th ed. (2018), section 5.2.
 
 from sympy import evaluate, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 M, p = symbols("M p", positive=True)
 N, black, white, rest = symbols("N N_b N_w N_0", positive=True)

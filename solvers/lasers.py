@@ -5,7 +5,7 @@ Source: CIE 018:2019, The Basis of Physical Photometry (V of 1924).
 
 from sympy import evaluate, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 P_1, P_2, V_1, V_2 = symbols("P_1 P_2 V_1 V_2", positive=True)
 r, Q = symbols("r Q", real=True)

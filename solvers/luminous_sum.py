@@ -7,7 +7,7 @@ from typing import Any
 
 from sympy import Add, Integer, Rational, evaluate, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 L = symbols("L_1:6", real=True)
 R = symbols("R_1:6", real=True)

@@ -5,7 +5,7 @@ Source: R. C. Gonzalez, R. E. Woods, Digital Image Processing, 4th ed. (2018), s
 
 from sympy import Piecewise, evaluate, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 n, p = symbols("n p", positive=True)
 w, b = symbols("w b", real=True)

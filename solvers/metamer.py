@@ -6,7 +6,7 @@ Source: Wyszecki & Stiles, Color Science, 2nd ed. (1982), section 3.8 (metameric
 
 from sympy import evaluate, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 a_1, a_2, a_3, a_4, t, l = symbols("a_1 a_2 a_3 a_4 t l", positive=True)
 L, M, S = symbols("L M S", positive=True)

@@ -5,7 +5,7 @@ Source: A. R. Smith, "Color gamut transform pairs", SIGGRAPH 1978.
 
 from sympy import Integer, evaluate, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 B, u, v = symbols("B u v", positive=True)
 s, H, R, G, F = symbols("s H R G F", real=True)

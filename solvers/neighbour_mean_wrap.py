@@ -5,7 +5,7 @@ Source: NumPy reference, "Data type objects": unsigned integers wrap around.
 
 from sympy import Add, Integer, Mod, evaluate, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 a, b, p, q = symbols("a b p q", integer=True)
 s, w, c = symbols("s w c", real=True)

@@ -5,7 +5,7 @@ Source: M. Abramowitz, I. Stegun, Handbook of Mathematical Functions (1964), 26.
 
 from sympy import erf, evaluate, pi, sqrt, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 sigma, t_1, t_2, M = symbols("sigma t_1 t_2 M", positive=True)
 g_0, k_1, p_1, P_1, k_2, p_2, P_2, N = symbols("g_0 k_1 p_1 P_1 k_2 p_2 P_2 N", real=True)

@@ -5,7 +5,7 @@ Source: Burger & Burge, Digital Image Processing, 2nd ed. (2016), section 4.4, e
 
 from sympy import evaluate, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 I, I_min, I_max, N_min, N_max = symbols("I I_min I_max N_min N_max", real=True)
 d, w, t, N_a, e, N_b = symbols("d w t N_a e N_b", real=True)

@@ -5,7 +5,7 @@ Source: OpenCV documentation, "Color conversions", RGB to HSV for 8-bit images.
 
 from sympy import Eq, Max, Min, Piecewise, evaluate, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 R, G, B = symbols("R G B", real=True)
 V, m, Delta, H_0, H, c = symbols("V m Delta H_0 H c", real=True)

@@ -5,7 +5,7 @@ Source: OpenCV documentation, "Operations with images": saturation arithmetic.
 
 from sympy import Max, Min, Mod, evaluate, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 a, b, p, q = symbols("a b p q", integer=True)
 u, v = symbols("u v", integer=True)

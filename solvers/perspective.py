@@ -5,7 +5,7 @@ Source: Hartley & Zisserman, Multiple View Geometry, 2nd ed. (2004), eq. 6.1.
 
 from sympy import evaluate, sqrt, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 f, p_x, p_y, p_z = symbols("f p_x p_y p_z", real=True)
 u, v = symbols("p'_x p'_y", real=True)

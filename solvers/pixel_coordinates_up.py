@@ -5,7 +5,7 @@ Source: Hartley & Zisserman, Multiple View Geometry, 2nd ed. (2004), eq. 6.9 wit
 
 from sympy import evaluate, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 f, s_x, s_y, p_x, p_y, p_z = symbols("f s_x s_y p_x p_y p_z", real=True)
 o_x, o_y = symbols("o_x o_y", real=True)

@@ -5,7 +5,7 @@ Source: Gonzalez & Woods, Digital Image Processing, 4th ed. (2018), section 2.4.
 
 from sympy import evaluate, floor, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 b, x = symbols("b x", real=True)
 n, step, k, q, error, worst = symbols("n Delta k q e e_max", real=True)

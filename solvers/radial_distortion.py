@@ -5,7 +5,7 @@ Source: Hartley & Zisserman, Multiple View Geometry, 2nd ed. (2004), section 7.4
 
 from sympy import evaluate, sqrt, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 k_1, x_A, x_B, b = symbols("k_1 x_A x_B b", real=True)
 R_A, L_A, u_A, v_A, R_B, L_B, u_B, v_B = symbols("R_A L_A u_A v_A R_B L_B u_B v_B", real=True)

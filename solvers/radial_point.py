@@ -5,7 +5,7 @@ Source: Hartley & Zisserman, Multiple View Geometry, 2nd ed. (2004), section 7.4
 
 from sympy import evaluate, sqrt, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 k_1, k_2, x, y = symbols("k_1 k_2 x y", real=True)
 R, delta, L, u, v, q = symbols("R delta L x_d y_d q", real=True)

@@ -5,7 +5,7 @@ Source: A. R. Smith, "Color gamut transform pairs", SIGGRAPH 1978.
 
 from sympy import Eq, Max, Min, Piecewise, evaluate, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 R, G, B = symbols("R G B", real=True)
 V, m, Delta, S, H_0, H = symbols("V m Delta S H_0 H", real=True)

@@ -5,7 +5,7 @@ Source: Hartley & Zisserman, Multiple View Geometry, 2nd ed. (2004), eq. 6.1: x 
 
 from sympy import evaluate, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 a, b, c, h_0 = symbols("a b c h_0", positive=True)
 q, h_1 = symbols("q h_1", positive=True)

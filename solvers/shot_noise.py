@@ -5,7 +5,7 @@ Source: J. R. Janesick, Photon Transfer (2007), chapter 3.
 
 from sympy import evaluate, log, sqrt, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 N_1, N_2 = symbols("N_1 N_2", positive=True)
 sigma_1, sigma_2 = symbols("sigma_1 sigma_2", real=True)

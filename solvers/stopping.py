@@ -5,7 +5,7 @@ Source: Hecht, Optics, 5th ed. (2017), section 5.3.3: the f-number, image-plane 
 
 from sympy import Piecewise, evaluate, log, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 f, N_1, N_2, r = symbols("f N_1 N_2 r", positive=True)
 D_1, D_2, q, e, k, t_1, t_2 = symbols("D_1 D_2 q e k t_1 t_2", positive=True)

@@ -5,7 +5,7 @@ Source: Burger & Burge, Digital Image Processing, 2nd ed. (2016), section 1.3, t
 
 from sympy import evaluate, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 W, H, C, b, c_e = symbols("W H C b c_e", integer=True)
 n, bits, size = symbols("n Q M", integer=True)

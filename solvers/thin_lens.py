@@ -5,7 +5,7 @@ Source: E. Hecht, Optics, 5th ed. (2017), section 5.2.
 
 from sympy import Rational, evaluate, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 f, z = symbols("f z", positive=True)
 q, image, m, travel = symbols("q z' m Delta", real=True)

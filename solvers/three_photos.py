@@ -5,7 +5,7 @@ Source: Hartley & Zisserman, Multiple View Geometry, 2nd ed. (2004), eq. 6.1 for
 
 from sympy import evaluate, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 y_1, z_1, h_1, z_2, h_2, y_3, h_3 = symbols("y_1 z_1 h_1 z_2 h_2 y_3 h_3", positive=True)
 f, y_2, z_3 = symbols("f y_2 z_3", positive=True)

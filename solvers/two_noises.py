@@ -5,7 +5,7 @@ Source: Hogg, McKean & Craig, Introduction to Mathematical Statistics, section 3
 
 from sympy import evaluate, pi, sqrt, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 s_1, s_2 = symbols("sigma_1 sigma_2", positive=True)
 q, g_1, g_2 = symbols("q g_1 g_2", positive=True)

@@ -5,7 +5,7 @@ Source: NumPy reference, "Data type objects": unsigned integers wrap around.
 
 from sympy import Integer, Mod, evaluate, floor, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 a, b = symbols("a b", integer=True)
 s, w, c = symbols("s w c", integer=True)

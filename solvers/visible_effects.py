@@ -6,7 +6,7 @@ the bounds of docs/camera.md.
 
 from sympy import Abs, Symbol, evaluate, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 f, N, s, z, p, R, H, v, t_r, F, G = symbols("f N s z p R H v t_r F G", positive=True)
 k_1 = symbols("k_1", real=True)

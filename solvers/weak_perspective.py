@@ -5,7 +5,7 @@ Source: R. Szeliski, Computer Vision, 2nd ed. (2022), section 2.1.4.
 
 from sympy import evaluate, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 f, z_1, z_2 = symbols("f z_1 z_2", positive=True)
 s_1, s_2, zbar, s, epsilon = symbols("s_1 s_2 zbar s epsilon", real=True)

@@ -5,7 +5,7 @@ Source: NumPy manual, array scalars and overflow: unsigned integers count modulo
 
 from sympy import Mod, evaluate, symbols
 
-from quizgen.model import Model, Step
+from quizgen.maths.model import Model, Step
 
 a, b, c, d, W, H = symbols("a b c d W H", integer=True)
 s, u, e, v, n, m = symbols("s u e v n M", integer=True)

@@ -9,9 +9,10 @@ import msgspec
 import pytest
 
 import quizgen
-from quizgen import formula, model
+from quizgen import formula
 from quizgen.cli import COMMANDS, group
 from quizgen.locale import table
+from quizgen.maths import model
 from quizgen.template import Rules
 
 ROOT = Path(__file__).parent.parent

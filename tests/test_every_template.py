@@ -11,9 +11,9 @@ import pytest
 from quizgen.bank import LANGUAGES, builtin
 from quizgen.check import load_spec, mark, show
 from quizgen.draw import admissible, draw, plan_of
-from quizgen.expr import Call, Expr, Num, Sym
 from quizgen.lint import lint
-from quizgen.numbers import to_float
+from quizgen.maths.numbers import to_float
+from quizgen.maths.tree import Call, Expr, Num, Sym
 from quizgen.specs import build
 
 NAMES = list(builtin().paths)

@@ -10,7 +10,7 @@ import pytest
 from quizgen.bank import Bank
 from quizgen.check import mark
 from quizgen.draw import admissible, draw, plan_of, reference
-from quizgen.numbers import rational
+from quizgen.maths.numbers import rational
 from quizgen.question import compose
 from quizgen.specs import build, plain
 

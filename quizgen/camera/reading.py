@@ -21,7 +21,7 @@ from quizgen.camera.effects import QUESTIONS
 from quizgen.camera.power import decode
 from quizgen.camera.scene import Camera, Image, Length, Scene, SceneError, Thing
 from quizgen.errors import FormulaError
-from quizgen.units import Dimension, unit
+from quizgen.maths.units import Dimension, unit
 
 Parser = Callable[[Any], Any]
 

@@ -27,10 +27,10 @@ from typing import Any
 
 from quizgen import formula
 from quizgen.errors import BankError, FormulaError, RenderError
-from quizgen.expr import Call, Expr, names
 from quizgen.formula.nodes import ATOM, PRODUCT, Big, Func, Ident, Number, Op, Row, Scripts
 from quizgen.formula.tree import SIGNS
-from quizgen.reader import parse, to_text
+from quizgen.maths.notation import parse, to_text
+from quizgen.maths.tree import Call, Expr, names
 from quizgen.solution import Maths
 
 Inside = Mapping[str, Mapping[str, Any]]

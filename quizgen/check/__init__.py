@@ -15,7 +15,7 @@ from quizgen.check.options import DECIMALS, Context, Options
 from quizgen.check.specs import Spec, decode
 from quizgen.check.verdict import Verdict, ambiguous, unreadable, with_words
 from quizgen.errors import KeyFileError
-from quizgen.reader import ReadError
+from quizgen.maths.notation import ReadError
 
 TWO_READINGS = frozenset({"comma-twice", "two-readings"})
 """Reasons for asking back that are not the learner's slip: the text can be read in two ways."""

@@ -8,7 +8,6 @@ from typing import Any
 
 from flint import arb, fmpq
 
-from quizgen.chain import ChainStep
 from quizgen.check.explain import explainer
 from quizgen.check.options import Context, Options
 from quizgen.check.rounding import nearest
@@ -16,8 +15,9 @@ from quizgen.check.scalars import Number
 from quizgen.check.specs import Tolerance, gives
 from quizgen.check.verdict import HALF, Verdict, partial, wrong
 from quizgen.errors import MathError
-from quizgen.expr import Num
-from quizgen.units import unit
+from quizgen.maths.chain import ChainStep
+from quizgen.maths.tree import Num
+from quizgen.maths.units import unit
 
 CARRIED = "carried-forward"
 EARLY = "rounded-too-early"

@@ -8,11 +8,11 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from quizgen.chain import Chain, ChainStep
 from quizgen.check.mutations import variants
-from quizgen.expr import Compiled, Expr, Num, Sym, compile_expr, floats, names
-from quizgen.reader import to_text
-from quizgen.units import unit
+from quizgen.maths.chain import Chain, ChainStep
+from quizgen.maths.notation import to_text
+from quizgen.maths.tree import Compiled, Expr, Num, Sym, compile_expr, floats, names
+from quizgen.maths.units import unit
 
 PREFIXES = (-6, -3, -2, -1, 1, 2, 3, 6)
 MOST_CHAINS = 256

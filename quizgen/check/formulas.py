@@ -10,9 +10,9 @@ from fractions import Fraction
 from quizgen.check.literals import Doubt, pointed
 from quizgen.check.rewrites import Rewrite, Source, normalise
 from quizgen.check.scalars import moved
-from quizgen.expr import RELATIONS, Call, Expr, Num
-from quizgen.reader import ReadError, double_reading, parse_pieces, to_text, tokens
-from quizgen.reader.names import FUNCTIONS, folded
+from quizgen.maths.notation import ReadError, double_reading, parse_pieces, to_text, tokens
+from quizgen.maths.notation.names import FUNCTIONS, folded
+from quizgen.maths.tree import RELATIONS, Call, Expr, Num
 
 MULTI_ARGUMENT = r"(?:atan2|min|max|mod|piecewise)"
 _SYNONYMS = {

@@ -12,10 +12,10 @@ from typing import Any
 
 import msgspec
 
-from quizgen.chain import Chain, ChainStep
 from quizgen.check.options import DECIMALS, Context
 from quizgen.check.scalars import exact_value
 from quizgen.errors import KeyFileError
+from quizgen.maths.chain import Chain, ChainStep
 
 FORMAT = "quizgen-key/1"
 LARGEST_FILE = 20_000_000
@@ -55,7 +55,7 @@ class KeyChain(msgspec.Struct):
 @lru_cache(maxsize=512)
 def _chain(units: tuple[tuple[str, str], ...], steps: tuple[tuple[str, str, str], ...]) -> Chain:
     """Build a chain once for all students of a paper."""
-    from quizgen.reader import parse
+    from quizgen.maths.notation import parse
 
     built = tuple(ChainStep(name, parse(formula), unit) for name, formula, unit in steps)
     return Chain(dict(units), built)

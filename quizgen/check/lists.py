@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 from quizgen.check.rewrites import Source, normalise
-from quizgen.reader import ReadError
+from quizgen.maths.notation import ReadError
 
 BRACKETS = {"(": ")", "[": "]", "{": "}", "<": ">"}
 _HARD = re.compile(r"[;|\n]")

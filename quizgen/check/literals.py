@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass
 
 from quizgen.check.rewrites import Source
-from quizgen.reader import ReadError
+from quizgen.maths.notation import ReadError
 
 LITERAL = re.compile(r"[.,]?\d+(?:(?:[.,]+|[ '](?=\d{3}(?!\d)))\d+)*\.?")
 """A run of digits with marks and groups, as typed."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
 
-from quizgen.expr import Call, Expr, Num, Sym
+from quizgen.maths.tree import Call, Expr, Num, Sym
 
 Variant = tuple[str, str, Expr]
 """Note, the name or operator concerned, and the changed formula."""

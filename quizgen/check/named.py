@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 
 from quizgen.check.rewrites import Source
-from quizgen.reader import ReadError
-from quizgen.reader.names import folded
+from quizgen.maths.notation import ReadError
+from quizgen.maths.notation.names import folded
 
 _NAME = re.compile(r"([^\W\d][\w' ./-]*?) ?(?::=|[=:≈]|->|→) ?")
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
-from quizgen.chain import Chain
 from quizgen.errors import MathError
+from quizgen.maths.chain import Chain
 
 DECIMALS = ("auto", "point", "comma")
 

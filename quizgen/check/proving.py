@@ -6,7 +6,7 @@ from typing import Any
 
 from flint import Ordering, fmpq, fmpq_mpoly_ctx
 
-from quizgen.expr import Call, Expr, Field, compile_expr, names, walk
+from quizgen.maths.tree import Call, Expr, Field, compile_expr, names, walk
 
 RATIONAL = frozenset({"add", "sub", "mul", "div", "neg", "pow"})
 LARGEST_POWER = 12

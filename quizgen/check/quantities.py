@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from quizgen.check.rewrites import Source
 from quizgen.check.unit_words import TypedUnit, suggestion, typed_unit
 from quizgen.errors import FormulaError
-from quizgen.reader import ReadError
+from quizgen.maths.notation import ReadError
 
 _NUMBER_PART = re.compile(
     r"(?:[\d.,' +()√π^*/-]|[eE](?=[-+]?\d)|sqrt(?=\()|pi(?![^\W\d_])|[xX](?= ?10))*"

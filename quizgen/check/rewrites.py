@@ -11,7 +11,7 @@ import unicodedata
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from quizgen.reader import ReadError
+from quizgen.maths.notation import ReadError
 
 LONGEST = 200
 """Most characters in one typed formula, number or list."""

@@ -7,7 +7,7 @@ from typing import Any
 from flint import arb, fmpq
 
 from quizgen.errors import Undecided
-from quizgen.numbers import decimal_text, magnitude, places, round_to
+from quizgen.maths.numbers import decimal_text, magnitude, places, round_to
 
 LARGEST_PLAIN = 10**7
 LARGEST_SHOWN = fmpq(10) ** 250

@@ -14,7 +14,7 @@ from flint import fmpq
 from quizgen.check.scalars import ReadError, TooLargeError, exact_value, typed_field
 from quizgen.check.specs import Scalar
 from quizgen.errors import MathError, Undecided
-from quizgen.expr import Expr, compile_expr, names
+from quizgen.maths.tree import Expr, compile_expr, names
 
 POINTS = 8
 """Points at which both formulas must have a value and agree."""

@@ -14,9 +14,9 @@ from flint import fmpq
 from quizgen.check.literals import Doubt, doubtful, pointed
 from quizgen.check.rewrites import Source, normalise
 from quizgen.errors import MathError
-from quizgen.expr import PRECISION, Expr, Field, compile_expr, exact
-from quizgen.reader import ReadError, parse_pieces, to_text, tokens
-from quizgen.reader.lexer import LARGEST_EXPONENT, LONGEST_NUMBER, SMALLEST_EXPONENT
+from quizgen.maths.notation import ReadError, parse_pieces, to_text, tokens
+from quizgen.maths.notation.lexer import LARGEST_EXPONENT, LONGEST_NUMBER, SMALLEST_EXPONENT
+from quizgen.maths.tree import PRECISION, Expr, Field, compile_expr, exact
 
 LARGEST_BITS = 4000
 """Largest size of an intermediate value in a typed number."""
@@ -345,7 +345,7 @@ def exact_text(text: str) -> Any:
         whole, slash, below = text.partition("/")
         return fmpq(int(whole), int(below) if slash else 1)
     except (ValueError, ZeroDivisionError):
-        from quizgen.reader import parse
+        from quizgen.maths.notation import parse
 
         return constant(parse(text, symbols=()))
 

@@ -6,8 +6,8 @@ import subprocess
 import sys
 from collections.abc import Mapping
 
-from quizgen.expr import Expr
-from quizgen.reader import to_text
+from quizgen.maths.notation import to_text
+from quizgen.maths.tree import Expr
 
 SECONDS = 4.0
 """Time limit of the whole attempt, start-up included."""

@@ -8,7 +8,7 @@ from typing import Any
 from flint import arb, fmpq
 
 from quizgen.check.scalars import Number
-from quizgen.numbers import magnitude, to_float
+from quizgen.maths.numbers import magnitude, to_float
 
 CLOSE = fmpq(1, 200)
 """Relative distance within which a slip is said to explain a number."""

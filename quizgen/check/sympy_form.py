@@ -8,8 +8,8 @@ from typing import Any
 
 import sympy
 
-from quizgen.expr import Call, Expr, Num, Sym
-from quizgen.reader import parse
+from quizgen.maths.notation import parse
+from quizgen.maths.tree import Call, Expr, Num, Sym
 
 _OPS: dict[str, Callable[..., Any]] = {
     "add": sympy.Add,

@@ -10,7 +10,7 @@ from typing import Any
 from flint import arb, fmpq
 
 from quizgen.errors import FormulaError
-from quizgen.units import SIMPLE, Unit, unit
+from quizgen.maths.units import SIMPLE, Unit, unit
 
 WORDS = {
     "pixel": "px",

@@ -6,7 +6,7 @@ of symbols; ``relation`` chains the sides of a worked line; ``latex``, ``mathml`
 
 Examples
 --------
->>> from quizgen.expr import Call, Sym
+>>> from quizgen.maths.tree import Call, Sym
 >>> from quizgen.formula import latex, layout, name, quantity, relation, spoken
 >>> f, X, Z = Sym("f"), Sym("X"), Sym("Z")
 >>> expr = Call("div", (Call("mul", (f, X)), Z))

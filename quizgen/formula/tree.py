@@ -10,7 +10,6 @@ from dataclasses import replace
 from fractions import Fraction
 
 from quizgen.errors import RenderError
-from quizgen.expr import Call, Expr, Num, Sym
 from quizgen.formula.build import decimal, negative, number
 from quizgen.formula.names import name
 from quizgen.formula.nodes import (
@@ -38,6 +37,7 @@ from quizgen.formula.nodes import (
     Word,
 )
 from quizgen.formula.products import between
+from quizgen.maths.tree import Call, Expr, Num, Sym
 
 SIGNS = {"eq": "=", "ne": "≠", "lt": "<", "le": "≤", "gt": ">", "ge": "≥"}
 FENCES = {"abs": "||", "floor": "⌊⌋", "ceil": "⌈⌉"}

@@ -7,7 +7,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from quizgen.errors import RenderError
-from quizgen.units import SHOWN, SIMPLE
+from quizgen.maths.units import SHOWN, SIMPLE
 
 TIGHT = frozenset({"deg", "°"})
 """Units set without a space after the number."""

@@ -13,7 +13,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from quizgen.expr import Call, Expr, Num, substitute
+from quizgen.maths.tree import Call, Expr, Num, substitute
 
 Inputs = Callable[[Any, int], list[Any]]
 """Random generator and count to columns of doubles."""
@@ -62,7 +62,7 @@ class Family:
     @cached_property
     def formula(self) -> Expr | None:
         """The textbook formula as a tree, or None for a family without one."""
-        from quizgen.reader import parse
+        from quizgen.maths.notation import parse
 
         if self.source == "":
             return None

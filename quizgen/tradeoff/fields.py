@@ -1,6 +1,6 @@
 """Number systems beyond the exact one: NumPy arrays, pairs of doubles, mpmath, SymPy.
 
-Each is a ``quizgen.expr.Field``, so one formula tree runs in all of them.
+Each is a ``quizgen.maths.tree.Field``, so one formula tree runs in all of them.
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ from fractions import Fraction
 from functools import cache, reduce
 from typing import Any
 
-from quizgen._floats import OPS
-from quizgen.expr import Call, Expr, Field, Num, walk
+from quizgen.maths.floats import OPS
+from quizgen.maths.tree import Call, Expr, Field, Num, walk
 
 _SAME = ("add", "mul", "sub", "neg", "div", "abs", "eq", "ne", "lt", "le", "gt", "ge")
 _ARITHMETIC: dict[str, Callable[..., Any]] = {name: OPS[name] for name in _SAME} | {

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 from quizgen.errors import MathError, QuizgenError
-from quizgen.expr import Expr, compile_expr, exact
+from quizgen.maths.tree import Expr, compile_expr, exact
 from quizgen.tradeoff import fields
 from quizgen.tradeoff.families import Family
 

@@ -79,7 +79,7 @@ def _family(family: Family, effort: Effort) -> FamilyReport:
 
 
 def _formula(family: Family) -> str:
-    from quizgen.reader import to_text
+    from quizgen.maths.notation import to_text
 
     return "" if family.formula is None else to_text(family.formula)
 

@@ -22,7 +22,7 @@ from quizgen.cards.note import FIELDS
 from quizgen.cards.versions import digest_of, registry
 from quizgen.errors import BankError
 from quizgen.formula import latex
-from quizgen.reader import parse
+from quizgen.maths.notation import parse
 from quizgen.render.fonts import bangla_file
 
 AUTHORED = ("vocab", "formula", "cheat", "trap", "figure", "truth", "choice")

@@ -7,11 +7,11 @@ import time
 import pytest
 from flint import fmpq
 
-from quizgen.chain import Chain, ChainStep
 from quizgen.check import Context, mark
 from quizgen.check.messages import LANGUAGES, sentences
 from quizgen.check.mutations import variants
-from quizgen.reader import parse
+from quizgen.maths.chain import Chain, ChainStep
+from quizgen.maths.notation import parse
 
 
 def chain(given, *steps):

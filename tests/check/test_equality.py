@@ -9,7 +9,7 @@ import pytest
 from quizgen.check import mark
 from quizgen.check.proving import proved_equal
 from quizgen.check.settling import settle_equal
-from quizgen.reader import parse
+from quizgen.maths.notation import parse
 
 EQUAL = [
     ("(x+1)^2", "x^2+2*x+1", {"x": "real"}),

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from quizgen.expr import Call, Num, Sym
-from quizgen.reader import FUNCTIONS, ReadError, parse, to_text
+from quizgen.maths.notation import FUNCTIONS, ReadError, parse, to_text
+from quizgen.maths.tree import Call, Num, Sym
 
 a, b, c = Sym("a"), Sym("b"), Sym("c")
 one, two = Num(Fraction(1)), Num(Fraction(2))

@@ -11,8 +11,8 @@ from quizgen.check.literals import read_literal
 from quizgen.check.rewrites import REWRITES, normalise, rewrite
 from quizgen.check.unit_words import WORDS, typed_unit
 from quizgen.check.wording import fold, nearest_terms
-from quizgen.reader import ReadError
-from quizgen.units import unit
+from quizgen.maths.notation import ReadError
+from quizgen.maths.units import unit
 
 ONE_BY_ONE = [
     ("direction marks around", "\u200f12\u200e", "12"),

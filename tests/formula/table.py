@@ -44,7 +44,7 @@ from quizgen.formula.nodes import (
     Under,
     Word,
 )
-from quizgen.reader import parse
+from quizgen.maths.notation import parse
 
 GOLDEN = Path(__file__).with_name("golden.toml")
 

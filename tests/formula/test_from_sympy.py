@@ -10,9 +10,9 @@ import pytest
 import sympy as sp
 
 from quizgen.errors import BankError
-from quizgen.expr import Call, Num, evaluate, floats, names
-from quizgen.formula.from_sympy import convert
-from quizgen.reader import parse
+from quizgen.maths.from_sympy import convert
+from quizgen.maths.notation import parse
+from quizgen.maths.tree import Call, Num, evaluate, floats, names
 
 f, X, Z, x, p, c, t = sp.symbols("f X Z x p c t")
 mu, sigma, N, q, z = sp.symbols("mu sigma N q z")

@@ -10,7 +10,6 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from quizgen.errors import MathError, RenderError
-from quizgen.expr import Call, Num, Sym, evaluate
 from quizgen.formula import (
     decimal,
     latex,
@@ -26,8 +25,9 @@ from quizgen.formula import (
 from quizgen.formula import nodes as n
 from quizgen.formula.to_mathml import bold
 from quizgen.formula.to_spoken import unit_words
-from quizgen.reader import parse
-from quizgen.units import SIMPLE, shown
+from quizgen.maths.notation import parse
+from quizgen.maths.tree import Call, Num, Sym, evaluate
+from quizgen.maths.units import SIMPLE, shown
 
 WRITERS = (latex, mathml, typst, spoken)
 

@@ -12,7 +12,7 @@ import pytest
 from click.testing import CliRunner
 
 from quizgen.cli_tradeoff import tradeoff
-from quizgen.expr import compile_expr
+from quizgen.maths.tree import compile_expr
 from quizgen.tradeoff import fields, ladder
 from quizgen.tradeoff.families import BY_NAME, FAMILIES
 from quizgen.tradeoff.knobs import KNOBS, coverage

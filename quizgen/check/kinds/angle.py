@@ -16,7 +16,7 @@ from quizgen.check.scalars import Number, exact_value, read_source
 from quizgen.check.slips import close
 from quizgen.check.specs import Scalar, Tolerance
 from quizgen.check.verdict import Verdict, with_values, wrong
-from quizgen.units import shown as shown_unit
+from quizgen.maths.units import shown as shown_unit
 
 DEGREES = (("deg", 1),)
 

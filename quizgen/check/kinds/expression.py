@@ -19,8 +19,8 @@ from quizgen.check.settling import settle_equal
 from quizgen.check.specs import Spec as AnySpec
 from quizgen.check.verdict import Verdict, ambiguous, correct, wrong
 from quizgen.errors import FormulaError
-from quizgen.expr import Expr, names
-from quizgen.reader import parse, to_text
+from quizgen.maths.notation import parse, to_text
+from quizgen.maths.tree import Expr, names
 
 
 class Spec(AnySpec, kw_only=True):

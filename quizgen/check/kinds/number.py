@@ -16,8 +16,8 @@ from quizgen.check.rounding import exact_or_figures, rounded, with_figures
 from quizgen.check.scalars import Number, ReadError, Readings, exact_value, quick, read_source
 from quizgen.check.specs import Scalar, Tolerance
 from quizgen.check.verdict import Verdict, unreadable, with_values
-from quizgen.units import shown as shown_unit
-from quizgen.units import unit
+from quizgen.maths.units import shown as shown_unit
+from quizgen.maths.units import unit
 
 
 class Spec(Tolerance, kw_only=True):

@@ -22,7 +22,7 @@ from quizgen.check.slips import close
 from quizgen.check.specs import Scalar, Tolerance, accepted, gives
 from quizgen.check.unit_words import TypedUnit, plain_unit
 from quizgen.check.verdict import Verdict, correct, partial, shared, with_values, wrong
-from quizgen.units import shown as shown_unit
+from quizgen.maths.units import shown as shown_unit
 
 
 class Spec(Tolerance, kw_only=True):

@@ -18,7 +18,7 @@ from quizgen.check.specs import Scalar, Tolerance
 from quizgen.check.unit_words import TypedUnit, plain_unit
 from quizgen.check.verdict import HALF, Verdict, partial, with_values, wrong
 from quizgen.errors import FormulaError
-from quizgen.units import shown as shown_unit
+from quizgen.maths.units import shown as shown_unit
 
 
 class Spec(Tolerance, kw_only=True):

@@ -22,8 +22,8 @@ from quizgen.check.specs import Scalar
 from quizgen.check.specs import Spec as AnySpec
 from quizgen.check.verdict import Verdict, ambiguous, correct, with_values, wrong
 from quizgen.errors import FormulaError
-from quizgen.expr import RELATIONS, Call, Expr, names
-from quizgen.reader import to_text
+from quizgen.maths.notation import to_text
+from quizgen.maths.tree import RELATIONS, Call, Expr, names
 
 
 class Spec(AnySpec, kw_only=True):

@@ -9,8 +9,8 @@ from fractions import Fraction
 from itertools import pairwise
 
 from quizgen.errors import FormulaError
-from quizgen.expr import Num
-from quizgen.reader.names import CONSTANTS, FUNCTIONS, KEYWORDS, folded, spellings, split
+from quizgen.maths.notation.names import CONSTANTS, FUNCTIONS, KEYWORDS, folded, spellings, split
+from quizgen.maths.tree import Num
 
 LARGEST_EXPONENT = 250
 """Largest decimal exponent read: beyond anything measurable, and every unit keeps it a float."""

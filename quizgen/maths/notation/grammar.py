@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from functools import cache
 from typing import Any
 
-from quizgen.expr import Call, Expr, Num, Sym
-from quizgen.reader.lexer import Piece, ReadError
-from quizgen.reader.names import FUNCTIONS
+from quizgen.maths.notation.lexer import Piece, ReadError
+from quizgen.maths.notation.names import FUNCTIONS
+from quizgen.maths.tree import Call, Expr, Num, Sym
 
 GRAMMAR = r"""
 %declare PLUS MINUS TIMES SLASH JOIN POWER LPAR RPAR COMMA RELATION AND OR NOT

@@ -15,7 +15,7 @@ from typing import Any
 import flint
 
 from quizgen.errors import MathError
-from quizgen.expr import PRECISION, Compiled, Expr, compile_expr, exact, names
+from quizgen.maths.tree import PRECISION, Compiled, Expr, compile_expr, exact, names
 
 Values = Mapping[str, Any]
 

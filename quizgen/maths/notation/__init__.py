@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from quizgen.expr import Call, Expr
-from quizgen.reader.grammar import build
-from quizgen.reader.lexer import Piece, ReadError, double_reading, number_node, tokens
-from quizgen.reader.names import CONSTANTS, FUNCTIONS
-from quizgen.reader.writer import to_text
+from quizgen.maths.notation.grammar import build
+from quizgen.maths.notation.lexer import Piece, ReadError, double_reading, number_node, tokens
+from quizgen.maths.notation.names import CONSTANTS, FUNCTIONS
+from quizgen.maths.notation.writer import to_text
+from quizgen.maths.tree import Call, Expr
 
 LONGEST = 4000
 """Most characters in an author's formula."""

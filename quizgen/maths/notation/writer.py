@@ -6,8 +6,8 @@ from collections.abc import Callable
 from fractions import Fraction
 
 from quizgen.errors import FormulaError
-from quizgen.expr import Call, Expr, Num, Sym
-from quizgen.reader.names import FUNCTIONS, plain
+from quizgen.maths.notation.names import FUNCTIONS, plain
+from quizgen.maths.tree import Call, Expr, Num, Sym
 
 EITHER, BOTH, TRUTH, RELATION, SUM, PRODUCT, POWER, ATOM = range(8)
 

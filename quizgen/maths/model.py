@@ -19,9 +19,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from quizgen.chain import Chain, ChainStep
 from quizgen.errors import BankError
-from quizgen.expr import names
+from quizgen.maths.chain import Chain, ChainStep
+from quizgen.maths.tree import names
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +80,7 @@ class Model:
 
 
 def _convert(step: Step) -> ChainStep:
-    from quizgen.formula.from_sympy import convert
+    from quizgen.maths.from_sympy import convert
 
     return ChainStep(step.symbol.name, convert(step.expr), step.unit)
 

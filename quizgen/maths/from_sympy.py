@@ -17,7 +17,7 @@ from sympy.core.function import AppliedUndef
 from sympy.logic.boolalg import BooleanFalse, BooleanTrue
 
 from quizgen.errors import BankError
-from quizgen.expr import Call, Expr, Num, Sym
+from quizgen.maths.tree import Call, Expr, Num, Sym
 
 _DOUBLE = 53
 _ONE = Num(Fraction(1))

@@ -174,25 +174,25 @@ def exact() -> Field:
     """Exact rationals (``flint.fmpq``), and certified balls (``flint.arb``) beyond them."""
     import flint
 
-    from quizgen import _exact
+    from quizgen.maths import exact as operators
 
-    return Field("exact", lambda q: flint.fmpq(q.numerator, q.denominator), _exact.OPS)
+    return Field("exact", lambda q: flint.fmpq(q.numerator, q.denominator), operators.OPS)
 
 
 @cache
 def floats() -> Field:
     """Python floats: the fast approximation used by figures."""
-    from quizgen import _floats
+    from quizgen.maths import floats as operators
 
-    return Field("float64", float, _floats.OPS)
+    return Field("float64", float, operators.OPS)
 
 
 @cache
 def singles() -> Field:
     """Numbers rounded to float32 after every operation."""
-    from quizgen import _floats
+    from quizgen.maths import floats as operators
 
-    return Field("float32", lambda q: _floats.single(float(q)), _floats.SINGLE_OPS)
+    return Field("float32", lambda q: operators.single(float(q)), operators.SINGLE_OPS)
 
 
 def evaluate(expr: Expr, env: Env, field: Field | None = None) -> Any:
