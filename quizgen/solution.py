@@ -14,7 +14,7 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import Any
 
-from quizgen import formula as printing
+from quizgen import typeset
 from quizgen.draw import Draw, plan_of
 from quizgen.errors import BankError
 from quizgen.locale import word
@@ -120,7 +120,7 @@ def filled(parts: Any, drawn: Draw, lang: str, *, hidden: bool = False) -> Any:
 
 @lru_cache(maxsize=4096)
 def _inline_maths(expr: Expr) -> Maths:
-    return Maths(printing.layout(expr, inline=True), to_text(expr))
+    return Maths(typeset.layout(expr, inline=True), to_text(expr))
 
 
 def in_program(text: str, drawn: Draw, *, hidden: bool = False) -> str:
@@ -331,17 +331,17 @@ def worked(drawn: Draw, step: ChainStep) -> Maths:
     """One step, printed from formula to rounded value."""
     with _precision():
         expr = taken_branch(step.expr, drawn.values, exact())
-    ways = [("=", printing.layout(expr), to_text(expr))]
+    ways = [("=", typeset.layout(expr), to_text(expr))]
     if names(expr):
-        numbers = printing.layout(expr, leaves=_leaves(drawn, expr))
+        numbers = typeset.layout(expr, leaves=_leaves(drawn, expr))
         ways.append((_sign(drawn, expr), numbers, _typed_numbers(drawn, expr)))
     for sign, node, text in _value_nodes(drawn.in_unit(step.name), step.unit):
         if text != ways[-1][2]:
             ways.append((sign, node, text))
     signs = [sign for sign, _, _ in ways]
-    nodes = [printing.name(step.name), *(node for _, node, _ in ways)]
+    nodes = [typeset.name(step.name), *(node for _, node, _ in ways)]
     typed = "".join(f" {sign} {text}" for sign, _, text in ways)
-    return Maths(printing.relation(signs, nodes), f"{step.name}{typed}")
+    return Maths(typeset.relation(signs, nodes), f"{step.name}{typed}")
 
 
 def _typed_numbers(drawn: Draw, expr: Expr) -> str:
@@ -383,7 +383,7 @@ def _leaves(drawn: Draw, expr: Expr) -> dict[str, Any]:
 
 def _leaf(value: Any, unit: str) -> Any:
     text = exact_text(value) or rounded_text(value, figures=STEP_FIGURES)
-    return printing.quantity(text, unit_shown(unit))
+    return typeset.quantity(text, unit_shown(unit))
 
 
 def _value_nodes(value: Any, unit: str) -> list[tuple[str, Any, str]]:
@@ -393,7 +393,7 @@ def _value_nodes(value: Any, unit: str) -> list[tuple[str, Any, str]]:
     if not short_decimal(value):
         texts.append(("≈", rounded_text(value)))
     shown = unit_shown(unit)
-    return [(sign, printing.quantity(text, shown), with_unit(text, unit)) for sign, text in texts]
+    return [(sign, typeset.quantity(text, shown), with_unit(text, unit)) for sign, text in texts]
 
 
 __all__ = ["Line", "Maths", "Mistake", "PartSolution", "Solution", "solve"]

@@ -9,7 +9,6 @@ import msgspec
 import pytest
 
 import quizgen
-from quizgen import formula
 from quizgen.cli import COMMANDS, group
 from quizgen.locale import table
 from quizgen.maths import model
@@ -24,7 +23,7 @@ def test_examples_of_the_readme_run():
     assert result.failed == 0
 
 
-@pytest.mark.parametrize("module", [quizgen, model, formula], ids=lambda m: m.__name__)
+@pytest.mark.parametrize("module", [quizgen, model, typeset], ids=lambda m: m.__name__)
 def test_examples_in_docstrings_run(module):
     result = doctest.testmod(module)
     assert result.attempted

@@ -25,13 +25,13 @@ from collections.abc import Callable, Iterator, Mapping
 from itertools import pairwise
 from typing import Any
 
-from quizgen import formula
+from quizgen import typeset
 from quizgen.errors import BankError, FormulaError, RenderError
-from quizgen.formula.nodes import ATOM, PRODUCT, Big, Func, Ident, Number, Op, Row, Scripts
-from quizgen.formula.tree import SIGNS
 from quizgen.maths.notation import parse, to_text
 from quizgen.maths.tree import Call, Expr, names
 from quizgen.solution import Maths
+from quizgen.typeset.layout import SIGNS
+from quizgen.typeset.nodes import ATOM, PRODUCT, Big, Func, Ident, Number, Op, Row, Scripts
 
 Inside = Mapping[str, Mapping[str, Any]]
 
@@ -85,7 +85,7 @@ def side(text: str, inside: Inside, where: str) -> Maths:
     try:
         expr = parse(text)
         leaves = {name: piece(inside[name], inside) for name in names(expr) & set(inside)}
-        node = formula.layout(expr, leaves={name: made.node for name, made in leaves.items()})
+        node = typeset.layout(expr, leaves={name: made.node for name, made in leaves.items()})
     except (FormulaError, RenderError) as error:
         raise BankError(f"{where}: {text!r}: {error}") from error
     typed = _NAME.sub(lambda m: leaves[m[0]].typed if m[0] in leaves else m[0], text)
@@ -98,10 +98,10 @@ def inline(expr: Expr) -> Maths:
     pairs = [link for link in links if isinstance(link, Call) and link.op in SIGNS]
     joined = all(one.args[1] == other.args[0] for one, other in pairwise(pairs))
     if len(pairs) != len(links) or not joined:
-        return Maths(formula.layout(expr, inline=True), to_text(expr))
+        return Maths(typeset.layout(expr, inline=True), to_text(expr))
     signs = [SIGNS[link.op] for link in pairs]
     ends = [pairs[0].args[0], *(link.args[1] for link in pairs)]
-    node = formula.relation(signs, [formula.layout(end, inline=True) for end in ends])
+    node = typeset.relation(signs, [typeset.layout(end, inline=True) for end in ends])
     return Maths(node, " ".join(_woven([to_text(end) for end in ends], signs)))
 
 
@@ -123,7 +123,7 @@ def _part(text: str, inside: Inside) -> Maths:
     signs, parts = sides(text, inside, "with")
     if not signs:
         return parts[0]
-    node = formula.relation(signs, [part.node for part in parts])
+    node = typeset.relation(signs, [part.node for part in parts])
     return Maths(node, " ".join(_woven([part.typed for part in parts], signs)))
 
 
@@ -138,7 +138,7 @@ def _integral(table: Mapping[str, Any], inside: Inside) -> Maths:
     bounds = [_part(table[end], inside) for end in ("low", "high") if end in table]
     sign = Big("∫", *[bound.node for bound in bounds])
     factors = body.node.items if isinstance(body.node, Row) else (body.node,)
-    small = Row((Op(" "), Ident("d"), formula.name(over)))
+    small = Row((Op(" "), Ident("d"), typeset.name(over)))
     ends = f"[{bounds[0].typed}, {bounds[1].typed}] " if bounds else ""
     return Maths(Row((sign, *factors, small), PRODUCT), f"∫ {ends}{body.typed} d{over}")
 
@@ -154,14 +154,14 @@ def _apply(table: Mapping[str, Any], inside: Inside) -> Maths:
 def _tuple(table: Mapping[str, Any], inside: Inside) -> Maths:
     parts = [_part(text, inside) for text in table["tuple"]]
     typed = ", ".join(part.typed for part in parts)
-    return Maths(formula.fenced([part.node for part in parts]), f"({typed})")
+    return Maths(typeset.fenced([part.node for part in parts]), f"({typed})")
 
 
 def _interval(table: Mapping[str, Any], inside: Inside) -> Maths:
     parts = [_part(text, inside) for text in table["interval"]]
     left, right = table["ends"]
     typed = f"{left}{', '.join(part.typed for part in parts)}{right}"
-    return Maths(formula.fenced([part.node for part in parts], table["ends"]), typed)
+    return Maths(typeset.fenced([part.node for part in parts], table["ends"]), typed)
 
 
 def _bold(table: Mapping[str, Any], inside: Inside) -> Maths:
@@ -171,9 +171,9 @@ def _bold(table: Mapping[str, Any], inside: Inside) -> Maths:
 
 def _quadratic(table: Mapping[str, Any], inside: Inside) -> Maths:
     vector, matrix = (_part(text, inside) for text in table["quadratic"])
-    held = formula.bracketed(vector.node, ATOM)
-    inverse = Scripts(matrix.node, None, formula.negative(Number("1")))
-    turned = formula.power(held, Op("ᵀ"))
+    held = typeset.bracketed(vector.node, ATOM)
+    inverse = Scripts(matrix.node, None, typeset.negative(Number("1")))
+    turned = typeset.power(held, Op("ᵀ"))
     node = Row((turned, Op(""), inverse, Op(""), held), PRODUCT)
     return Maths(node, f"({vector.typed})^T {matrix.typed}^-1 ({vector.typed})")
 
@@ -181,13 +181,13 @@ def _quadratic(table: Mapping[str, Any], inside: Inside) -> Maths:
 def _accent(table: Mapping[str, Any], inside: Inside) -> Maths:
     del inside
     name = f"{table['on']}_{table['accent']}"
-    return Maths(formula.name(name), name)
+    return Maths(typeset.name(name), name)
 
 
 def _letter(table: Mapping[str, Any], inside: Inside) -> Maths:
     del inside
     text = table["letter"]
-    return Maths(Ident(text) if len(text) == 1 else formula.name(text), text)
+    return Maths(Ident(text) if len(text) == 1 else typeset.name(text), text)
 
 
 _PIECES: dict[str, Callable[[Mapping[str, Any], Inside], Maths]] = {

@@ -14,11 +14,11 @@ from functools import singledispatch
 from html import escape
 from typing import Any, TypeGuard
 
-from quizgen import formula
+from quizgen import typeset
 from quizgen.figures import Figure
-from quizgen.formula.nodes import RELATION, Node, Row
 from quizgen.solution import Maths
 from quizgen.text import Code, CodeBlock, Items, Paragraph, Styled, Table, Words
+from quizgen.typeset.nodes import RELATION, Node, Row
 
 _TITLE = re.compile(rb"<title>.*?</title>", re.DOTALL)
 _LANG = re.compile(rb' lang="[a-z]+"')
@@ -107,7 +107,7 @@ def maths(node: Node) -> str:
     """
     if _wraps(node) and len(node.items) > len(("left", "=", "right")):
         return " ".join(_pieces(node, ""))
-    return rf"\({escape(formula.latex(node, LATEX), quote=False)}\)"
+    return rf"\({escape(typeset.latex(node, LATEX), quote=False)}\)"
 
 
 def _wraps(node: Node) -> TypeGuard[Row]:
@@ -118,16 +118,16 @@ def chain(node: Node) -> str:
     """A chain of equations as one formula per side, so that a narrow screen can wrap it."""
     style = r"\displaystyle "
     if not _wraps(node):
-        return _piece(style, formula.latex(node, LATEX))
+        return _piece(style, typeset.latex(node, LATEX))
     return " ".join(_pieces(node, style))
 
 
 def _pieces(node: Row, style: str) -> Iterator[str]:
     first, *rest = node.items
-    yield _piece(style, formula.latex(first, LATEX))
+    yield _piece(style, typeset.latex(first, LATEX))
     for sign, side in zip(rest[::2], rest[1::2], strict=True):
         empty = "{}" if side == Row(()) else ""  # keeps the space after a sign at the end
-        yield _piece(style, "{}" + formula.latex(Row((sign, side), RELATION), LATEX) + empty)
+        yield _piece(style, "{}" + typeset.latex(Row((sign, side), RELATION), LATEX) + empty)
 
 
 def _piece(style: str, text: str) -> str:

@@ -9,7 +9,7 @@ from typing import Any
 import jinja2
 from markupsafe import Markup, escape
 
-from quizgen import formula
+from quizgen import typeset
 from quizgen.exam import Paper
 from quizgen.locale import marks, word
 from quizgen.render import fonts
@@ -24,7 +24,7 @@ def inline(parts: Any, lang: str) -> Markup:
     if isinstance(parts, Words):
         return escape(parts.text)
     if isinstance(parts, Maths):
-        return Markup(formula.mathml(parts.node, lang))
+        return Markup(typeset.mathml(parts.node, lang))
     if isinstance(parts, Code):
         return Markup("<code>{}</code>").format(parts.text)
     if isinstance(parts, Styled):
@@ -65,7 +65,7 @@ def _head_cell(cell: Any, lang: str) -> Markup:
         return Markup("<td></td>")
     if len(cell) == 1 and isinstance(cell[0], Maths):
         shown = Markup('<span class="hidden">{}</span><span aria-hidden="true">{}</span>')
-        spoken = formula.spoken(cell[0].node, lang)
+        spoken = typeset.spoken(cell[0].node, lang)
         return Markup("<th>{}</th>").format(shown.format(spoken, inline(cell, lang)))
     return Markup("<th>{}</th>").format(inline(cell, lang))
 
@@ -79,7 +79,7 @@ def blocks(parts: Any, lang: str, *, tight: bool = False) -> Markup:
 
 def display(maths: Maths, lang: str) -> Markup:
     """A worked line on its own; a long one scrolls, also by keyboard."""
-    body = Markup(formula.mathml(maths.node, lang, display=True))
+    body = Markup(typeset.mathml(maths.node, lang, display=True))
     return Markup('<div class="line" tabindex="0">{}</div>').format(body)
 
 

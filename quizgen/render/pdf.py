@@ -9,7 +9,7 @@ from functools import cache
 from importlib.resources import files
 from typing import Any, Final
 
-from quizgen import formula
+from quizgen import typeset
 from quizgen.errors import RenderError
 from quizgen.exam import Item, Paper
 from quizgen.locale import marks, word
@@ -48,9 +48,9 @@ def inline(parts: Any, lang: str) -> str:
 
 def equation(maths: Maths, lang: str, *, block: bool) -> str:
     """A formula with its spoken alternative."""
-    spoken = string(formula.spoken(maths.node, lang))
+    spoken = string(typeset.spoken(maths.node, lang))
     space = " " if block else ""
-    body = f"${space}{formula.typst(maths.node, lang)}{space}$"
+    body = f"${space}{typeset.typst(maths.node, lang)}{space}$"
     return f"#math.equation(alt: {spoken}, block: {str(block).lower()}, {body});"
 
 

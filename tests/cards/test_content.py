@@ -21,9 +21,9 @@ from quizgen.cards.kinds.choice import choices
 from quizgen.cards.note import FIELDS
 from quizgen.cards.versions import digest_of, registry
 from quizgen.errors import BankError
-from quizgen.formula import latex
 from quizgen.maths.notation import parse
 from quizgen.render.fonts import bangla_file
+from quizgen.typeset import latex
 
 AUTHORED = ("vocab", "formula", "cheat", "trap", "figure", "truth", "choice")
 BENGALI = re.compile("[\u0980-\u09ff]")

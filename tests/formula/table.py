@@ -8,7 +8,8 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from quizgen.formula import (
+from quizgen.maths.notation import parse
+from quizgen.typeset import (
     bracketed,
     comma_list,
     fenced,
@@ -24,7 +25,7 @@ from quizgen.formula import (
     spoken,
     typst,
 )
-from quizgen.formula.nodes import (
+from quizgen.typeset.nodes import (
     ATOM,
     PRODUCT,
     SUM,
@@ -44,7 +45,6 @@ from quizgen.formula.nodes import (
     Under,
     Word,
 )
-from quizgen.maths.notation import parse
 
 GOLDEN = Path(__file__).with_name("golden.toml")
 

@@ -169,5 +169,5 @@ def test_everything_else_is_refused(bad):
 
 
 def test_printing_does_not_load_sympy():
-    code = "import sys, quizgen.formula; sys.exit('sympy' in sys.modules or 'numpy' in sys.modules)"
+    code = "import sys, quizgen.typeset; sys.exit('sympy' in sys.modules or 'numpy' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -10,7 +10,7 @@ import pytest
 from latex2mathml.converter import convert as latex_to_mathml
 from matplotlib.mathtext import MathTextParser
 
-from quizgen.formula import latex, mathml, spoken, typst
+from quizgen.typeset import latex, mathml, spoken, typst
 from tests.formula.table import FORMULAS, GOLDEN, nodes, outputs
 
 TABLE = tomllib.loads(GOLDEN.read_text(encoding="utf-8"))

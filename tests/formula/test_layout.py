@@ -10,7 +10,10 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from quizgen.errors import MathError, RenderError
-from quizgen.formula import (
+from quizgen.maths.notation import parse
+from quizgen.maths.tree import Call, Num, Sym, evaluate
+from quizgen.maths.units import SIMPLE, shown
+from quizgen.typeset import (
     decimal,
     latex,
     layout,
@@ -22,12 +25,9 @@ from quizgen.formula import (
     spoken,
     typst,
 )
-from quizgen.formula import nodes as n
-from quizgen.formula.to_mathml import bold
-from quizgen.formula.to_spoken import unit_words
-from quizgen.maths.notation import parse
-from quizgen.maths.tree import Call, Num, Sym, evaluate
-from quizgen.maths.units import SIMPLE, shown
+from quizgen.typeset import nodes as n
+from quizgen.typeset.mathml import bold
+from quizgen.typeset.spoken import unit_words
 
 WRITERS = (latex, mathml, typst, spoken)
 

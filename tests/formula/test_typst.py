@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 import typst as engine
 
-from quizgen.formula import spoken, typst
-from quizgen.formula.to_typst import quoted
+from quizgen.typeset import spoken, typst
+from quizgen.typeset.typst import quoted
 from tests.formula.table import nodes
 
 

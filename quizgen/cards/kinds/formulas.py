@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from quizgen import formula
+from quizgen import typeset
 from quizgen.cards.content import FormulaEntry, entries, passage, sentence
 from quizgen.cards.deck import Wish
 from quizgen.cards.equations import sides
 from quizgen.cards.note import Note
 from quizgen.cards.prose import Hole
 from quizgen.errors import BankError
-from quizgen.formula.nodes import Row
 from quizgen.solution import Maths
 from quizgen.text import Paragraph
+from quizgen.typeset.nodes import Row
 
 
 def notes(wish: Wish) -> Iterator[Note]:
@@ -56,7 +56,7 @@ def _holes(entry: FormulaEntry) -> Iterator[Hole]:
 
 def _shown(parts: list[Maths], signs: list[str]) -> Maths:
     """The sides before the hidden one, with the sign after each."""
-    node = formula.relation(signs, [*(part.node for part in parts), Row(())])
+    node = typeset.relation(signs, [*(part.node for part in parts), Row(())])
     typed = " ".join(f"{part.typed} {sign}" for part, sign in zip(parts, signs, strict=True))
     return Maths(node, typed)
 
@@ -66,4 +66,4 @@ def _joined(parts: list[Maths], signs: list[str]) -> Maths:
         return parts[0]
     pairs = zip(signs, parts[1:], strict=True)
     typed = " ".join([parts[0].typed, *(f"{sign} {part.typed}" for sign, part in pairs)])
-    return Maths(formula.relation(signs, [part.node for part in parts]), typed)
+    return Maths(typeset.relation(signs, [part.node for part in parts]), typed)

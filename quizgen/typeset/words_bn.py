@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from quizgen.formula.words import Words
+from quizgen.typeset.words import Words
 
 _LETTERS = {
     "a": "এ",

@@ -7,7 +7,7 @@ of symbols; ``relation`` chains the sides of a worked line; ``latex``, ``mathml`
 Examples
 --------
 >>> from quizgen.maths.tree import Call, Sym
->>> from quizgen.formula import latex, layout, name, quantity, relation, spoken
+>>> from quizgen.typeset import latex, layout, name, quantity, relation, spoken
 >>> f, X, Z = Sym("f"), Sym("X"), Sym("Z")
 >>> expr = Call("div", (Call("mul", (f, X)), Z))
 >>> numbers = {"f": quantity("50", "mm"), "X": quantity("30", "m"), "Z": quantity("600", "m")}
@@ -18,7 +18,7 @@ u = \frac{f X}{Z} = \frac{50\,\mathrm{mm} \cdot 30\,\mathrm{m} }{600\,\mathrm{m}
 = 2.5\,\mathrm{mm}
 """
 
-from quizgen.formula.build import (
+from quizgen.typeset.build import (
     comma_list,
     decimal,
     fenced,
@@ -28,13 +28,13 @@ from quizgen.formula.build import (
     quantity,
     relation,
 )
-from quizgen.formula.names import name
-from quizgen.formula.nodes import Node
-from quizgen.formula.to_latex import latex
-from quizgen.formula.to_mathml import mathml
-from quizgen.formula.to_spoken import spoken
-from quizgen.formula.to_typst import typst
-from quizgen.formula.tree import bracketed, layout, power
+from quizgen.typeset.latex import latex
+from quizgen.typeset.layout import bracketed, layout, power
+from quizgen.typeset.mathml import mathml
+from quizgen.typeset.names import name
+from quizgen.typeset.nodes import Node
+from quizgen.typeset.spoken import spoken
+from quizgen.typeset.typst import typst
 
 __all__ = [
     "Node",

@@ -7,11 +7,11 @@ from functools import lru_cache
 from html import escape
 
 from quizgen.errors import RenderError
-from quizgen.formula import nodes as n
-from quizgen.formula.emit import known, printer
-from quizgen.formula.names import GREEK_LETTERS
-from quizgen.formula.units import TIGHT, parts
-from quizgen.formula.words import TEXTS
+from quizgen.typeset import nodes as n
+from quizgen.typeset.emit import known, printer
+from quizgen.typeset.names import GREEK_LETTERS
+from quizgen.typeset.units import TIGHT, parts
+from quizgen.typeset.words import TEXTS
 
 _known = known("MathML")
 

@@ -10,9 +10,10 @@ from dataclasses import replace
 from fractions import Fraction
 
 from quizgen.errors import RenderError
-from quizgen.formula.build import decimal, negative, number
-from quizgen.formula.names import name
-from quizgen.formula.nodes import (
+from quizgen.maths.tree import Call, Expr, Num, Sym
+from quizgen.typeset.build import decimal, negative, number
+from quizgen.typeset.names import name
+from quizgen.typeset.nodes import (
     ATOM,
     FRACTION,
     MODULO,
@@ -36,8 +37,7 @@ from quizgen.formula.nodes import (
     Text,
     Word,
 )
-from quizgen.formula.products import between
-from quizgen.maths.tree import Call, Expr, Num, Sym
+from quizgen.typeset.products import between
 
 SIGNS = {"eq": "=", "ne": "≠", "lt": "<", "le": "≤", "gt": ">", "ge": "≥"}
 FENCES = {"abs": "||", "floor": "⌊⌋", "ceil": "⌈⌉"}

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from quizgen.errors import RenderError
-from quizgen.formula import nodes as n
+from quizgen.typeset import nodes as n
 
 KINDS = (
     n.Number,

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from quizgen.errors import RenderError
-from quizgen.formula.nodes import (
+from quizgen.typeset.nodes import (
     NEGATIVE,
     PRODUCT,
     RELATION,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from quizgen.formula.nodes import (
+from quizgen.typeset.nodes import (
     NEGATIVE,
     Accent,
     Fence,

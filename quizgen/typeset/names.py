@@ -11,7 +11,7 @@ import re
 from functools import lru_cache
 
 from quizgen.errors import RenderError
-from quizgen.formula.nodes import PRODUCT, Accent, Ident, Node, Number, Op, Row, Scripts, Word
+from quizgen.typeset.nodes import PRODUCT, Accent, Ident, Node, Number, Op, Row, Scripts, Word
 
 GREEK = {
     "alpha": "α",

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from functools import lru_cache
 
-from quizgen.formula import nodes as n
-from quizgen.formula.emit import known, printer
-from quizgen.formula.names import KNOWN
-from quizgen.formula.units import TIGHT, parts
-from quizgen.formula.words import TEXTS
+from quizgen.typeset import nodes as n
+from quizgen.typeset.emit import known, printer
+from quizgen.typeset.names import KNOWN
+from quizgen.typeset.units import TIGHT, parts
+from quizgen.typeset.words import TEXTS
 
 _known = known("Typst")
 

@@ -9,11 +9,11 @@ from __future__ import annotations
 import re
 from functools import lru_cache
 
-from quizgen.formula import nodes as n
-from quizgen.formula.emit import known, printer
-from quizgen.formula.names import GREEK, KNOWN
-from quizgen.formula.units import TIGHT, parts
-from quizgen.formula.words import TEXTS
+from quizgen.typeset import nodes as n
+from quizgen.typeset.emit import known, printer
+from quizgen.typeset.names import GREEK, KNOWN
+from quizgen.typeset.units import TIGHT, parts
+from quizgen.typeset.words import TEXTS
 
 _known = known("LaTeX")
 
@@ -83,7 +83,7 @@ def latex(node: n.Node, lang: str = "en") -> str:
 
     Examples
     --------
-    >>> from quizgen.formula import latex, name
+    >>> from quizgen.typeset import latex, name
     >>> latex(name("p'_x"))
     "p'_{x}"
     """

@@ -9,13 +9,13 @@ from __future__ import annotations
 import re
 from functools import lru_cache
 
-from quizgen.formula import nodes as n
-from quizgen.formula.emit import known, printer
-from quizgen.formula.names import GREEK
-from quizgen.formula.units import Part, parts
-from quizgen.formula.words import TEXTS, Words
-from quizgen.formula.words_bn import BANGLA
-from quizgen.formula.words_en import ENGLISH
+from quizgen.typeset import nodes as n
+from quizgen.typeset.emit import known, printer
+from quizgen.typeset.names import GREEK
+from quizgen.typeset.units import Part, parts
+from quizgen.typeset.words import TEXTS, Words
+from quizgen.typeset.words_bn import BANGLA
+from quizgen.typeset.words_en import ENGLISH
 
 _known = known("reading")
 
@@ -46,7 +46,7 @@ def spoken(node: n.Node, lang: str = "en") -> str:
 
     Examples
     --------
-    >>> from quizgen.formula import name, spoken
+    >>> from quizgen.typeset import name, spoken
     >>> spoken(name("p'_x"))
     'p prime sub x'
     """
