@@ -12,11 +12,11 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable, Iterator
+from importlib import import_module
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from quizgen.bank import solver_module
 from quizgen.tradeoff.families import BY_NAME
 from quizgen.tradeoff.ladder import rungs
 
@@ -43,7 +43,7 @@ class Case(NamedTuple):
 
 
 def arrays(name: str) -> Any:
-    return solver_module(f"arrays.{name}")
+    return import_module(f"quizgen.arrays.{name}")
 
 
 def from_families(rng: np.random.Generator) -> Iterator[Case]:
@@ -212,9 +212,8 @@ def textbook_project(f: float, x: Any, y: Any, z: Any) -> Any:
 
 
 def textbook_v(wavelength: Any) -> Any:
-    from quizgen.bank import solver_module as load
+    from quizgen.arrays import cie1924 as table
 
-    table = load("arrays.cie1924")
     at = table.FIRST_NM + table.STEP_NM * np.arange(len(table.V))
     return np.interp(wavelength, at, table.V)
 

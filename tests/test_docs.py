@@ -9,6 +9,7 @@ import msgspec
 import pytest
 
 import quizgen
+from quizgen import typeset
 from quizgen.cli import COMMANDS, group
 from quizgen.locale import table
 from quizgen.maths import model

@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
+from importlib import import_module
 from typing import Any
 
 from quizgen.maths.tree import Call, Expr, Num, substitute
@@ -74,10 +75,8 @@ class Family:
     @cached_property
     def stable(self) -> Callable[..., Any]:
         """The array function."""
-        from quizgen.bank import solver_module
-
         module, name = self.function
-        function: Callable[..., Any] = getattr(solver_module(f"arrays.{module}"), name)
+        function: Callable[..., Any] = getattr(import_module(f"quizgen.arrays.{module}"), name)
         return function
 
 

@@ -75,13 +75,11 @@ PAIR_OPS = frozenset({"add", "mul", "sub", "neg", "div", "pow", "abs"})
 @cache
 def pairs() -> Field:
     """Unevaluated sums of two doubles (twice the working precision) on arrays."""
-    from quizgen.bank import solver_module
-
-    pair = solver_module("arrays.double_double").Pair
+    from quizgen.arrays.double_double import Pair
 
     def constant(q: Fraction) -> Any:
         high = float(q)
-        return pair(high, float(q - Fraction(high)))
+        return Pair(high, float(q - Fraction(high)))
 
     ops = _ARITHMETIC | {"pow": lambda x, n: reduce(operator.mul, [x] * int(n.high))}
     return Field("double-double", constant, ops)

@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass
 from functools import partial
 from typing import Any
 
-from quizgen.bank import solver_module
+from quizgen.arrays import blur, distortion, gaussian, luminosity, poisson
 from quizgen.tradeoff.measure import Effort, best_time
 from quizgen.tradeoff.special import fixed_point
 
@@ -45,7 +45,6 @@ def _iterations(effort: Effort) -> Iterator[Curve]:
     """Fixed-point steps of inverse distortion against the closed form."""
     import numpy as np
 
-    distortion = solver_module("arrays.distortion")
     k1 = -0.2
     fold = float(distortion.fold_radius(k1))
     largest = fold * (1 + k1 * fold * fold)
@@ -68,7 +67,7 @@ def _kernel(effort: Effort) -> Iterator[Curve]:
     """Gaussian kernel cut off at t sigma and renormalised, on a full-contrast edge."""
     import numpy as np
 
-    tail = solver_module("arrays.gaussian").upper_tail
+    tail = gaussian.upper_tail
     sigma, row = 8.0, np.repeat([0.0, 255.0], 2048)
     x = np.linspace(0, 6, 2001)
     for_edge = np.asarray(tail(-x))
@@ -122,13 +121,12 @@ def _layers(effort: Effort) -> Iterator[Curve]:
     """Depth slices for a blurred picture: largest error of the blur disc in pixels."""
     import numpy as np
 
-    blur = solver_module("arrays.blur").blur_disc
     f, N, s, pitch = 50.0, 1.8, 3000.0, 0.005
     depth = 1 / np.linspace(1 / 1000, 1 / 50000, 4001)
     picture = np.random.default_rng(1).random((256, 256))
 
     def signed(z: Any) -> Any:
-        return np.asarray(blur(f, N, s, z)) * np.sign(z - s) / pitch
+        return np.asarray(blur.blur_disc(f, N, s, z)) * np.sign(z - s) / pitch
 
     def one_pass() -> Any:
         total = np.cumsum(np.cumsum(picture, axis=0), axis=1)
@@ -152,8 +150,8 @@ def _photons(effort: Effort) -> Iterator[Curve]:
     """Normal instead of Poisson numbers: largest difference of the distribution functions."""
     import numpy as np
 
-    lower = solver_module("arrays.poisson").lower
-    tail = solver_module("arrays.gaussian").upper_tail
+    lower = poisson.lower
+    tail = gaussian.upper_tail
     rng = np.random.default_rng(5)
     exact, normal = [], []
     for N in (1.0, 10.0, 100.0, 1e3, 1e4, 1e6):
@@ -171,7 +169,7 @@ def _wavelengths(effort: Effort) -> Iterator[Curve]:
     """Riemann sums over V(lambda) against the closed form, for lines of two widths."""
     import numpy as np
 
-    light = solver_module("arrays.luminosity")
+    light = luminosity
     centre = 532.4
     for fwhm in (20.0, 1.0):
         sigma = fwhm / 2.3548200450309493

@@ -103,13 +103,12 @@ def _stable(family: Family) -> Rung:
 
 
 def _pairs(family: Family, formula: Expr) -> Rung:
-    from quizgen.bank import solver_module
+    from quizgen.arrays.double_double import Pair
 
-    pair = solver_module("arrays.double_double").Pair
     compiled = compile_expr(formula, fields.pairs())
 
     def run(*columns: Any) -> Any:
-        values = map(pair, columns)
+        values = map(Pair, columns)
         return compiled(dict(zip(family.names, values, strict=True))).rounded()
 
     return Rung("double-double", "array", run, lambda column: column, lambda result: result)

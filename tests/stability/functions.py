@@ -18,6 +18,6 @@ def function(name):
     family, short = name.split(".")
     if name in _PARTS:
         family, call = _PARTS[name]
-        module = importlib.import_module(f"solvers.arrays.{family}")
+        module = importlib.import_module(f"quizgen.arrays.{family}")
         return lambda *args: call(module, *args)
-    return getattr(importlib.import_module(f"solvers.arrays.{family}"), short)
+    return getattr(importlib.import_module(f"quizgen.arrays.{family}"), short)

@@ -1,6 +1,6 @@
-"""Compute the coefficients in ``solvers/arrays/tables.py`` with mpmath; prints the module.
+"""Compute the coefficients in ``quizgen/arrays/tables.py`` with mpmath; prints the module.
 
-Run: ``python tests/stability/make_coefficients.py > solvers/arrays/tables.py``
+Run: ``python tests/stability/make_coefficients.py > quizgen/arrays/tables.py``
 """
 
 from __future__ import annotations

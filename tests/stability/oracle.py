@@ -14,7 +14,7 @@ from itertools import pairwise
 import mpmath as mp
 from mpmath import mpf
 
-from solvers.arrays.cie1924 import FIRST_NM, STEP_NM, V
+from quizgen.arrays.cie1924 import FIRST_NM, STEP_NM, V
 
 
 def reference(name, args, digits=45):

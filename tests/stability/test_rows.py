@@ -13,7 +13,7 @@ import pytest
 from functions import function
 from ulp import ulps
 
-from solvers.arrays.domain import DomainError, answered
+from quizgen.arrays.domain import DomainError, answered
 
 ROWS = [
     line.split("\t")

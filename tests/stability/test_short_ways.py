@@ -13,7 +13,7 @@ import oracle
 import pytest
 from ulp import ulps
 
-from solvers.arrays import (
+from quizgen.arrays import (
     depth_of_field,
     distortion,
     gamma,
@@ -22,7 +22,7 @@ from solvers.arrays import (
     projection,
     vignetting,
 )
-from solvers.arrays.domain import answered
+from quizgen.arrays.domain import answered
 
 RNG = np.random.default_rng(20)
 COUNT = 400

@@ -15,8 +15,8 @@ from hypothesis import strategies as st
 from oracle import FORMULAS
 from ulp import ulps
 
-from solvers.arrays import bayer, statistics, stops
-from solvers.arrays.domain import DomainError, answered
+from quizgen.arrays import bayer, statistics, stops
+from quizgen.arrays.domain import DomainError, answered
 
 ANY = st.floats(allow_nan=False, allow_infinity=False)
 EDGES = st.sampled_from([0.0, -0.0, 5e-324, 2.2250738585072014e-308, 1.7976931348623157e308, 1.0])

@@ -13,8 +13,8 @@ from collections.abc import Callable, Iterable, Iterator
 import numpy as np
 import numpy.typing as npt
 
-from .domain import BLOCK, Array, DomainError
-from .double_double import two_sum
+from quizgen.arrays.domain import BLOCK, Array, DomainError
+from quizgen.arrays.double_double import two_sum
 
 _LARGE = 2.0**480
 _SMALL = 2.0**-480

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from .domain import POSITIVE, Kernel, Numbers, Result, Rule, filled
-from .double_double import pairs
+from quizgen.arrays.domain import POSITIVE, Kernel, Numbers, Result, Rule, filled
+from quizgen.arrays.double_double import pairs
 
 
 def _formula(f: Any, N: Any, s: Any, z: Any) -> Any:

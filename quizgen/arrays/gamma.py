@@ -13,11 +13,20 @@ from typing import Any
 
 import numpy as np
 
-from .domain import Array, DomainError, Kernel, Numbers, Result, Span, filled, read_decimal
-from .double_double import Pair, pairs, two_sum
-from .gamma_gap import REACH as GAP_REACH
-from .gamma_gap import Gap
-from .power import halves, raised
+from quizgen.arrays.domain import (
+    Array,
+    DomainError,
+    Kernel,
+    Numbers,
+    Result,
+    Span,
+    filled,
+    read_decimal,
+)
+from quizgen.arrays.double_double import Pair, pairs, two_sum
+from quizgen.arrays.gamma_gap import REACH as GAP_REACH
+from quizgen.arrays.gamma_gap import Gap
+from quizgen.arrays.power import halves, raised
 
 _INTENSITY = Span(low=0.0, reason="negative-intensity", closed=True)
 

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from .domain import NONNEGATIVE, POSITIVE, Kernel, Numbers, Result
-from .double_double import pairs
+from quizgen.arrays.domain import NONNEGATIVE, POSITIVE, Kernel, Numbers, Result
+from quizgen.arrays.double_double import pairs
 
 
 def _cos4(r: Any, f: Any) -> Any:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from .domain import NONNEGATIVE, POSITIVE, Kernel, Numbers, Result, extreme, filled
+from quizgen.arrays.domain import NONNEGATIVE, POSITIVE, Kernel, Numbers, Result, extreme, filled
 
 _REACH = 2.0**300
 _LEAST = 5e-324

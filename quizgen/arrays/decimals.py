@@ -17,8 +17,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .domain import Array, nearest
-from .double_double import Pair, two_product
+from quizgen.arrays.domain import Array, nearest
+from quizgen.arrays.double_double import Pair, two_product
 
 _DIGITS = 15
 _LARGEST = 10.0**_DIGITS

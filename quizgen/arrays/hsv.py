@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from .domain import REAL, Array, Kernel, Numbers, Result, Rule
+from quizgen.arrays.domain import REAL, Array, Kernel, Numbers, Result, Rule
 
 _HUGE = 2.0**1000
 

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from .domain import Array
+from quizgen.arrays.domain import Array
 
 SPLITTER = 134217729.0
 """2**27 + 1 splits a double into two halves of 26 bits."""

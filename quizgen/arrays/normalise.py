@@ -12,8 +12,17 @@ from typing import Any
 
 import numpy as np
 
-from .domain import REAL, Array, Kernel, Numbers, Result, Rule, in_short_blocks, nearest
-from .double_double import Pair, pairs
+from quizgen.arrays.domain import (
+    REAL,
+    Array,
+    Kernel,
+    Numbers,
+    Result,
+    Rule,
+    in_short_blocks,
+    nearest,
+)
+from quizgen.arrays.double_double import Pair, pairs
 
 _CANCELLED = 2.0**-48
 _SHORT = 2.0**25

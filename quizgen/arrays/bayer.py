@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .domain import DomainError
+from quizgen.arrays.domain import DomainError
 
 RULES = ("exact", "half-up", "half-even", "down")
 """Keep the fraction; round ties up (OpenCV); round ties to even (NumPy); drop the fraction."""

@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from .distortion_exact import beyond_exactly, fold_exactly, invert_exactly
-from .domain import (
+from quizgen.arrays.distortion_exact import beyond_exactly, fold_exactly, invert_exactly
+from quizgen.arrays.domain import (
     NONNEGATIVE,
     REAL,
     Array,
@@ -28,7 +28,7 @@ from .domain import (
     extreme,
     nearest,
 )
-from .double_double import Pair, pair, pairs
+from quizgen.arrays.double_double import Pair, pair, pairs
 
 _REACH = 2.0**60
 _FLAT = 2.0**-24

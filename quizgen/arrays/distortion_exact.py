@@ -11,7 +11,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from .domain import Array, Flags, exactly, nearest
+from quizgen.arrays.domain import Array, Flags, exactly, nearest
 
 _BITS = 400
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from .domain import POSITIVE, DomainError, Kernel, Numbers, Result
+from quizgen.arrays.domain import POSITIVE, DomainError, Kernel, Numbers, Result
 
 _PER_LN2 = 2.8853900817779268
 """2/ln 2."""

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from .domain import POSITIVE, Kernel, Numbers, Result
+from quizgen.arrays.domain import POSITIVE, Kernel, Numbers, Result
 
 
 def _image_distance(f: Any, z: Any) -> Any:

@@ -14,8 +14,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .decimals import Reader, Whole, as_pair, read
-from .domain import (
+from quizgen.arrays.decimals import Reader, Whole, as_pair, read
+from quizgen.arrays.domain import (
     POSITIVE,
     REAL,
     Array,

@@ -5,7 +5,7 @@ Source: (f/z - f/zbar)/(f/z) = (zbar - z)/zbar; the left side subtracts nearly e
 
 from __future__ import annotations
 
-from .domain import POSITIVE, Kernel, Numbers, Result
+from quizgen.arrays.domain import POSITIVE, Kernel, Numbers, Result
 
 _OF_TRUE = Kernel(lambda z, zbar: (zbar - z) / zbar, (POSITIVE, POSITIVE))
 _OF_WEAK = Kernel(lambda z, zbar: (zbar - z) / z, (POSITIVE, POSITIVE))

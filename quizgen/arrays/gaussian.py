@@ -6,8 +6,8 @@ values are computed stands in ``gaussian_kernels``.
 
 from __future__ import annotations
 
-from . import gaussian_kernels as kernels
-from .domain import NONNEGATIVE, POSITIVE, REAL, Kernel, Numbers, Result, Rule, Span
+from quizgen.arrays import gaussian_kernels as kernels
+from quizgen.arrays.domain import NONNEGATIVE, POSITIVE, REAL, Kernel, Numbers, Result, Rule, Span
 
 _CORRELATION = Span(low=-1.0, high=1.0, reason="not-a-correlation", closed=True)
 _PDF = Kernel(

@@ -16,11 +16,11 @@ from typing import Any
 
 import numpy as np
 
-from .domain import Array
-from .double_double import SPLITTER, Pair, split, two_difference, two_sum
-from .logarithm import log_pair
-from .polynomial import horner
-from .power import halves, raised
+from quizgen.arrays.domain import Array
+from quizgen.arrays.double_double import SPLITTER, Pair, split, two_difference, two_sum
+from quizgen.arrays.logarithm import log_pair
+from quizgen.arrays.polynomial import horner
+from quizgen.arrays.power import halves, raised
 
 _TOE = 2.0**-900
 REACH = 2.0**400

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from .domain import Array
-from .double_double import Pair, pairs
-from .polynomial import horner
+from quizgen.arrays.domain import Array
+from quizgen.arrays.double_double import Pair, pairs
+from quizgen.arrays.polynomial import horner
 
 LN2 = Pair(0.6931471805599453, 2.3190468138462996e-17)
 _THIRD = Pair(1 / 3, 1.850371707708594e-17)

@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from .domain import POSITIVE, Kernel, Numbers, Result, Rule, exactly, filled, nearest
-from .double_double import Pair, pairs, two_product, two_sum
+from quizgen.arrays.domain import POSITIVE, Kernel, Numbers, Result, Rule, exactly, filled, nearest
+from quizgen.arrays.double_double import Pair, pairs, two_product, two_sum
 
 _CLOSE = 2.0**-40
 """Relative distance from the hyperfocal distance below which A - B is settled exactly."""

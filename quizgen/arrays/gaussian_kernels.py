@@ -12,10 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from .domain import Array
-from .double_double import split, two_difference, two_product, two_sum
-from .polynomial import horner
-from .tables import CENTRAL, MILLS, MILLS_SCALE, MILLS_SHIFT
+from quizgen.arrays.domain import Array
+from quizgen.arrays.double_double import split, two_difference, two_product, two_sum
+from quizgen.arrays.polynomial import horner
+from quizgen.arrays.tables import CENTRAL, MILLS, MILLS_SCALE, MILLS_SHIFT
 
 _PEAK = 0.3989422804014327
 _PEAK_LOST = -6.247337834861335e-17

@@ -13,10 +13,20 @@ from typing import Any
 
 import numpy as np
 
-from .cie1924 import FIRST_NM, STEP_NM, V
-from .domain import NONNEGATIVE, POSITIVE, Array, Kernel, Limits, Numbers, Result, Rule, nearest
-from .double_double import Pair, split, two_product, two_sum
-from .gaussian import pdf
+from quizgen.arrays.cie1924 import FIRST_NM, STEP_NM, V
+from quizgen.arrays.domain import (
+    NONNEGATIVE,
+    POSITIVE,
+    Array,
+    Kernel,
+    Limits,
+    Numbers,
+    Result,
+    Rule,
+    nearest,
+)
+from quizgen.arrays.double_double import Pair, split, two_product, two_sum
+from quizgen.arrays.gaussian import pdf
 
 KM = 683.0
 """Lumens per watt at the peak."""

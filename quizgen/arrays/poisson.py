@@ -11,11 +11,11 @@ import math
 
 import numpy as np
 
-from .domain import NONNEGATIVE, Array, Kernel, Numbers, Result, Rule
-from .gaussian_kernels import mills
-from .logarithm import ratio_excess
-from .polynomial import horner
-from .tables import STIRLING, TEMME
+from quizgen.arrays.domain import NONNEGATIVE, Array, Kernel, Numbers, Result, Rule
+from quizgen.arrays.gaussian_kernels import mills
+from quizgen.arrays.logarithm import ratio_excess
+from quizgen.arrays.polynomial import horner
+from quizgen.arrays.tables import STIRLING, TEMME
 
 _ROOT_TWO_PI = 2.5066282746310007
 _LARGEST = 2.0**900
