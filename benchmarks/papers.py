@@ -30,7 +30,7 @@ def memory() -> float:
 
 
 def made(seed: int, *, figures: bool = True):  # noqa: ANN201
-    from quizgen.bank import builtin
+    from quizgen.bank.folder import builtin
     from quizgen.blueprint import Blueprint, SlotRule
     from quizgen.exam import build
 
@@ -89,8 +89,8 @@ def stages(seeds: range) -> dict[str, float]:
 
 def draws_per_second() -> float:
     """Questions drawn and solved per CPU second, all trap checks included."""
-    from quizgen.bank import builtin
-    from quizgen.draw import draw
+    from quizgen.bank.draw import draw
+    from quizgen.bank.folder import builtin
 
     templates = [builtin().template(name) for name in FIGURES + PLAIN]
     for template in templates:

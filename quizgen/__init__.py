@@ -22,8 +22,8 @@ from importlib import import_module
 from typing import Any
 
 _HOMES = {
-    "Bank": "quizgen.bank",
-    "builtin": "quizgen.bank",
+    "Bank": "quizgen.bank.folder",
+    "builtin": "quizgen.bank.folder",
     "Model": "quizgen.maths.model",
     "Step": "quizgen.maths.model",
     "compose": "quizgen.question",

@@ -101,7 +101,7 @@ def _hold(session: Session, path: Path, options: dict[str, Any], words: dict[str
 
 
 def _bank(folder: Path | None) -> Any:
-    from quizgen.bank import Bank, builtin
+    from quizgen.bank.folder import Bank, builtin
 
     return Bank(folder) if folder else builtin()
 

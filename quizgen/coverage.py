@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-from quizgen.bank import Bank
+from quizgen.bank.folder import Bank
 
 
 def _numbered(letter: str, last: int, digits: int = 2) -> tuple[str, ...]:

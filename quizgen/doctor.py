@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from importlib.metadata import PackageNotFoundError, version
 from importlib.resources import files
 
-from quizgen.bank import builtin
+from quizgen.bank.folder import builtin
 from quizgen.errors import QuizgenError
 from quizgen.render import fonts
 

@@ -13,13 +13,13 @@ from fractions import Fraction
 from itertools import repeat
 from typing import Any
 
-from quizgen.bank import LANGUAGES, Bank
+from quizgen.bank.draw import Draw, draw
+from quizgen.bank.folder import LANGUAGES, Bank
+from quizgen.bank.prose import Block, CodeBlock
+from quizgen.bank.template import Template, minutes_of
 from quizgen.blueprint import EVERYTHING, Blueprint, SlotRule, load
-from quizgen.draw import Draw, draw
 from quizgen.errors import BlueprintError, CodeError, DrawError
 from quizgen.question import Key, Question, identity, instance, put_into_words
-from quizgen.template import Template, minutes_of
-from quizgen.text import Block, CodeBlock
 
 FORMAT = "quizgen-key/1"
 ENGINE = "1"

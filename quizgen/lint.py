@@ -16,17 +16,17 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from quizgen.bank import LANGUAGES
+from quizgen.bank.draw import Draw, draw, plan_of, reference
+from quizgen.bank.folder import LANGUAGES
+from quizgen.bank.prose import CodeBlock, Items, Paragraph, Table, slots
+from quizgen.bank.template import Template
+from quizgen.bank.traps import answer_names
 from quizgen.check import mark, show
-from quizgen.draw import Draw, draw, plan_of, reference
 from quizgen.errors import QuizgenError
 from quizgen.maths.numbers import to_float
 from quizgen.question import identity, put_into_words
 from quizgen.solution import key_field
 from quizgen.specs import build, plain
-from quizgen.template import Template
-from quizgen.text import CodeBlock, Items, Paragraph, Table, slots
-from quizgen.traps import answer_names
 
 COMPOSED = 20
 """Instances that are put into words in every language."""

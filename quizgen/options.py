@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 if TYPE_CHECKING:
-    from quizgen.bank import Bank
+    from quizgen.bank.folder import Bank
 
 
 def bank_options(command: Callable[..., Any]) -> Callable[..., Any]:
@@ -23,6 +23,6 @@ def bank_options(command: Callable[..., Any]) -> Callable[..., Any]:
 
 def open_bank(options: dict[str, Any]) -> Bank:
     """The bank that the options name."""
-    from quizgen.bank import Bank, builtin
+    from quizgen.bank.folder import Bank, builtin
 
     return Bank(options["bank"], trusted=options["trust"]) if options["bank"] else builtin()

@@ -12,15 +12,15 @@ from fractions import Fraction
 from typing import Any
 
 from quizgen import asking, solution, specs
-from quizgen.draw import Draw, draw, reference
+from quizgen.bank.draw import Draw, draw, reference
+from quizgen.bank.prose import Block, Inline
+from quizgen.bank.template import Template
+from quizgen.bank.traps import factor
 from quizgen.errors import BankError
 from quizgen.figures import Figure
 from quizgen.figures import render as render_figure
 from quizgen.maths.numbers import key_text, to_float
 from quizgen.solution import Solution
-from quizgen.template import Template
-from quizgen.text import Block, Inline
-from quizgen.traps import factor
 
 NBSP = "\u00a0"
 
@@ -215,7 +215,7 @@ def _lettered(
 
 def figure_values(drawn: Draw) -> dict[str, Any]:
     """Parameters of the template's figure, as floats in shown units (words stay words)."""
-    from quizgen.draw import plan_of
+    from quizgen.bank.draw import plan_of
     from quizgen.maths.tree import compile_expr, exact
 
     rule = drawn.template.rules.figure

@@ -15,7 +15,8 @@ from functools import lru_cache
 from typing import Any
 
 from quizgen import typeset
-from quizgen.draw import Draw, plan_of
+from quizgen.bank.draw import Draw, plan_of
+from quizgen.bank.prose import Block, CodeBlock, Inline, Slot, Table, Words, fill, fill_text
 from quizgen.errors import BankError
 from quizgen.locale import word
 from quizgen.maths.chain import ChainStep
@@ -34,7 +35,6 @@ from quizgen.maths.tree import (
 )
 from quizgen.maths.units import shown as unit_shown
 from quizgen.maths.units import unit
-from quizgen.text import Block, CodeBlock, Inline, Slot, Table, Words, fill, fill_text
 
 NBSP = "\u00a0"
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")

@@ -10,12 +10,12 @@ from collections.abc import Callable, Mapping
 from fractions import Fraction
 from typing import Any
 
-from quizgen.draw import Draw, plan_of, shuffled
+from quizgen.bank.draw import Draw, plan_of, shuffled
+from quizgen.bank.prose import Code, Formula, Slot, Styled, Words
+from quizgen.bank.traps import answer_names, factor
 from quizgen.errors import BankError
 from quizgen.maths.numbers import exact_text, key_text
 from quizgen.maths.tree import Num, compile_expr, exact, substitute
-from quizgen.text import Code, Formula, Slot, Styled, Words
-from quizgen.traps import answer_names, factor
 
 Spec = dict[str, Any]
 LETTERS = "ABCDEFGHIJKL"

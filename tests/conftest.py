@@ -7,7 +7,7 @@ import shutil
 
 import pytest
 
-from quizgen.bank import Bank, builtin
+from quizgen.bank.folder import Bank, builtin
 
 
 @pytest.fixture(scope="session")

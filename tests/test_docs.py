@@ -10,10 +10,10 @@ import pytest
 
 import quizgen
 from quizgen import typeset
+from quizgen.bank.template import Rules
 from quizgen.cli import COMMANDS, group
 from quizgen.locale import table
 from quizgen.maths import model
-from quizgen.template import Rules
 
 ROOT = Path(__file__).parent.parent
 

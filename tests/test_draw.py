@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from quizgen.bank import Bank, builtin_root
-from quizgen.draw import candidates, draw, pick, plan_of, shuffled
+from quizgen.bank.draw import candidates, draw, pick, plan_of, shuffled
+from quizgen.bank.folder import Bank, builtin_root
 from quizgen.errors import BankError, DrawError
 
 

@@ -8,9 +8,9 @@ import math
 import mpmath
 import pytest
 
-from quizgen.bank import LANGUAGES, builtin
+from quizgen.bank.draw import admissible, draw, plan_of
+from quizgen.bank.folder import LANGUAGES, builtin
 from quizgen.check import load_spec, mark, show
-from quizgen.draw import admissible, draw, plan_of
 from quizgen.lint import lint
 from quizgen.maths.numbers import to_float
 from quizgen.maths.tree import Call, Expr, Num, Sym

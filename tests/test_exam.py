@@ -21,7 +21,7 @@ from quizgen.render import KINDS, RENDERERS, render
 ROOT = Path(__file__).parent.parent
 SMALL = """
 import hashlib
-from quizgen.bank import builtin
+from quizgen.bank.folder import builtin
 from quizgen.blueprint import load
 from quizgen.exam import build, key_bytes
 from quizgen.render import render, KINDS, RENDERERS
@@ -112,7 +112,7 @@ def test_the_blank_form_asks_every_part(bank):
 def test_adding_a_template_changes_no_number_of_another(bank, tmp_path):
     import shutil
 
-    from quizgen.bank import Bank, builtin_root
+    from quizgen.bank.folder import Bank, builtin_root
 
     shutil.copytree(builtin_root() / "templates", tmp_path / "templates")
     source = bank.paths["A3"]

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from quizgen.bank import Bank
+from quizgen.bank.draw import admissible, draw, plan_of, reference
+from quizgen.bank.folder import Bank
 from quizgen.check import mark
-from quizgen.draw import admissible, draw, plan_of, reference
 from quizgen.maths.numbers import rational
 from quizgen.question import compose
 from quizgen.specs import build, plain

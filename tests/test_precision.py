@@ -8,7 +8,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from quizgen.draw import draw
+from quizgen.bank.draw import draw
 from quizgen.solution import precision_table
 
 

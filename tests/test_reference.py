@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from quizgen.draw import reference
+from quizgen.bank.draw import reference
 from quizgen.specs import build
 
 ROWS = [

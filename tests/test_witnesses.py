@@ -8,8 +8,8 @@ from fractions import Fraction
 
 import pytest
 
+from quizgen.bank.draw import draw, reference
 from quizgen.check import mark
-from quizgen.draw import draw, reference
 from quizgen.specs import build
 
 

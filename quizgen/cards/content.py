@@ -13,9 +13,9 @@ from typing import Any, Literal, TypeVar
 
 import msgspec
 
+from quizgen.bank.prose import Block, Formula, Inline, Slot, blocks, fill, inlines
 from quizgen.cards.equations import inline
 from quizgen.errors import BankError
-from quizgen.text import Block, Formula, Inline, Slot, blocks, fill, inlines
 
 Tier = Literal["A", "B", "C", "D"]
 

@@ -8,7 +8,7 @@ from functools import cached_property
 from importlib import import_module
 from typing import Any
 
-from quizgen.bank import Bank, builtin
+from quizgen.bank.folder import Bank, builtin
 from quizgen.cards.kinds import KINDS
 from quizgen.cards.note import Note
 from quizgen.errors import BankError

@@ -14,7 +14,8 @@ from typing import Literal
 
 import msgspec
 
-from quizgen.bank import Bank
+from quizgen.bank.folder import Bank
+from quizgen.bank.prose import Paragraph, Words
 from quizgen.blueprint import load
 from quizgen.cards.content import words
 from quizgen.cards.deck import Deck
@@ -25,7 +26,6 @@ from quizgen.cards.versions import template_version
 from quizgen.errors import KeyFileError
 from quizgen.exam import REFERENCE, Item, Paper, languages, parse_code, rebuild
 from quizgen.question import Key, put_into_words
-from quizgen.text import Paragraph, Words
 
 LOOKED_AT = frozenset({"wrong", "partial", "blank"})
 """What becomes a card; an answer that could not be read is not a mistake."""

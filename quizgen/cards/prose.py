@@ -1,6 +1,6 @@
 r"""What stands on a card, written as HTML with MathJax or as plain text.
 
-The blocks of ``quizgen.text`` are used as they are; a card adds five of its own: a worked line, a
+The blocks of ``quizgen.bank.prose`` are used as they are; a card adds five of its own: a worked line, a
 picture, a formula with a hidden side, a part that folds, and a label.
 """
 
@@ -15,9 +15,9 @@ from html import escape
 from typing import Any, TypeGuard
 
 from quizgen import typeset
+from quizgen.bank.prose import Code, CodeBlock, Items, Paragraph, Styled, Table, Words
 from quizgen.figures import Figure
 from quizgen.solution import Maths
-from quizgen.text import Code, CodeBlock, Items, Paragraph, Styled, Table, Words
 from quizgen.typeset.nodes import RELATION, Node, Row
 
 _TITLE = re.compile(rb"<title>.*?</title>", re.DOTALL)

@@ -18,9 +18,9 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from quizgen.bank.template import Template
 from quizgen.cards.content import read
 from quizgen.cards.note import Note
-from quizgen.template import Template
 
 BASE = 1_577_836_800
 """Modification time of version 0, 1 January 2020: earlier than any change a learner makes."""
@@ -73,7 +73,7 @@ def digest_of(note: Note) -> str:
 
 def current() -> dict[str, str]:
     """Digest of every note and note type as the content stands now, in both languages."""
-    from quizgen.bank import builtin
+    from quizgen.bank.folder import builtin
     from quizgen.cards import looks
     from quizgen.cards.deck import build
 

@@ -10,11 +10,11 @@ import jinja2
 from markupsafe import Markup, escape
 
 from quizgen import typeset
+from quizgen.bank.prose import Code, CodeBlock, Items, Paragraph, Styled, Table, Words
 from quizgen.exam import Paper
 from quizgen.locale import marks, word
 from quizgen.render import fonts
 from quizgen.solution import Maths
-from quizgen.text import Code, CodeBlock, Items, Paragraph, Styled, Table, Words
 
 
 def inline(parts: Any, lang: str) -> Markup:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from quizgen.bank.prose import Code, CodeBlock, Items, Paragraph, Styled, Table, Words
 from quizgen.exam import Item
 from quizgen.locale import word
 from quizgen.solution import Maths, PartSolution
-from quizgen.text import Code, CodeBlock, Items, Paragraph, Styled, Table, Words
 
 
 def inline(parts: Any) -> str:

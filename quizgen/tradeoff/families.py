@@ -82,7 +82,7 @@ class Family:
 
 def _flat(solver: str, quantity: str) -> Expr:
     """One formula from given quantities to a quantity of a solver's chain."""
-    from quizgen.bank import solver_module
+    from quizgen.bank.folder import solver_module
 
     known: dict[str, Expr] = {}
     for step in solver_module(solver).MODEL.chain().steps:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from quizgen.bank.draw import draw
 from quizgen.camera import Camera, Length, Scene, Thing, plan
-from quizgen.draw import draw
 from quizgen.specs import build, display
 
 EFFECTS = {

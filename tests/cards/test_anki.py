@@ -8,9 +8,9 @@ from dataclasses import replace
 import pytest
 from anki.collection import ImportAnkiPackageOptions, ImportAnkiPackageRequest
 
+from quizgen.bank.prose import Paragraph, Words
 from quizgen.cards import apkg, build, looks
 from quizgen.cards.apkg import package
-from quizgen.text import Paragraph, Words
 
 GOOD = 3
 

@@ -20,11 +20,11 @@ from xml.etree import ElementTree as ET
 import pytest
 from click.testing import CliRunner
 
+from quizgen.bank.prose import Paragraph, Words
 from quizgen.cards import build
 from quizgen.cards.tables import COLUMNS, HEADER, as_csv, tsv
 from quizgen.cards.versions import BASE, STEP, modified, raised
 from quizgen.cli import group
-from quizgen.text import Paragraph, Words
 
 ROOT = Path(__file__).parent.parent.parent
 SCRIPT = """

@@ -8,7 +8,7 @@ import pytest
 from click.testing import CliRunner
 
 from quizgen import cli_practice as practice
-from quizgen.bank import builtin
+from quizgen.bank.folder import builtin
 from quizgen.check import show
 from quizgen.check.messages import LANGUAGES, practice_words
 from quizgen.cli_check import practice as command

@@ -8,7 +8,7 @@ from fractions import Fraction
 import pytest
 
 from quizgen import specs
-from quizgen.bank import builtin
+from quizgen.bank.folder import builtin
 from quizgen.check import load_spec, mark, show
 from quizgen.question import instance
 

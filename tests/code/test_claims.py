@@ -9,9 +9,9 @@ import cv2
 import numpy as np
 import pytest
 
+from quizgen.bank.prose import CodeBlock
 from quizgen.question import compose
 from quizgen.specs import display
-from quizgen.text import CodeBlock
 
 SEEDS = ["reference", *range(8)]
 

@@ -14,10 +14,10 @@ from fractions import Fraction
 
 import pytest
 
-from quizgen.bank import builtin
+from quizgen.bank.folder import builtin
+from quizgen.bank.prose import CodeBlock
 from quizgen.check.kinds.code import folded
 from quizgen.question import compose
-from quizgen.text import CodeBlock
 
 SEEDS = ["reference", *range(12)]
 CODE = [name for name in builtin().paths if builtin().rules(name).topic == "code"]

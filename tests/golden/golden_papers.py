@@ -12,7 +12,7 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
-from quizgen.bank import builtin
+from quizgen.bank.folder import builtin
 from quizgen.blueprint import load
 from quizgen.cards import build as build_deck
 from quizgen.cards.tables import tsv

@@ -5,11 +5,11 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Iterator, Sequence
 
+from quizgen.bank.prose import Paragraph, Styled, Words
 from quizgen.cards.content import Term, entries, passage, sentence, words
 from quizgen.cards.deck import Wish
 from quizgen.cards.note import Blocks, Note
 from quizgen.cards.prose import Label
-from quizgen.text import Paragraph, Styled, Words
 
 LETTERS = "ABCD"
 

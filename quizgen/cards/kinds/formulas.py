@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from quizgen import typeset
+from quizgen.bank.prose import Paragraph
 from quizgen.cards.content import FormulaEntry, entries, passage, sentence
 from quizgen.cards.deck import Wish
 from quizgen.cards.equations import sides
@@ -12,7 +13,6 @@ from quizgen.cards.note import Note
 from quizgen.cards.prose import Hole
 from quizgen.errors import BankError
 from quizgen.solution import Maths
-from quizgen.text import Paragraph
 from quizgen.typeset.nodes import Row
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from quizgen.bank.prose import Items, Paragraph, Styled, Words
+from quizgen.bank.template import Template
 from quizgen.cards.content import entries, words
 from quizgen.cards.deck import Wish
 from quizgen.cards.note import Blocks, Note
@@ -13,8 +15,6 @@ from quizgen.cards.versions import template_version
 from quizgen.locale import word
 from quizgen.question import Key, Part, Question, instance, put_into_words
 from quizgen.solution import PartSolution
-from quizgen.template import Template
-from quizgen.text import Items, Paragraph, Styled, Words
 
 SLOT = "card"
 """The place of a card in the draw: the same for every template, so only the seed changes it."""

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from quizgen.bank.prose import Paragraph, Styled, Words
 from quizgen.cards.content import Statement, entries, passage, words
 from quizgen.cards.deck import Wish
 from quizgen.cards.note import Blocks, Note
 from quizgen.cards.prose import Label
-from quizgen.text import Paragraph, Styled, Words
 
 
 def notes(wish: Wish) -> Iterator[Note]:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from quizgen.bank.prose import Paragraph
 from quizgen.cards.content import entries, passage, sentence
 from quizgen.cards.deck import Wish
 from quizgen.cards.note import Note
-from quizgen.text import Paragraph
 
 
 def notes(wish: Wish) -> Iterator[Note]:

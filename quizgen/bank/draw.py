@@ -19,11 +19,11 @@ from typing import Any
 import flint
 from flint import fmpq
 
+from quizgen.bank.template import KeepRule, Template
+from quizgen.bank.traps import PartPlan, factor
 from quizgen.errors import DrawError, MathError
 from quizgen.maths.numbers import places, rational, to_float
 from quizgen.maths.tree import PRECISION, Compiled, compile_expr, exact, names
-from quizgen.template import KeepRule, Template
-from quizgen.traps import PartPlan, factor
 
 MAX_TRIES = 5000
 """Tries before a template is called impossible."""

@@ -14,12 +14,12 @@ from typing import Any
 
 from flint import fmpq
 
+from quizgen.bank.template import Template
 from quizgen.errors import BankError
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.numbers import rational, to_float
 from quizgen.maths.tree import Compiled, compile_expr, floats
 from quizgen.maths.units import unit
-from quizgen.template import Template
 
 TIE_MARGIN = 0.02
 """A value closer than this (in units of the asked decimal) to a rounding tie is redrawn."""

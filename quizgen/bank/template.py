@@ -112,7 +112,7 @@ class Template:
         The checked content of ``template.toml``.
     chain : Chain
         Steps and traps of the solver; empty for questions without a computation.
-    texts : mapping of str to quizgen.text.Text
+    texts : mapping of str to quizgen.bank.prose.Text
         Language to its parsed prose.
     digest : str
         Changes whenever any file behind the template changes.

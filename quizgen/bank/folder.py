@@ -14,10 +14,10 @@ from functools import cache, cached_property
 from pathlib import Path
 from types import ModuleType
 
+from quizgen.bank.prose import Text, read_text
+from quizgen.bank.template import Rules, Template, check_against_chain, digest_of, read_rules
 from quizgen.errors import BankError, QuizgenError
 from quizgen.maths.chain import Chain
-from quizgen.template import Rules, Template, check_against_chain, digest_of, read_rules
-from quizgen.text import Text, read_text
 
 LANGUAGES = ("en", "bn")
 """Languages every built-in template is written in."""
@@ -25,8 +25,9 @@ LANGUAGES = ("en", "bn")
 
 def builtin_root() -> Path:
     """Folder of the built-in bank: inside the installed package, else the checkout."""
-    installed = Path(__file__).parent / "builtin"
-    return installed if installed.is_dir() else Path(__file__).parent.parent
+    package = Path(__file__).parent.parent
+    installed = package / "builtin"
+    return installed if installed.is_dir() else package.parent
 
 
 def mount(folder: Path, name: str) -> ModuleType:
