@@ -31,8 +31,8 @@ def memory() -> float:
 
 def made(seed: int, *, figures: bool = True):  # noqa: ANN201
     from quizgen.bank.folder import builtin
-    from quizgen.blueprint import Blueprint, SlotRule
-    from quizgen.exam import build
+    from quizgen.paper.blueprint import Blueprint, SlotRule
+    from quizgen.paper.paper import build
 
     slots = tuple(SlotRule(templates=(name,)) for name in FIGURES + PLAIN)
     return build(builtin(), Blueprint({"en": "Benchmark"}, slots, name="bench"), seed, "en",
@@ -41,7 +41,7 @@ def made(seed: int, *, figures: bool = True):  # noqa: ANN201
 
 def paper_bytes(seed: int) -> int:
     """Everything that ``quizgen exam`` writes, as a number of bytes."""
-    from quizgen.exam import form_bytes, key_bytes
+    from quizgen.paper.paper import form_bytes, key_bytes
     from quizgen.render import KINDS, RENDERERS, render
 
     paper = made(seed)

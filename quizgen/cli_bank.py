@@ -57,7 +57,7 @@ def _print_coverage(bank: Any) -> None:
 @bank_options
 def preview(name: str, **options: Any) -> None:
     """Show one question with its key and worked solution."""
-    from quizgen.exam import single
+    from quizgen.paper.paper import single
     from quizgen.render.text import question_text
 
     template = open_bank(options).template(name)

@@ -27,8 +27,8 @@ def check(key: Path, answers: tuple[Path, ...], lang: str | None, **flags: bool)
     One form prints a table with the mistake found in each part; several forms print CSV: marks and
     notes per part, one line per student.
     """
-    from quizgen.check.keyfile import read_answers, read_key
-    from quizgen.check.paper import check_paper
+    from quizgen.paper.key import read_answers, read_key
+    from quizgen.paper.marking import check_paper
 
     paper = read_key(key)
     results = []
@@ -57,7 +57,7 @@ def _same_paper(path: Path, own: str, code: str) -> None:
 
 
 def _print(results: list[tuple[str, str, str, Any]], *, as_json: bool, as_csv: bool) -> None:
-    from quizgen.check.report import class_csv, table_lines
+    from quizgen.paper.report import class_csv, table_lines
 
     if as_json:
         import json

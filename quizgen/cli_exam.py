@@ -13,7 +13,7 @@ from quizgen.errors import CodeError
 from quizgen.options import bank_options, open_bank
 
 if TYPE_CHECKING:
-    from quizgen.exam import Paper
+    from quizgen.paper.paper import Paper
 
 KEY, FORM = "key.json", "answers.toml"
 
@@ -36,8 +36,8 @@ KEY, FORM = "key.json", "answers.toml"
 @bank_options
 def exam(**options: Any) -> None:
     """Make a mock exam with worked solutions, answer key and a blank answer form."""
-    from quizgen.exam import form_bytes, key_bytes
     from quizgen.files import write_all
+    from quizgen.paper.paper import form_bytes, key_bytes
 
     formats = _formats(options["formats"])
     paper = _paper(options)
@@ -63,7 +63,7 @@ def _formats(text: str) -> list[str]:
 
 
 def _paper(options: dict[str, Any]) -> Paper:
-    from quizgen.exam import build, rebuild, reference_paper
+    from quizgen.paper.paper import build, rebuild, reference_paper
 
     bank = open_bank(options)
     blueprint = _blueprint(options)
@@ -80,7 +80,7 @@ def _paper(options: dict[str, Any]) -> Paper:
 
 
 def _blueprint(options: dict[str, Any]) -> Any:
-    from quizgen.blueprint import EVERYTHING, load, of_topic, topics
+    from quizgen.paper.blueprint import EVERYTHING, load, of_topic, topics
 
     topic, minutes = options["topic"], options["minutes"]
     if topic is None and minutes is None:

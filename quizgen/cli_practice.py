@@ -13,10 +13,10 @@ from typing import Any
 import click
 import msgspec
 
-from quizgen.check.keyfile import KeyChain, KeyPart, KeyQuestion
 from quizgen.check.messages import practice_words
 from quizgen.check.options import Options
-from quizgen.check.paper import SELF_MARKED, Marker, PartResult
+from quizgen.paper.key import KeyChain, KeyPart, KeyQuestion
+from quizgen.paper.marking import SELF_MARKED, Marker, PartResult
 
 TRIES = 3
 COLOURS = {"correct": "green", "partial": "yellow", "wrong": "red"}
@@ -129,7 +129,7 @@ def _choose(templates: list[Any], seed: str, number: int) -> Any:
 def _question(
     template: Any, number: int, session: Session, options: dict[str, Any], words: dict[str, str]
 ) -> Iterator[Outcome]:
-    from quizgen.question import compose
+    from quizgen.question.compose import compose
     from quizgen.render.text import blocks
 
     lang = options["lang"]

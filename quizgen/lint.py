@@ -24,9 +24,9 @@ from quizgen.bank.traps import answer_names
 from quizgen.check import mark, show
 from quizgen.errors import QuizgenError
 from quizgen.maths.numbers import to_float
-from quizgen.question import identity, put_into_words
-from quizgen.solution import key_field
-from quizgen.specs import build, plain
+from quizgen.question.compose import identity, put_into_words
+from quizgen.question.solution import key_field
+from quizgen.question.specs import build, plain
 
 COMPOSED = 20
 """Instances that are put into words in every language."""

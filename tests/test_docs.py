@@ -85,7 +85,7 @@ def test_nothing_in_the_repository_names_a_machine():
 
 
 def test_every_option_of_exam_and_key_of_blueprints_is_documented():
-    from quizgen.blueprint import Blueprint, SlotRule
+    from quizgen.paper.blueprint import Blueprint, SlotRule
 
     text = (ROOT / "docs" / "papers.md").read_text(encoding="utf-8")
     for option in group.get_command(None, "exam").params:

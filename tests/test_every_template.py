@@ -14,7 +14,7 @@ from quizgen.check import load_spec, mark, show
 from quizgen.lint import lint
 from quizgen.maths.numbers import to_float
 from quizgen.maths.tree import Call, Expr, Num, Sym
-from quizgen.specs import build
+from quizgen.question.specs import build
 
 NAMES = list(builtin().paths)
 SEEDS = 200

@@ -13,17 +13,17 @@ from pathlib import Path
 
 import pytest
 
-from quizgen.blueprint import Blueprint, SlotRule, load, shipped
 from quizgen.errors import BlueprintError, CodeError
-from quizgen.exam import build, form_bytes, key_bytes, parse_code, rebuild, reference_paper
+from quizgen.paper.blueprint import Blueprint, SlotRule, load, shipped
+from quizgen.paper.paper import build, form_bytes, key_bytes, parse_code, rebuild, reference_paper
 from quizgen.render import KINDS, RENDERERS, render
 
 ROOT = Path(__file__).parent.parent
 SMALL = """
 import hashlib
 from quizgen.bank.folder import builtin
-from quizgen.blueprint import load
-from quizgen.exam import build, key_bytes
+from quizgen.paper.blueprint import load
+from quizgen.paper.paper import build, key_bytes
 from quizgen.render import render, KINDS, RENDERERS
 paper = build(builtin(), load("trial"), 5, "both")
 print(paper.code)

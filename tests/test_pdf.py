@@ -7,8 +7,8 @@ import io
 import pikepdf
 import pytest
 
-from quizgen.blueprint import load
-from quizgen.exam import build
+from quizgen.paper.blueprint import load
+from quizgen.paper.paper import build
 from quizgen.render import KINDS, render
 
 

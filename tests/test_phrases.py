@@ -11,8 +11,8 @@ from quizgen.bank.draw import admissible, draw, plan_of, reference
 from quizgen.bank.folder import Bank
 from quizgen.check import mark
 from quizgen.maths.numbers import rational
-from quizgen.question import compose
-from quizgen.specs import build, plain
+from quizgen.question.compose import compose
+from quizgen.question.specs import build, plain
 
 SIZES = """
 topic = "projection"

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from quizgen.bank.draw import reference
-from quizgen.specs import build
+from quizgen.question.specs import build
 
 ROWS = [
     {**row, "file": path.name}

@@ -10,7 +10,7 @@ import pytest
 
 from quizgen.bank.draw import draw, reference
 from quizgen.check import mark
-from quizgen.specs import build
+from quizgen.question.specs import build
 
 
 def spec_of(bank, name, seed="reference", part=0):

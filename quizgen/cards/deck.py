@@ -12,8 +12,8 @@ from quizgen.bank.folder import Bank, builtin
 from quizgen.cards.kinds import KINDS
 from quizgen.cards.note import Note
 from quizgen.errors import BankError
-from quizgen.exam import languages
 from quizgen.locale import table
+from quizgen.paper.paper import languages
 
 SEED = 0
 

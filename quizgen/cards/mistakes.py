@@ -16,7 +16,6 @@ import msgspec
 
 from quizgen.bank.folder import Bank
 from quizgen.bank.prose import Paragraph, Words
-from quizgen.blueprint import load
 from quizgen.cards.content import words
 from quizgen.cards.deck import Deck
 from quizgen.cards.kinds.question import Pair, answer, front, once, section_of, shared
@@ -24,8 +23,9 @@ from quizgen.cards.note import Blocks, Note
 from quizgen.cards.prose import Label
 from quizgen.cards.versions import template_version
 from quizgen.errors import KeyFileError
-from quizgen.exam import REFERENCE, Item, Paper, languages, parse_code, rebuild
-from quizgen.question import Key, put_into_words
+from quizgen.paper.blueprint import load
+from quizgen.paper.paper import REFERENCE, Item, Paper, languages, parse_code, rebuild
+from quizgen.question.compose import Key, put_into_words
 
 LOOKED_AT = frozenset({"wrong", "partial", "blank"})
 """What becomes a card; an answer that could not be read is not a mistake."""

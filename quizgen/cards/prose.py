@@ -1,7 +1,7 @@
 r"""What stands on a card, written as HTML with MathJax or as plain text.
 
-The blocks of ``quizgen.bank.prose`` are used as they are; a card adds five of its own: a worked line, a
-picture, a formula with a hidden side, a part that folds, and a label.
+The blocks of ``quizgen.bank.prose`` are used as they are; a card adds five of its own: a worked
+line, a picture, a formula with a hidden side, a part that folds, and a label.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from typing import Any, TypeGuard
 from quizgen import typeset
 from quizgen.bank.prose import Code, CodeBlock, Items, Paragraph, Styled, Table, Words
 from quizgen.figures import Figure
-from quizgen.solution import Maths
+from quizgen.question.solution import Maths
 from quizgen.typeset.nodes import RELATION, Node, Row
 
 _TITLE = re.compile(rb"<title>.*?</title>", re.DOTALL)

@@ -1,4 +1,4 @@
-"""Checking typed answers: ``mark`` for one answer, ``quizgen.check.paper`` for whole papers.
+"""Checking typed answers: ``mark`` for one answer, ``quizgen.paper.marking`` for whole papers.
 
 A spec is a plain table with ``kind``; ``docs/answers.md`` documents every kind and field. What a
 student types never raises: it becomes a ``Verdict``. Neither SymPy nor NumPy is imported.

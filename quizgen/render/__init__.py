@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from importlib import import_module
 
-from quizgen.exam import Paper
+from quizgen.paper.paper import Paper
 
 KINDS = ("exam", "solutions")
 

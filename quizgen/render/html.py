@@ -11,10 +11,10 @@ from markupsafe import Markup, escape
 
 from quizgen import typeset
 from quizgen.bank.prose import Code, CodeBlock, Items, Paragraph, Styled, Table, Words
-from quizgen.exam import Paper
 from quizgen.locale import marks, word
+from quizgen.paper.paper import Paper
+from quizgen.question.solution import Maths
 from quizgen.render import fonts
-from quizgen.solution import Maths
 
 
 def inline(parts: Any, lang: str) -> Markup:

@@ -12,11 +12,11 @@ from typing import Any, Final
 from quizgen import typeset
 from quizgen.bank.prose import Code, CodeBlock, Items, Paragraph, Styled, Table, Words
 from quizgen.errors import RenderError
-from quizgen.exam import Item, Paper
 from quizgen.locale import marks, word
-from quizgen.question import Field, Part, Question
+from quizgen.paper.paper import Item, Paper
+from quizgen.question.compose import Field, Part, Question
+from quizgen.question.solution import Line, Maths, PartSolution, Solution
 from quizgen.render import fonts
-from quizgen.solution import Line, Maths, PartSolution, Solution
 
 STANDARD: Final = "ua-1"
 MOMENT = datetime(2000, 1, 1, tzinfo=UTC)

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from typing import Any
 
 from quizgen.bank.prose import Code, CodeBlock, Items, Paragraph, Styled, Table, Words
-from quizgen.exam import Item
 from quizgen.locale import word
-from quizgen.solution import Maths, PartSolution
+from quizgen.paper.paper import Item
+from quizgen.question.solution import Maths, PartSolution
 
 
 def inline(parts: Any) -> str:

@@ -6,7 +6,7 @@ import pytest
 
 from quizgen.bank.draw import draw
 from quizgen.camera import Camera, Length, Scene, Thing, plan
-from quizgen.specs import build, display
+from quizgen.question.specs import build, display
 
 EFFECTS = {
     "defocus": "defocus",

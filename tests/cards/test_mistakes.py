@@ -7,12 +7,12 @@ import json
 import pytest
 from click.testing import CliRunner
 
-from quizgen.blueprint import load
 from quizgen.cards.mistakes import from_marks
-from quizgen.check.paper import check_paper
 from quizgen.cli import group
 from quizgen.errors import CodeError, KeyFileError
-from quizgen.exam import build, key_table
+from quizgen.paper.blueprint import load
+from quizgen.paper.marking import check_paper
+from quizgen.paper.paper import build, key_table
 
 BLUEPRINT = """
 [title]

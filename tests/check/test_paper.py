@@ -11,11 +11,11 @@ import pytest
 from click.testing import CliRunner
 
 from quizgen.check.batch import marked
-from quizgen.check.keyfile import read_answers, read_key
-from quizgen.check.paper import check_paper, in_quarters
 from quizgen.cli_check import check as check_command
 from quizgen.cli_check import mark as mark_command
 from quizgen.errors import KeyFileError
+from quizgen.paper.key import read_answers, read_key
+from quizgen.paper.marking import check_paper, in_quarters
 
 CHAIN = {
     "given": {

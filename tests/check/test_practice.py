@@ -12,7 +12,7 @@ from quizgen.bank.folder import builtin
 from quizgen.check import show
 from quizgen.check.messages import LANGUAGES, practice_words
 from quizgen.cli_check import practice as command
-from quizgen.question import compose
+from quizgen.question.compose import compose
 
 
 @pytest.fixture(autouse=True)

@@ -7,10 +7,10 @@ from fractions import Fraction
 
 import pytest
 
-from quizgen import specs
 from quizgen.bank.folder import builtin
 from quizgen.check import load_spec, mark, show
-from quizgen.question import instance
+from quizgen.question import specs
+from quizgen.question.compose import instance
 
 SEEDS = 500
 BANGLA = str.maketrans("0123456789", "০১২৩৪৫৬৭৮৯")

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from quizgen.bank.prose import CodeBlock
-from quizgen.question import compose
-from quizgen.specs import display
+from quizgen.question.compose import compose
+from quizgen.question.specs import display
 
 SEEDS = ["reference", *range(8)]
 

@@ -17,7 +17,7 @@ import pytest
 from quizgen.bank.folder import builtin
 from quizgen.bank.prose import CodeBlock
 from quizgen.check.kinds.code import folded
-from quizgen.question import compose
+from quizgen.question.compose import compose
 
 SEEDS = ["reference", *range(12)]
 CODE = [name for name in builtin().paths if builtin().rules(name).topic == "code"]

@@ -7,7 +7,7 @@ import pytest
 from quizgen.bank.draw import draw
 from quizgen.camera import luminosity
 from quizgen.figures import artefacts, depth_of_field, noise
-from quizgen.specs import build, display
+from quizgen.question.specs import build, display
 
 SEEDS = range(60)
 NAMES = {

@@ -13,11 +13,11 @@ from dataclasses import replace
 from pathlib import Path
 
 from quizgen.bank.folder import builtin
-from quizgen.blueprint import load
 from quizgen.cards import build as build_deck
 from quizgen.cards.tables import tsv
-from quizgen.exam import Paper, build, form_bytes, key_bytes
-from quizgen.question import compose
+from quizgen.paper.blueprint import load
+from quizgen.paper.paper import Paper, build, form_bytes, key_bytes
+from quizgen.question.compose import compose
 from quizgen.render import KINDS, RENDERERS, render
 
 STORED = Path(__file__).with_name("digests.tsv")

@@ -12,7 +12,7 @@ from quizgen.cards.equations import sides
 from quizgen.cards.note import Note
 from quizgen.cards.prose import Hole
 from quizgen.errors import BankError
-from quizgen.solution import Maths
+from quizgen.question.solution import Maths
 from quizgen.typeset.nodes import Row
 
 

@@ -13,8 +13,8 @@ from quizgen.cards.note import Blocks, Note
 from quizgen.cards.prose import Display, Fold, Label, Picture, Said
 from quizgen.cards.versions import template_version
 from quizgen.locale import word
-from quizgen.question import Key, Part, Question, instance, put_into_words
-from quizgen.solution import PartSolution
+from quizgen.question.compose import Key, Part, Question, instance, put_into_words
+from quizgen.question.solution import PartSolution
 
 SLOT = "card"
 """The place of a card in the draw: the same for every template, so only the seed changes it."""

@@ -93,7 +93,7 @@ def trap_values(drawn: Draw, index: int) -> dict[str, list[Any]]:
 
 def _sentences(drawn: Draw, index: int) -> dict[str, dict[str, str]]:
     """What to tell whoever fell into a trap, as plain text in every language."""
-    from quizgen.solution import sentence
+    from quizgen.question.solution import sentence
 
     texts = drawn.template.texts
     return {
@@ -156,7 +156,7 @@ def _table(drawn: Draw, index: int, answer: Mapping[str, Any]) -> Spec:
 
 
 def _plain_text(drawn: Draw, name: str) -> str:
-    from quizgen.solution import sentence
+    from quizgen.question.solution import sentence
 
     return plain(sentence(drawn, drawn.template.languages[0], "options", name))
 
@@ -246,7 +246,7 @@ def _synonyms(drawn: Draw, name: str) -> list[str]:
 
 def _code(drawn: Draw, _index: int, answer: Mapping[str, Any]) -> Spec:
     """Printed output and wrong outputs, with the drawn values in place."""
-    from quizgen.solution import in_program, sentence
+    from quizgen.question.solution import in_program, sentence
 
     wrong = {t: in_program(str(text), drawn) for t, text in answer.get("traps", {}).items()}
     spec: Spec = {"output": in_program(str(answer["output"]), drawn)}

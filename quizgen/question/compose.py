@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from quizgen import asking, solution, specs
 from quizgen.bank.draw import Draw, draw, reference
 from quizgen.bank.prose import Block, Inline
 from quizgen.bank.template import Template
@@ -20,7 +19,8 @@ from quizgen.errors import BankError
 from quizgen.figures import Figure
 from quizgen.figures import render as render_figure
 from quizgen.maths.numbers import key_text, to_float
-from quizgen.solution import Solution
+from quizgen.question import hints, solution, specs
+from quizgen.question.solution import Solution
 
 NBSP = "\u00a0"
 
@@ -199,7 +199,7 @@ def _field(drawn: Draw, lang: str, index: int, name: str, spec: Mapping[str, Any
     return Field(
         id=name,
         kind=str(spec["kind"]),
-        hints=asking.hints(answer, spec, lang),
+        hints=hints.hints(answer, spec, lang),
         options=_lettered(drawn, lang, options),
         targets=_lettered(drawn, lang, targets),
     )

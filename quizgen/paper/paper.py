@@ -17,9 +17,9 @@ from quizgen.bank.draw import Draw, draw
 from quizgen.bank.folder import LANGUAGES, Bank
 from quizgen.bank.prose import Block, CodeBlock
 from quizgen.bank.template import Template, minutes_of
-from quizgen.blueprint import EVERYTHING, Blueprint, SlotRule, load
 from quizgen.errors import BlueprintError, CodeError, DrawError
-from quizgen.question import Key, Question, identity, instance, put_into_words
+from quizgen.paper.blueprint import EVERYTHING, Blueprint, SlotRule, load
+from quizgen.question.compose import Key, Question, identity, instance, put_into_words
 
 FORMAT = "quizgen-key/1"
 ENGINE = "1"

@@ -251,7 +251,7 @@ def _fraction(value: Any) -> Fraction:
 
 
 def _part(drawn: Draw, lang: str, index: int, spec: Mapping[str, Any]) -> PartSolution:
-    from quizgen.specs import display
+    from quizgen.question.specs import display
 
     plan = plan_of(drawn.template).parts[index]
     shown_names = drawn.template.rules.part[index].show

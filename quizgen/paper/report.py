@@ -10,7 +10,7 @@ from fractions import Fraction
 
 from quizgen.check.echo import safe
 from quizgen.check.messages import words
-from quizgen.check.paper import PaperResult, PartResult
+from quizgen.paper.marking import PaperResult, PartResult
 
 COLOURS = {
     "correct": "green",

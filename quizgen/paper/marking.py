@@ -10,12 +10,12 @@ from typing import Any
 
 from quizgen.check import explained, judge, load_spec
 from quizgen.check.diagnosis import base_factor
-from quizgen.check.keyfile import Key, KeyPart, KeyQuestion, load_key
 from quizgen.check.kinds import table as table_kind
 from quizgen.check.options import Context, Options
 from quizgen.check.specs import Spec
 from quizgen.check.verdict import Verdict
 from quizgen.errors import FormulaError, KeyFileError
+from quizgen.paper.key import Key, KeyPart, KeyQuestion, load_key
 
 QUARTER = Fraction(1, 4)
 """Marks are given in quarters of a point."""
