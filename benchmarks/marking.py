@@ -12,7 +12,7 @@ from typing import Any
 
 from flint import fmpq
 
-from quizgen.check import Context, mark
+from quizgen.marking.mark import Context, mark
 from quizgen.maths.chain import Chain, ChainStep
 from quizgen.maths.notation import parse
 

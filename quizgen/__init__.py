@@ -31,8 +31,8 @@ _HOMES = {
     "rebuild": "quizgen.paper.paper",
     "load": "quizgen.paper.blueprint",
     "render_paper": "quizgen.render",
-    "mark": "quizgen.check",
-    "show": "quizgen.check",
+    "mark": "quizgen.marking.mark",
+    "show": "quizgen.marking.mark",
     "lint_template": "quizgen.lint",
     "QuizgenError": "quizgen.errors",
 }

@@ -100,7 +100,7 @@ def mark(spec: str | None, typed: str | None, *, batch: bool, **options: Any) ->
         raise click.UsageError("give SPEC and TYPED, or --batch")
     import json
 
-    from quizgen.check import mark as mark_one
+    from quizgen.marking.mark import mark as mark_one
 
     verdict = mark_one(_inline(spec), typed, **options)
     click.echo(json.dumps(verdict.as_json(), ensure_ascii=False))
@@ -119,7 +119,7 @@ def _inline(text: str) -> dict[str, Any]:
 
 
 def _batch() -> None:
-    from quizgen.check.batch import marked
+    from quizgen.marking.batch import marked
 
     out = sys.stdout.buffer
     for line in marked(sys.stdin.buffer):

@@ -13,8 +13,8 @@ from typing import Any
 import click
 import msgspec
 
-from quizgen.check.messages import practice_words
-from quizgen.check.options import Options
+from quizgen.marking.messages import practice_words
+from quizgen.marking.options import Options
 from quizgen.paper.key import KeyChain, KeyPart, KeyQuestion
 from quizgen.paper.marking import SELF_MARKED, Marker, PartResult
 

@@ -21,8 +21,8 @@ from quizgen.bank.folder import LANGUAGES
 from quizgen.bank.prose import CodeBlock, Items, Paragraph, Table, slots
 from quizgen.bank.template import Template
 from quizgen.bank.traps import answer_names
-from quizgen.check import mark, show
 from quizgen.errors import QuizgenError
+from quizgen.marking.mark import mark, show
 from quizgen.maths.numbers import to_float
 from quizgen.question.compose import identity, put_into_words
 from quizgen.question.solution import key_field

@@ -64,7 +64,7 @@ def test_a_filled_in_form_is_never_overwritten(made, tmp_path):
 
 
 def test_the_printed_answers_get_full_marks(made):
-    from quizgen.check import show
+    from quizgen.marking.mark import show
 
     folder, _ = made
     key = json.loads((folder / "exam" / "key.json").read_text())

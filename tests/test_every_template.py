@@ -10,8 +10,8 @@ import pytest
 
 from quizgen.bank.draw import admissible, draw, plan_of
 from quizgen.bank.folder import LANGUAGES, builtin
-from quizgen.check import load_spec, mark, show
 from quizgen.lint import lint
+from quizgen.marking.mark import load_spec, mark, show
 from quizgen.maths.numbers import to_float
 from quizgen.maths.tree import Call, Expr, Num, Sym
 from quizgen.question.specs import build

@@ -109,7 +109,7 @@ def test_help_loads_no_heavy_package():
 
 
 def test_checking_loads_neither_sympy_nor_matplotlib():
-    code = "import quizgen.check as c\nc.mark({'kind':'number','value':'20/3','decimals':3},'6,67')"
+    code = "import quizgen.marking.mark as c\nc.mark({'kind':'number','value':'20/3','decimals':3},'6,67')"
     assert not {"numpy", "sympy", "matplotlib"} & loaded(code)
 
 

@@ -9,7 +9,7 @@ import pytest
 
 from quizgen.bank.draw import admissible, draw, plan_of, reference
 from quizgen.bank.folder import Bank
-from quizgen.check import mark
+from quizgen.marking.mark import mark
 from quizgen.maths.numbers import rational
 from quizgen.question.compose import compose
 from quizgen.question.specs import build, plain

@@ -9,7 +9,7 @@ from fractions import Fraction
 import pytest
 
 from quizgen.bank.draw import draw, reference
-from quizgen.check import mark
+from quizgen.marking.mark import mark
 from quizgen.question.specs import build
 
 

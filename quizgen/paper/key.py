@@ -12,9 +12,9 @@ from typing import Any
 
 import msgspec
 
-from quizgen.check.options import DECIMALS, Context
-from quizgen.check.scalars import exact_value
 from quizgen.errors import KeyFileError
+from quizgen.marking.options import DECIMALS, Context
+from quizgen.marking.reading.scalars import exact_value
 from quizgen.maths.chain import Chain, ChainStep
 
 FORMAT = "quizgen-key/1"

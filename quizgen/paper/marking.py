@@ -8,13 +8,13 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
-from quizgen.check import explained, judge, load_spec
-from quizgen.check.diagnosis import base_factor
-from quizgen.check.kinds import table as table_kind
-from quizgen.check.options import Context, Options
-from quizgen.check.specs import Spec
-from quizgen.check.verdict import Verdict
 from quizgen.errors import FormulaError, KeyFileError
+from quizgen.marking.diagnosis.context import base_factor
+from quizgen.marking.kinds import table as table_kind
+from quizgen.marking.mark import explained, judge, load_spec
+from quizgen.marking.options import Context, Options
+from quizgen.marking.specs import Spec
+from quizgen.marking.verdict import Verdict
 from quizgen.paper.key import Key, KeyPart, KeyQuestion, load_key
 
 QUARTER = Fraction(1, 4)

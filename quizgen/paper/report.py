@@ -8,8 +8,8 @@ import unicodedata
 from collections.abc import Iterable
 from fractions import Fraction
 
-from quizgen.check.echo import safe
-from quizgen.check.messages import words
+from quizgen.marking.echo import safe
+from quizgen.marking.messages import words
 from quizgen.paper.marking import PaperResult, PartResult
 
 COLOURS = {

@@ -277,7 +277,7 @@ def _why(drawn: Draw, lang: str, name: str) -> tuple[Inline, ...]:
 
 def answer_text(spec: Mapping[str, Any], lang: str) -> str:
     """The key as it is printed; typed back, it is correct."""
-    from quizgen.check import show
+    from quizgen.marking.mark import show
 
     return show(spec, lang)
 

@@ -7,9 +7,9 @@ import time
 import pytest
 from flint import fmpq
 
-from quizgen.check import Context, mark
-from quizgen.check.messages import LANGUAGES, sentences
-from quizgen.check.mutations import variants
+from quizgen.marking.diagnosis.mutations import variants
+from quizgen.marking.mark import Context, mark
+from quizgen.marking.messages import LANGUAGES, sentences
 from quizgen.maths.chain import Chain, ChainStep
 from quizgen.maths.notation import parse
 

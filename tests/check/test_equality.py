@@ -6,9 +6,9 @@ import time
 
 import pytest
 
-from quizgen.check import mark
-from quizgen.check.proving import proved_equal
-from quizgen.check.settling import settle_equal
+from quizgen.marking.judging.proving import proved_equal
+from quizgen.marking.judging.settling import settle_equal
+from quizgen.marking.mark import mark
 from quizgen.maths.notation import parse
 
 EQUAL = [

@@ -11,7 +11,7 @@ from answer_tables import rows
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from quizgen.check import mark
+from quizgen.marking.mark import mark
 
 SPECS = {row.spec["kind"]: row.spec for row in rows()}
 LIMIT = 0.05

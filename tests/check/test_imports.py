@@ -63,7 +63,7 @@ def run(code: str) -> str:
 def test_marking_every_kind_loads_no_heavy_package():
     code = (
         "import sys, json\n"
-        "from quizgen.check import mark\n"
+        "from quizgen.marking.mark import mark\n"
         f"specs, typed = json.loads({json.dumps(json.dumps([SPECS, TYPED]))})\n"
         "assert all(mark(specs[p], typed[p]).verdict == 'correct' for p in specs)\n"
         f"print([m for m in {HEAVY!r} if m in sys.modules])"

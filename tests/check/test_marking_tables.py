@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 from answer_tables import PAGE, Row, page, rows
 
-from quizgen.check import mark
-from quizgen.check.kinds import KINDS
+from quizgen.marking.kinds import KINDS
+from quizgen.marking.mark import mark
 
 ROWS = list(rows())
 

@@ -9,9 +9,9 @@ from click.testing import CliRunner
 
 from quizgen import cli_practice as practice
 from quizgen.bank.folder import builtin
-from quizgen.check import show
-from quizgen.check.messages import LANGUAGES, practice_words
 from quizgen.cli_check import practice as command
+from quizgen.marking.mark import show
+from quizgen.marking.messages import LANGUAGES, practice_words
 from quizgen.question.compose import compose
 
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import pytest
 
-from quizgen.check import mark
-from quizgen.check.echo import safe
-from quizgen.check.formulas import FORMULA_REWRITES, read_formula
-from quizgen.check.literals import read_literal
-from quizgen.check.rewrites import REWRITES, normalise, rewrite
-from quizgen.check.unit_words import WORDS, typed_unit
-from quizgen.check.wording import fold, nearest_terms
+from quizgen.marking.echo import safe
+from quizgen.marking.judging.wording import fold, nearest_terms
+from quizgen.marking.mark import mark
+from quizgen.marking.reading.formulas import FORMULA_REWRITES, read_formula
+from quizgen.marking.reading.literals import read_literal
+from quizgen.marking.reading.rewrites import REWRITES, normalise, rewrite
+from quizgen.marking.reading.unit_words import WORDS, typed_unit
 from quizgen.maths.notation import ReadError
 from quizgen.maths.units import unit
 

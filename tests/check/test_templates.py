@@ -8,7 +8,7 @@ from fractions import Fraction
 import pytest
 
 from quizgen.bank.folder import builtin
-from quizgen.check import load_spec, mark, show
+from quizgen.marking.mark import load_spec, mark, show
 from quizgen.question import specs
 from quizgen.question.compose import instance
 

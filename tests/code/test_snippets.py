@@ -16,7 +16,7 @@ import pytest
 
 from quizgen.bank.folder import builtin
 from quizgen.bank.prose import CodeBlock
-from quizgen.check.kinds.code import folded
+from quizgen.marking.kinds.code import folded
 from quizgen.question.compose import compose
 
 SEEDS = ["reference", *range(12)]

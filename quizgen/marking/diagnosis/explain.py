@@ -1,0 +1,152 @@
+"""Which single slip in a chain gives a number: the chain is mutated and recomputed in floats."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from quizgen.marking.diagnosis.mutations import variants
+from quizgen.maths.chain import Chain, ChainStep
+from quizgen.maths.notation import to_text
+from quizgen.maths.tree import Compiled, Expr, Num, Sym, compile_expr, floats, names
+from quizgen.maths.units import unit
+
+PREFIXES = (-6, -3, -2, -1, 1, 2, 3, 6)
+MOST_CHAINS = 256
+
+
+@dataclass(frozen=True, slots=True)
+class Slip:
+    """One slip: its note, what it concerns, and the float plan that recomputes the target."""
+
+    note: str
+    detail: str
+    plan: tuple[tuple[str, Compiled], ...]
+
+
+@dataclass
+class Explainer:
+    """All single slips of one chain, compiled once."""
+
+    chain: Chain
+    _slips: dict[str, list[Slip]] = field(default_factory=dict)
+
+    @cached_property
+    def _floats(self) -> dict[str, Compiled]:
+        return {step.name: compile_expr(step.expr, floats()) for step in self.chain.steps}
+
+    @cached_property
+    def _alike(self) -> dict[str, list[str]]:
+        """Name to the other given quantities of the same dimension."""
+        kinds = {name: unit(text).dimension for name, text in self.chain.given.items()}
+        return {
+            name: [other for other in kinds if other != name and kinds[other] == kind]
+            for name, kind in kinds.items()
+        }
+
+    def slips(self, target: str) -> list[Slip]:
+        """Every slip that can change a quantity."""
+        if target not in self._slips:
+            self._slips[target] = list(self._all(target))
+        return self._slips[target]
+
+    def _all(self, target: str) -> Iterator[Slip]:
+        needed = self.chain.needs(target)
+        for step in self.chain.steps:
+            if step.name in needed:
+                for note, detail, changed in self._variants(step):
+                    yield Slip(note, detail, self._plan(step.name, changed, target, needed))
+        yield from self._prefixes(target, needed)
+
+    def _variants(self, step: ChainStep) -> Iterator[tuple[str, str, Expr]]:
+        where = f"{step.name} = {to_text(step.expr)}"
+        for note, detail, changed in variants(step.expr, self._alike):
+            yield note, detail if note in {"wrong-parameter", "log-base"} else where, changed
+        for name in sorted(names(step.expr)):
+            yield "step-left-out", step.name, Sym(name)
+
+    def _prefixes(self, target: str, needed: frozenset[str]) -> Iterator[Slip]:
+        used = {n for name in needed for n in names(self.chain.by_name[name].expr)}
+        for name in sorted(used & self.chain.given.keys()):
+            if not unit(self.chain.given[name]).dimension:
+                continue
+            for power in PREFIXES:
+                scale = Num(Fraction(10) ** power)
+                wrong = compile_expr(scale, floats())
+                plan = self._plan(name, None, target, needed)
+                yield Slip("unit-prefix-given", name, ((name, _scaled(name, wrong)), *plan))
+
+    def _plan(
+        self, start: str, changed: Expr | None, target: str, needed: frozenset[str]
+    ) -> tuple[tuple[str, Compiled], ...]:
+        plan, touched = list[tuple[str, Compiled]](), {start}
+        for step in self.chain.steps:
+            if step.name == start and changed is not None:
+                plan.append((start, compile_expr(changed, floats())))
+            elif step.name in needed and step.name != start and touched & names(step.expr):
+                plan.append((step.name, self._floats[step.name]))
+                touched.add(step.name)
+            if step.name == target:
+                break
+        return tuple(plan)
+
+    def explain(
+        self, target: str, solved: Mapping[str, Any], value: float, slack: float
+    ) -> tuple[str, str]:
+        """Name the one slip that gives a value.
+
+        Parameters
+        ----------
+        target : str
+            The quantity asked.
+        solved : mapping
+            The right values, in base units.
+        value, slack : float
+            The wrong value in base units, and how far rounding may have moved it.
+
+        Returns
+        -------
+        tuple of str
+            Note and detail; empty if no slip or more than one kind of slip explains the value.
+        """
+        env = {name: float(number) for name, number in solved.items()}
+        right = env[target]
+        hits: dict[str, str] = {}
+        for slip in self.slips(target):
+            result = _run(slip.plan, env, target)
+            if result is not None and abs(result - value) <= slack and result != right:
+                hits[slip.note] = "" if slip.note in hits else slip.detail
+        if len(hits) != 1:
+            return "", ""
+        ((note, detail),) = hits.items()
+        return note, detail
+
+
+def _scaled(name: str, scale: Compiled) -> Compiled:
+    return lambda env: env[name] * scale(env)
+
+
+def _run(plan: tuple[tuple[str, Compiled], ...], env: dict[str, Any], target: str) -> float | None:
+    env = dict(env)
+    try:
+        for name, compiled in plan:
+            env[name] = compiled(env)
+        return float(env[target])
+    except (ArithmeticError, ValueError, TypeError):
+        return None
+
+
+_EXPLAINERS: dict[int, Explainer] = {}
+
+
+def explainer(chain: Chain) -> Explainer:
+    """Return the compiled slips of a chain; the last few hundred chains are kept."""
+    found = _EXPLAINERS.get(id(chain))
+    if found is None or found.chain is not chain:
+        if len(_EXPLAINERS) >= MOST_CHAINS:
+            _EXPLAINERS.pop(next(iter(_EXPLAINERS)))
+        found = _EXPLAINERS[id(chain)] = Explainer(chain)
+    return found

@@ -1,0 +1,85 @@
+"""Generic slips that show in one number alone: sign, power of ten, reciprocal, percent, factor."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from flint import arb, fmpq
+
+from quizgen.marking.reading.scalars import Number
+from quizgen.maths.numbers import magnitude, to_float
+
+CLOSE = fmpq(1, 200)
+"""Relative distance within which a slip is said to explain a number."""
+
+FACTORS = {
+    "2": fmpq(2),
+    "1/2": fmpq(1, 2),
+    "3": fmpq(3),
+    "1/3": fmpq(1, 3),
+    "4": fmpq(4),
+    "1/4": fmpq(1, 4),
+    "8": fmpq(8),
+    "1/8": fmpq(1, 8),
+    "π": arb.pi(),
+    "1/π": 1 / arb.pi(),
+    "2π": 2 * arb.pi(),
+    "1/(2π)": 1 / (2 * arb.pi()),
+    "√2": arb(2).sqrt(),
+    "1/√2": 1 / arb(2).sqrt(),
+}
+"""Constant factors worth naming."""
+
+_TENS = {power: fmpq(10) ** power for power in range(-19, 20)}
+
+
+def close(value: Any, target: Any) -> bool:
+    """Whether two values agree within half a percent of the target."""
+    return bool(abs(value - target) <= CLOSE * abs(target))
+
+
+def power_of_ten(value: Any, key: Any) -> int:
+    """Exponent k if the value is 10^k times the key, else 0."""
+    if value == 0 or key == 0:
+        return 0
+    ratio = to_float(value / key)
+    power = round(math.log10(ratio)) if 1e-19 < ratio < 1e19 else 0
+    return power if power and close(value, key * _TENS[power]) else 0
+
+
+def slip(number: Number, value: Any, key: Any) -> tuple[str, dict[str, Any]]:
+    """Explain a wrong number by one generic slip.
+
+    Returns
+    -------
+    tuple of str and dict
+        The note (empty if nothing explains it) and what its sentence fills in.
+    """
+    if value == 0 or key == 0:
+        return "", {}
+    if close(-value, key):
+        return "sign", {}
+    power = power_of_ten(value, key)
+    if power:
+        return _power_note(number, key, power)
+    if close(value * key, fmpq(1)):
+        return "reciprocal", {}
+    if power_of_ten(-value, key):
+        return "sign-and-power", {}
+    return _factor(value, key)
+
+
+def _power_note(number: Number, key: Any, power: int) -> tuple[str, dict[str, Any]]:
+    if number.form == "scientific" and power == -2 * magnitude(key):
+        return "exponent-sign", {}
+    if power == 2 and 0 < key <= 1:
+        return "percent-slip", {}
+    return "power-of-ten", {"power": power}
+
+
+def _factor(value: Any, key: Any) -> tuple[str, dict[str, Any]]:
+    for name, factor in FACTORS.items():
+        if close(value, key * factor):
+            return "factor", {"factor": name}
+    return "", {}

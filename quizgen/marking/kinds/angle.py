@@ -1,0 +1,97 @@
+"""Kind ``angle``: degrees (or radians, converted), compared on the circle."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from flint import arb, fmpq
+
+from quizgen.marking.diagnosis.context import hints_for
+from quizgen.marking.diagnosis.slips import close
+from quizgen.marking.judging.number import Asked, judge_value, resolve
+from quizgen.marking.kinds.number import shown, trap_values, without_name
+from quizgen.marking.options import Options
+from quizgen.marking.reading.quantities import TypedQuantity, split_quantity
+from quizgen.marking.reading.rewrites import normalise
+from quizgen.marking.reading.scalars import Number, exact_value, read_source
+from quizgen.marking.specs import Scalar, Tolerance
+from quizgen.marking.verdict import Verdict, with_values, wrong
+from quizgen.maths.units import shown as shown_unit
+
+DEGREES = (("deg", 1),)
+
+
+class Spec(Tolerance, kw_only=True):
+    """Angle: ``value`` in degrees; ``period`` (default 360, 0 for none).
+
+    Without a tolerance half a degree is accepted. A bare number counts as degrees.
+    """
+
+    value: Scalar
+    period: Scalar = 360
+
+    def validate(self) -> None:
+        """Check tolerance, value, period and traps."""
+        super().validate()
+        exact_value(self.value)
+        exact_value(self.period)
+        trap_values(self)
+        stated = (self.decimals, self.sigfigs, self.rel, self.abs, self.exact or None)
+        if all(item is None for item in stated):
+            self.abs = "0.5"
+
+
+def check(spec: Spec, typed: str, options: Options) -> Verdict:
+    """Judge a typed angle."""
+    quantity = split_quantity(without_name(normalise(typed)))
+    readings = read_source(quantity.number, options.decimal)
+    return resolve(readings, lambda n: _judge(spec, n, quantity, options), spec.decimals)
+
+
+def _judge(spec: Spec, number: Number, quantity: TypedQuantity, options: Options) -> Verdict:
+    read_as = f"{number.read_as}°" if quantity.unit is None else _echo(number, quantity)
+    factor = fmpq(1)
+    if quantity.unit is not None:
+        if quantity.unit.dimension != DEGREES:
+            return wrong(read_as, "unit-clash", given=shown_unit(quantity.unit.text), asked="°")
+        factor = quantity.unit.factor
+    value = number.value * factor
+    verdict = _on_circle(spec, number, value, read_as, options)
+    bare = quantity.unit is None and not verdict.credit
+    if bare and not verdict.note.startswith("trap:") and _radians(spec, number.value):
+        verdict = wrong(read_as, "radians")
+    elif not verdict.credit and not verdict.note and close(-value, exact_value(spec.value)):
+        verdict = wrong(read_as, "sign")
+    return with_values(verdict, value)
+
+
+def _echo(number: Number, quantity: TypedQuantity) -> str:
+    text = quantity.unit.text if quantity.unit else ""
+    return f"{number.read_as}°" if text in {"deg", "°"} else f"{number.read_as} {text}"
+
+
+def _on_circle(spec: Spec, number: Number, value: Any, read_as: str, options: Options) -> Verdict:
+    key = exact_value(spec.value)
+    traps = [(name, around(spec, trap, value)) for name, trap in trap_values(spec)]
+    hints = hints_for(spec, number, fmpq(1), options)
+    asked = Asked(spec, around(spec, key, value), traps, hints=hints)
+    return judge_value(asked, number, value, read_as)
+
+
+def around(spec: Spec, target: Any, value: Any) -> Any:
+    """Return the representative of a target on the circle that is nearest to a value."""
+    period = exact_value(spec.period)
+    if period == 0:
+        return target
+    turns = (value - target) / period
+    exact = turns if isinstance(turns, fmpq) else turns.mid().fmpq()
+    return target + period * fmpq((exact + fmpq(1, 2)).floor())
+
+
+def _radians(spec: Spec, value: Any) -> bool:
+    return close(value * 180 / arb.pi(), exact_value(spec.value)) and value != 0
+
+
+def show(spec: Spec, lang: str) -> str:  # noqa: ARG001 - one notation in all languages
+    """Return the key as printed and as it can be typed back."""
+    return f"{shown(spec, exact_value(spec.value))}°"

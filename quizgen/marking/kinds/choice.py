@@ -1,0 +1,146 @@
+"""Kinds ``choice``, ``multi`` and ``tf``: letters, numbers or the option's own words."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+
+import msgspec
+
+from quizgen.marking.echo import safe
+from quizgen.marking.judging.wording import fold
+from quizgen.marking.options import Options
+from quizgen.marking.reading.rewrites import normalise
+from quizgen.marking.reading.scalars import ReadError
+from quizgen.marking.specs import Spec as AnySpec
+from quizgen.marking.verdict import Verdict, correct, partial, wrong
+
+LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+_BANGLA = str.maketrans("কখগঘঙচছজঝঞ", "ABCDEFGHIJ")
+_TRUE = frozenset(
+    {"true", "t", "yes", "y", "right", "correct", "wahr", "w", "ja", "j", "richtig", "r"}
+    | {"সত্য", "হ্যাঁ", "হ্যা", "ঠিক", "সঠিক", "স", "1", "✓", "✔"}
+)
+_FALSE = frozenset(
+    {"false", "f", "no", "n", "wrong", "incorrect", "falsch", "nein"}
+    | {"মিথ্যা", "না", "ভুল", "ম", "0", "2", "✗", "✘"}
+)
+_FILLERS = re.compile(r"\b(?:and|und|or|option|answer|ans|এবং|ও|উত্তর)\b", re.IGNORECASE)
+
+
+class Spec(AnySpec, kw_only=True):
+    """Choice: ``options``; ``correct`` = positions from 1.
+
+    ``multi`` gives credit for right minus wrong crosses when ``negative``, else all or nothing
+    wrong crosses take right ones away down to zero. ``tf`` needs no options; 1 is true, 2 false.
+    """
+
+    correct: list[int]
+    options: list[str] = msgspec.field(default_factory=list)
+    negative: bool = True
+
+    def validate(self) -> None:
+        """Positions must exist; ``choice`` and ``tf`` have one right option."""
+        if self.kind == "tf" and not self.options:
+            self.options = ["true", "false"]
+        if not self.options or not all(1 <= i <= len(self.options) for i in self.correct):
+            raise ValueError("correct holds positions from 1 within options")
+        if self.kind != "multi" and len(self.correct) != 1:
+            raise ValueError("exactly one option can be correct")
+
+
+def check(spec: Spec, typed: str, options: Options) -> Verdict:  # noqa: ARG001 - no numbers in it
+    """Judge chosen options."""
+    if len(typed) > 1000:
+        raise ReadError("too-long", 1001, "1000")
+    if spec.kind == "tf":
+        return _judge_one(spec, _truth(spec, typed))
+    whole = _by_text(spec, typed)
+    if spec.kind == "choice":
+        chosen = [whole] if whole else _positions(spec, typed)
+        if len(chosen) > 1:
+            raise ReadError("one-option", 1, safe(typed))
+        return _judge_one(spec, chosen[0])
+    return _judge_many(spec, [whole] if whole else _positions(spec, typed))
+
+
+def _truth(spec: Spec, typed: str) -> int:
+    word = normalise(typed, keep_x=True, longest=1000).text.strip(" .!()").casefold()
+    if word in _TRUE:
+        return 1
+    if word in _FALSE:
+        return 2
+    found = _by_text(spec, typed)
+    if found or word in {"a", "b"}:
+        return found or "ab".index(word) + 1
+    raise ReadError("true-or-false", 1, safe(typed))
+
+
+def _by_text(spec: Spec, typed: str) -> int:
+    folded = fold(typed)
+    hits = [i + 1 for i, option in enumerate(spec.options) if fold(option) == folded]
+    return hits[0] if len(hits) == 1 else 0
+
+
+def _positions(spec: Spec, typed: str) -> list[int]:
+    source = normalise(re.sub(r"[\r\n]+", ",", typed.strip()), keep_x=True, longest=1000)
+    text = source.text.translate(_BANGLA)
+    marks = re.findall(r"[A-Za-z]+|\d+|[^\s,;.&+()/|:]", _FILLERS.sub(" ", text))
+    found = [position for mark in marks for position in _mark(spec, mark)]
+    if not found:
+        raise ReadError("option-expected", 1, safe(typed), _range(spec))
+    return list(dict.fromkeys(found))
+
+
+def _mark(spec: Spec, mark: str) -> list[int]:
+    """Positions of one mark: ``B``, ``2`` or several letters run together."""
+    positions = [int(mark)] if mark.isdigit() else [LETTERS.find(c.upper()) + 1 for c in mark]
+    if not all(1 <= position <= len(spec.options) for position in positions):
+        raise ReadError("option-expected", 1, mark, _range(spec))
+    return positions
+
+
+def _range(spec: Spec) -> list[str]:
+    return list(LETTERS[: len(spec.options)])
+
+
+def _judge_one(spec: Spec, chosen: int) -> Verdict:
+    read_as = _echo(spec, [chosen])
+    if chosen in spec.correct:
+        return correct(read_as)
+    return wrong(read_as, _trap(spec, [chosen]))
+
+
+def _judge_many(spec: Spec, chosen: list[int]) -> Verdict:
+    read_as = _echo(spec, chosen)
+    right = len(set(chosen) & set(spec.correct))
+    extra = len(set(chosen) - set(spec.correct))
+    if right == len(spec.correct) and not extra:
+        return correct(read_as)
+    credit = max(Fraction(right - extra, max(len(spec.correct), 1)), Fraction(0))
+    note = _trap(spec, chosen) or ("options-extra" if extra else "options-missing")
+    fields = {"right": right, "of": len(spec.correct)}
+    if spec.negative and 0 < credit < 1:
+        return partial(credit, read_as, note, **fields)
+    return wrong(read_as, note, **fields)
+
+
+def _trap(spec: Spec, chosen: list[int]) -> str:
+    for name, positions in spec.traps.items():
+        if sorted(positions if isinstance(positions, list) else [positions]) == sorted(chosen):
+            return f"trap:{name}"
+    return ""
+
+
+def _echo(spec: Spec, chosen: list[int]) -> str:
+    if spec.kind == "tf":
+        return ("true", "false")[chosen[0] - 1]
+    return ", ".join(LETTERS[i - 1] for i in sorted(chosen))
+
+
+def show(spec: Spec, lang: str) -> str:
+    """Return the letters of the right options, or the word for true or false."""
+    if spec.kind == "tf":
+        words = {"bn": ("সত্য", "মিথ্যা")}.get(lang, ("true", "false"))
+        return words[spec.correct[0] - 1]
+    return ", ".join(LETTERS[i - 1] for i in sorted(spec.correct))

@@ -1,0 +1,75 @@
+"""Kind ``code``: what a program prints, after folding blanks."""
+
+from __future__ import annotations
+
+import re
+
+import msgspec
+
+from quizgen.marking.echo import safe
+from quizgen.marking.options import Options
+from quizgen.marking.reading.rewrites import LONGEST_PROSE, REWRITES, Source, refuse_invisible
+from quizgen.marking.reading.scalars import ReadError
+from quizgen.marking.specs import Spec as AnySpec
+from quizgen.marking.verdict import Verdict, correct, wrong
+
+
+class Spec(AnySpec, kw_only=True):
+    """Code: ``output``; ``also`` = other outputs that count (another library version)."""
+
+    output: str
+    also: list[str] = msgspec.field(default_factory=list)
+
+
+_INSIDE = re.compile(r"\s*([\[\](){},:=])\s*")
+
+
+def folded(text: str) -> str:
+    """Fold blanks: line ends, runs, and those beside brackets and commas."""
+    lines = [" ".join(line.split()) for line in text.replace("\r", "").split("\n")]
+    joined = "\n".join(line for line in lines if line)
+    return "\n".join(_INSIDE.sub(r"\1", line) for line in joined.split("\n"))
+
+
+def check(spec: Spec, typed: str, options: Options) -> Verdict:  # noqa: ARG001 - exact text
+    """Judge typed program output."""
+    if len(typed) > LONGEST_PROSE:
+        raise ReadError("too-long", LONGEST_PROSE + 1, str(LONGEST_PROSE))
+    source = Source.of(typed)
+    for name in ("direction marks around", "blanks", "digits", "minus and dashes"):
+        source = source.sub(*REWRITES[name])
+    refuse_invisible(source, "\r\n")
+    given = folded(source.text)
+    if not given:
+        raise ReadError("no-answer", 1)
+    for output in (spec.output, *spec.also):
+        if given == folded(output):
+            return correct(safe(given))
+    return wrong(safe(given), _note(spec, given))
+
+
+def _note(spec: Spec, given: str) -> str:
+    for name, output in spec.traps.items():
+        if given == folded(str(output)):
+            return f"trap:{name}"
+    wanted = folded(spec.output)
+    if given.casefold() == wanted.casefold():
+        return "output-case"
+    if re.sub(r"\s", "", given) == re.sub(r"\s", "", wanted):
+        return "output-lines"
+    if re.sub(r"['\"]", "", given) == re.sub(r"['\"]", "", wanted):
+        return "output-quotes"
+    return "output-type" if _same_numbers(given, wanted) else ""
+
+
+def _same_numbers(given: str, wanted: str) -> bool:
+    """``4`` for ``4.0``: the numbers are right, their type is not."""
+    numbers = [re.findall(r"-?\d+(?:\.\d*)?", text) for text in (given, wanted)]
+    if not numbers[0] or len(numbers[0]) != len(numbers[1]) or len(given) > 400:
+        return False
+    return all(float(a) == float(b) for a, b in zip(*numbers, strict=True))
+
+
+def show(spec: Spec, lang: str) -> str:  # noqa: ARG001 - program output
+    """Return the output."""
+    return spec.output

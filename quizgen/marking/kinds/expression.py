@@ -1,0 +1,122 @@
+"""Kind ``expression``: a formula over declared names; equality, with its ground stated."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import lru_cache
+from typing import Any
+
+from flint import arb, fmpq
+
+from quizgen.errors import FormulaError
+from quizgen.marking.judging.number import settle
+from quizgen.marking.judging.proving import proved_equal
+from quizgen.marking.judging.sampling import Comparison, Domain, agree, compare
+from quizgen.marking.judging.settling import settle_equal
+from quizgen.marking.options import Options
+from quizgen.marking.reading.formulas import Formula, read_formula
+from quizgen.marking.reading.scalars import exact_value
+from quizgen.marking.rounding import exact_or_figures
+from quizgen.marking.specs import Spec as AnySpec
+from quizgen.marking.verdict import Verdict, ambiguous, correct, wrong
+from quizgen.maths.notation import parse, to_text
+from quizgen.maths.tree import Expr, names
+
+
+class Spec(AnySpec, kw_only=True):
+    """Expression: ``value``; ``symbols`` = {name: "real", "positive" or [low, high]}."""
+
+    value: str
+    symbols: dict[str, Domain]
+
+    def validate(self) -> None:
+        """Check the key, its names and the domains."""
+        key = author(self.value, tuple(self.symbols))
+        unknown = names(key) - self.symbols.keys()
+        if unknown:
+            raise FormulaError(f"value uses undeclared names {', '.join(sorted(unknown))}")
+        for name, domain in self.symbols.items():
+            _check_domain(name, domain)
+        for trap in self.traps.values():
+            author(trap, tuple(self.symbols))
+
+
+def _check_domain(name: str, domain: Domain) -> None:
+    if isinstance(domain, str):
+        if domain not in {"real", "positive"}:
+            raise ValueError(f"symbols.{name}: {domain!r} is not real, positive or [low, high]")
+    elif len(domain) != 2 or not exact_value(domain[0]) < exact_value(domain[1]):
+        raise ValueError(f"symbols.{name}: [low, high] needs low < high")
+
+
+@lru_cache(maxsize=2048)
+def author(text: str, symbols: tuple[str, ...]) -> Expr:
+    """Parse an author's formula once."""
+    return parse(text, symbols=symbols)
+
+
+def check(spec: Spec, typed: str, options: Options) -> Verdict:
+    """Judge a typed formula."""
+    formula = read_formula(typed, spec.symbols, options.decimal)
+    verdict = _judge(spec, formula.tree, options)
+    if formula.other is None or formula.doubt is None:
+        return verdict
+    return _choose(spec, formula, verdict, options)
+
+
+def _choose(spec: Spec, formula: Formula, verdict: Verdict, options: Options) -> Verdict:
+    if formula.other is None or formula.doubt is None or (formula.doubt.native and verdict.credit):
+        return verdict
+    echoes = (formula.read_as, to_text(formula.other))
+    return settle(verdict, _judge(spec, formula.other, options), formula.doubt, echoes)
+
+
+def _judge(spec: Spec, tree: Expr, options: Options) -> Verdict:
+    read_as = to_text(tree)
+    key = author(spec.value, tuple(spec.symbols))
+    if tree == key:
+        return correct(read_as, ground="proved")
+    found = compare(key, tree, spec.symbols)
+    if found.equal is None and options.settle:
+        found = _settled(key, tree, spec, found)
+    if found.equal is None:
+        return ambiguous("undecided", read_as)
+    if found.equal:
+        ground = "proved" if proved_equal(key, tree) else found.ground
+        return correct(read_as, ground=ground, points=found.points)
+    return _wrong(spec, tree, found, read_as)
+
+
+def _settled(key: Expr, tree: Expr, spec: Spec, found: Comparison) -> Comparison:
+    return replace(found, equal=settle_equal(key, tree, spec.symbols), ground="settled")
+
+
+def _wrong(spec: Spec, tree: Expr, found: Comparison, read_as: str) -> Verdict:
+    for name, trap in spec.traps.items():
+        if compare(author(trap, tuple(spec.symbols)), tree, spec.symbols).equal:
+            return wrong(read_as, f"trap:{name}")
+    if found.ground == "domain":
+        return wrong(read_as, "domain")
+    if found.ratio is not None:
+        note = "sign" if agree(found.ratio, fmpq(-1)) else "constant-factor"
+        return wrong(read_as, note, factor=_short(found.ratio))
+    if found.difference is not None:
+        return wrong(read_as, "constant-offset", offset=_short(found.difference))
+    return wrong(read_as, _missing(spec, tree))
+
+
+def _missing(spec: Spec, tree: Expr) -> str:
+    """Note that a quantity of the key does not occur at all."""
+    key = names(author(spec.value, tuple(spec.symbols)))
+    return "name-missing" if key - names(tree) else ""
+
+
+def _short(value: Any) -> str:
+    if isinstance(value, fmpq) and value.q < 1000:
+        return str(value)
+    return exact_or_figures(value.mid().fmpq() if isinstance(value, arb) else value, 4)
+
+
+def show(spec: Spec, lang: str) -> str:  # noqa: ARG001 - one notation in all languages
+    """Return the key as it can be typed."""
+    return to_text(author(spec.value, tuple(spec.symbols)))

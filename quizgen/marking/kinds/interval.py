@@ -1,0 +1,146 @@
+"""Kind ``interval``: ``]0,1]``, ``(0; 1]`` and ``0 < x <= 1`` are the same interval."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from quizgen.marking.options import Options
+from quizgen.marking.reading.literals import pointed
+from quizgen.marking.reading.rewrites import Source, normalise
+from quizgen.marking.reading.scalars import ReadError, exact_value, read_source
+from quizgen.marking.rounding import exact_or_figures
+from quizgen.marking.specs import Tolerance, accepted
+from quizgen.marking.verdict import HALF, Verdict, correct, partial, wrong
+
+
+class Spec(Tolerance, kw_only=True):
+    """Interval: ``value`` such as ``]0,1]`` or ``(0, inf)``."""
+
+    value: str
+
+    def validate(self) -> None:
+        """Check tolerance and the key's own notation."""
+        super().validate()
+        read(self.value, "point")
+
+
+@dataclass(frozen=True, slots=True)
+class Interval:
+    """Bounds (None for infinity) and whether they belong to it."""
+
+    low: Any
+    high: Any
+    closed_low: bool
+    closed_high: bool
+
+
+_INFINITE = re.compile(r"([-+]?) ?(?:∞|inf(?:inity)?|infty|oo|unendlich|অসীম)", re.IGNORECASE)
+_BRACKETED = re.compile(r"([\[\](]) ?(.+?) ?([\])\[])")
+_CHAIN = re.compile(
+    r"(?:(?P<low>[^<>≤≥=]+?) ?(?P<left><=?|≤) ?)?(?P<name>[^\W\d_]\w*) ?"
+    r"(?:(?P<right><=?|≤|>=?|≥) ?(?P<high>[^<>≤≥=]+))?"
+)
+
+
+def read(typed: str, decimal: str) -> tuple[Interval, str]:
+    """Read an interval and echo it.
+
+    Raises
+    ------
+    ReadError
+        If it is none.
+    """
+    source = normalise(typed)
+    match = re.match(r"[^\W\d_]\w* ?(?:∈|in) ?", source.text)
+    if match:
+        source = source.cut(match.end())
+    bracketed = _BRACKETED.fullmatch(source.text)
+    interval = _brackets(source, bracketed, decimal) if bracketed else _chain(source, decimal)
+    if interval.low is not None and interval.high is not None and interval.low > interval.high:
+        raise ReadError("bounds-order", 1, source.text)
+    return interval, _echo(interval)
+
+
+def _brackets(source: Source, match: re.Match[str], decimal: str) -> Interval:
+    inside = source.cut(match.start(2), match.end(2))
+    strong = list(re.finditer(r" ?[;|] ?", inside.text))
+    cuts = strong or list(re.finditer(r" ?, ?", inside.text))
+    if len(cuts) != 1:
+        code = "comma-twice" if cuts and not strong else "item-count"
+        raise ReadError(code, source.column(0), str(len(cuts) + 1), ["2"])
+    low = _bound(inside.cut(0, cuts[0].start()), decimal)
+    high = _bound(inside.cut(cuts[0].end()), decimal)
+    closed_low = match[1] == "[" and low is not None
+    return Interval(low, high, closed_low, match[3] == "]" and high is not None)
+
+
+def _chain(source: Source, decimal: str) -> Interval:
+    match = _CHAIN.fullmatch(source.text)
+    if match is None or not (match["low"] or match["high"]):
+        raise ReadError("interval-expected", source.column(0), source.text)
+    low = high = None
+    closed_low = closed_high = False
+    if match["low"]:
+        low = _bound(source.cut(match.start("low"), match.end("low")), decimal)
+        closed_low = match["left"] in {"<=", "≤"} and low is not None
+    if match["high"]:
+        bound = _bound(source.cut(match.start("high"), match.end("high")), decimal)
+        closed = match["right"] in {"<=", "≤", ">=", "≥"} and bound is not None
+        if match["right"][0] in "<≤":
+            high, closed_high = bound, closed
+        elif low is None:
+            low, closed_low = bound, closed
+        else:
+            raise ReadError("bounds-order", source.column(match.start("right")), source.text)
+    return Interval(low, high, closed_low, closed_high)
+
+
+def _bound(source: Source, decimal: str) -> Any:
+    source = source.strip()
+    if _INFINITE.fullmatch(source.text):
+        return None
+    if pointed(source, decimal)[2] and decimal == "auto":
+        raise ReadError("two-readings", source.column(0), source.text)
+    return read_source(source, decimal).main.value
+
+
+def _echo(interval: Interval) -> str:
+    low = "-∞" if interval.low is None else exact_or_figures(interval.low, 12)
+    high = "∞" if interval.high is None else exact_or_figures(interval.high, 12)
+    return (
+        f"{'[' if interval.closed_low else ']'}{low}; {high}{']' if interval.closed_high else '['}"
+    )
+
+
+def check(spec: Spec, typed: str, options: Options) -> Verdict:
+    """Judge a typed interval: bounds first, then brackets."""
+    interval, read_as = read(typed, options.decimal)
+    key, _ = read(spec.value, "point")
+    low = _same(spec, interval.low, key.low)
+    high = _same(spec, interval.high, key.high)
+    if not (low and high):
+        note = "bound-left" if high else "bound-right" if low else "bounds"
+        return wrong(read_as, note)
+    left = interval.closed_low == key.closed_low
+    right = interval.closed_high == key.closed_high
+    if left and right:
+        return correct(read_as)
+    note = "bracket-right" if left else "bracket-left" if right else "brackets"
+    return partial(HALF if left or right else Fraction(1, 4), read_as, note)
+
+
+def _same(spec: Spec, value: Any, key: Any) -> bool:
+    if value is None or key is None:
+        return value is None and key is None
+    return accepted(spec, value, key)
+
+
+def show(spec: Spec, lang: str) -> str:  # noqa: ARG001 - one notation in all languages
+    """Return the key as printed and as it can be typed back."""
+    return read(spec.value, "point")[1]
+
+
+__all__ = ["Interval", "Spec", "check", "exact_value", "read", "show"]

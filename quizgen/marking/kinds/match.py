@@ -1,0 +1,112 @@
+"""Kind ``match``: pairs of labels, ``A3 B1`` or ``A:3, B:1`` or one per line."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+
+from quizgen.marking.echo import safe
+from quizgen.marking.judging.wording import fold
+from quizgen.marking.options import Options
+from quizgen.marking.reading.rewrites import normalise
+from quizgen.marking.reading.scalars import ReadError
+from quizgen.marking.specs import Spec as AnySpec
+from quizgen.marking.verdict import Verdict, correct, shared
+
+_BANGLA = str.maketrans("কখগঘঙচছজঝঞ", "ABCDEFGHIJ")
+_SEPARATORS = re.compile(r"[\s,;.|]+")
+_ARROWS = re.compile(r"\s*(?:->|=>|→|↔|<->|--|[-:=>()])+\s*")
+
+
+class Spec(AnySpec, kw_only=True):
+    """Match: ``pairs`` = {left label: right label}; ``reuse`` allows a right label twice."""
+
+    pairs: dict[str, str]
+    reuse: bool = False
+
+    def validate(self) -> None:
+        """There must be pairs."""
+        if not self.pairs:
+            raise ValueError("pairs must not be empty")
+
+    def repeats(self) -> bool:
+        """Whether a right label may be used more than once."""
+        return self.reuse or len(set(self.pairs.values())) < len(self.pairs)
+
+
+def check(spec: Spec, typed: str, options: Options) -> Verdict:  # noqa: ARG001 - labels only
+    """Judge typed pairs."""
+    if len(typed) > 1000:
+        raise ReadError("too-long", 1001, "1000")
+    found = _pairs(spec, typed)
+    read_as = " ".join(f"{safe(left)}{safe(right)}" for left, right in found.items())
+    right = sum(spec.pairs[left] == chosen for left, chosen in found.items())
+    if right == len(spec.pairs):
+        return correct(read_as)
+    missed = tuple(left for left, wanted in spec.pairs.items() if found.get(left) != wanted)
+    note = "pairs-missing" if all(name not in found for name in missed) else "pairs"
+    trap = _trap(spec, found)
+    return shared(
+        Fraction(right, len(spec.pairs)),
+        read_as,
+        trap or note,
+        right=right,
+        of=len(spec.pairs),
+        names=missed,
+    )
+
+
+def _trap(spec: Spec, found: dict[str, str]) -> str:
+    for name, pairs in spec.traps.items():
+        if pairs == found:
+            return f"trap:{name}"
+    return ""
+
+
+def _pairs(spec: Spec, typed: str) -> dict[str, str]:
+    source = normalise(re.sub(r"[\r\n]+", " ", typed.strip()), keep_x=True, longest=1000)
+    text = source.text.translate(_BANGLA)
+    left = {fold(label): label for label in spec.pairs}
+    right = {fold(label): label for label in spec.pairs.values()}
+    found: dict[str, str] = {}
+    for first, second in _tokens(text, left):
+        _place(spec, found, left.get(first, ""), _right(second, right), (first, second))
+    if not found:
+        raise ReadError("pairs-expected", 1, safe(typed))
+    return found
+
+
+def _right(second: str, right: dict[str, str]) -> str:
+    """Return the right label; one that no pair uses (a distractor) stands for itself."""
+    return right.get(second) or (second.upper() if len(second) <= 3 else "")
+
+
+def _tokens(text: str, left: dict[str, str]) -> list[tuple[str, str]]:
+    """Cut into pairs: ``A3``, ``A 3``, or several run together, ``A3B1``."""
+    words = [fold(w) for w in _SEPARATORS.split(_ARROWS.sub(" ", text)) if fold(w)]
+    label = "|".join(re.escape(name) for name in sorted(left, key=len, reverse=True))
+    run = re.compile(rf"(?:(?:{label})\d{{1,2}})+")
+    flat: list[str] = []
+    for word in words:
+        together = word not in left and run.fullmatch(word)
+        flat += re.findall(rf"{label}|\d{{1,2}}", word) if together else [word]
+    if len(flat) % 2:
+        raise ReadError("pairs-expected", 1, safe(text))
+    return list(zip(flat[::2], flat[1::2], strict=True))
+
+
+def _place(
+    spec: Spec, found: dict[str, str], name: str, chosen: str, typed: tuple[str, str]
+) -> None:
+    if not name or not chosen:
+        raise ReadError("pairs-expected", 1, safe(typed[1] if name else typed[0]))
+    if name in found:
+        raise ReadError("used-twice", 1, name)
+    if chosen in found.values() and not spec.repeats():
+        raise ReadError("used-twice", 1, chosen)
+    found[name] = chosen
+
+
+def show(spec: Spec, lang: str) -> str:  # noqa: ARG001 - labels are the same in all languages
+    """Return the pairs as they can be typed."""
+    return ", ".join(f"{left}:{right}" for left, right in spec.pairs.items())

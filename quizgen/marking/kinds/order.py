@@ -1,0 +1,148 @@
+"""Kind ``order``: steps of a derivation; every order that respects ``before`` is right."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+
+import msgspec
+
+from quizgen.marking.echo import safe
+from quizgen.marking.judging.wording import fold
+from quizgen.marking.options import Options
+from quizgen.marking.reading.rewrites import normalise
+from quizgen.marking.reading.scalars import ReadError
+from quizgen.marking.specs import Spec as AnySpec
+from quizgen.marking.verdict import Verdict, correct, shared
+
+MOST_STEPS = 40
+_BANGLA = str.maketrans("কখগঘঙচছজঝঞ", "ABCDEFGHIJ")
+
+
+class Spec(AnySpec, kw_only=True):
+    """Order: ``steps``; ``before`` = [[a, b], ...]; ``distractors`` that must stay out.
+
+    Without ``before`` the listed order is the only one. Steps are typed by their labels.
+    """
+
+    steps: list[str]
+    before: list[tuple[str, str]] | None = None
+    distractors: list[str] = msgspec.field(default_factory=list)
+
+    def validate(self) -> None:
+        """``before`` must speak of the steps and contain no circle."""
+        if not 1 <= len(self.steps) <= MOST_STEPS:
+            raise ValueError(f"steps must be 1 to {MOST_STEPS}")
+        for pair in self.before or ():
+            if not {*pair} <= {*self.steps}:
+                raise ValueError(f"before: {pair[0]!r}, {pair[1]!r} are not both steps")
+        if any(step in later for step, later in followers(self).items()):
+            raise ValueError("before contains a circle")
+
+    def pairs(self) -> list[tuple[str, str]]:
+        """Which step directly precedes which."""
+        if self.before:
+            return self.before
+        return list(zip(self.steps, self.steps[1:], strict=False))
+
+
+def followers(spec: Spec) -> dict[str, set[str]]:
+    """Every step that must come later than a step (closed under chains)."""
+    later: dict[str, set[str]] = {step: set() for step in spec.steps}
+    for first, second in spec.pairs():
+        later[first].add(second)
+    for middle in spec.steps:
+        for step in spec.steps:
+            if middle in later[step]:
+                later[step] |= later[middle]
+    return later
+
+
+def check(spec: Spec, typed: str, options: Options) -> Verdict:  # noqa: ARG001 - labels only
+    """Judge a typed order."""
+    if len(typed) > 1000:
+        raise ReadError("too-long", 1001, "1000")
+    chosen = _labels(spec, typed)
+    read_as = " ".join(safe(label) for label in chosen)
+    later = followers(spec)
+    steps = [label for label in chosen if label in later]
+    intruders = [label for label in chosen if label not in later]
+    line = first_wrong(spec, chosen, later)
+    if line == 0 and len(steps) == len(spec.steps):
+        return correct(read_as)
+    kept = len(steps) - conflicts(steps, later)
+    total = max(len(spec.steps) - 1, 1)
+    credit = max(Fraction(kept - 1 - len(intruders), total), Fraction(0))
+    note = "order-distractor" if intruders else "order-missing" if line == 0 else "order-line"
+    if line == 0:
+        line = len(chosen) + 1
+    elif note == "order-distractor":
+        line = chosen.index(intruders[0]) + 1
+    return shared(min(credit, Fraction(9, 10)), read_as, note, line=line)
+
+
+def first_wrong(spec: Spec, chosen: list[str], later: dict[str, set[str]]) -> int:
+    """Return the first line (from 1) that stands too early or does not belong; 0 if none."""
+    seen: set[str] = set()
+    for position, label in enumerate(chosen, 1):
+        needed = {step for step in spec.steps if label in later[step]}
+        if label not in later or not needed <= seen:
+            return position
+        seen.add(label)
+    return 0
+
+
+def conflicts(steps: list[str], later: dict[str, set[str]]) -> int:
+    """Return how many steps must be taken out so that the rest is in order.
+
+    Pairs in the wrong order form a partial order, so the largest set without such a pair is found
+    by matching (Dilworth).
+    """
+    matched: dict[int, int] = {}
+    wrong = {
+        i: [j for j in range(i + 1, len(steps)) if steps[i] in later[steps[j]]]
+        for i in range(len(steps))
+    }
+
+    def place(i: int, tried: set[int]) -> bool:
+        for j in wrong[i]:
+            if j not in tried:
+                tried.add(j)
+                if j not in matched or place(matched[j], tried):
+                    matched[j] = i
+                    return True
+        return False
+
+    return sum(place(i, set()) for i in range(len(steps)))
+
+
+def _labels(spec: Spec, typed: str) -> list[str]:
+    text = re.sub(r"[\r\n]+", " ", typed.strip())
+    source = normalise(text, keep_x=True, longest=1000)
+    known = {fold(label): label for label in (*spec.steps, *spec.distractors)}
+    words = [w for w in re.split(r"[\s,;.<>|]+|->|→|⇒", source.text) if w]
+    if len(words) == 1 and fold(words[0]) not in known:
+        words = list(words[0])
+    found = [_known(word, known) for word in words]
+    for label in found:
+        if found.count(label) > 1:
+            raise ReadError("used-twice", 1, label)
+    return found
+
+
+def _known(word: str, known: dict[str, str]) -> str:
+    label = known.get(fold(word)) or known.get(fold(word.translate(_BANGLA)))
+    if label is None:
+        raise ReadError("label-expected", 1, safe(word), list(known.values()))
+    return label
+
+
+def show(spec: Spec, lang: str) -> str:  # noqa: ARG001 - labels are the same in all languages
+    """Return one right order."""
+    later = followers(spec)
+    rest, shown = list(spec.steps), list[str]()
+    while rest:
+        step = next(s for s in rest if not any(s in later[other] for other in rest))
+        rest.remove(step)
+        shown.append(step)
+    return " ".join(shown)

@@ -1,0 +1,196 @@
+"""Kind ``point``: two or more coordinates, possibly homogeneous (up to scale)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from typing import Any
+
+import msgspec
+from flint import fmpq
+
+from quizgen.marking.diagnosis.context import CARRIED, hints_for
+from quizgen.marking.diagnosis.slips import close
+from quizgen.marking.judging.number import Asked, judge_value, settle
+from quizgen.marking.kinds.number import shown
+from quizgen.marking.options import Options
+from quizgen.marking.reading.lists import read_list
+from quizgen.marking.reading.named import reordered
+from quizgen.marking.reading.quantities import split_quantity
+from quizgen.marking.reading.rewrites import Source
+from quizgen.marking.reading.scalars import Number, ReadError, exact_value, read_source
+from quizgen.marking.reading.unit_words import TypedUnit, plain_unit
+from quizgen.marking.specs import Scalar, Tolerance, accepted, gives
+from quizgen.marking.verdict import Verdict, correct, partial, shared, with_values, wrong
+from quizgen.maths.units import shown as shown_unit
+
+
+class Spec(Tolerance, kw_only=True):
+    """Point: ``values``; ``names`` of the coordinates; ``unit`` of all; ``up_to_scale``."""
+
+    values: list[Scalar]
+    names: list[str] = msgspec.field(default_factory=list)
+    unit: str = ""
+    up_to_scale: bool = False
+
+    def validate(self) -> None:
+        """Check tolerance, coordinates, unit and traps."""
+        super().validate()
+        if not self.values or (self.names and len(self.names) != len(self.values)):
+            raise ValueError("values must not be empty, names as many as values")
+        plain_unit(self.unit)
+        if any(len(trap) != len(self.values) for trap in self.traps.values()):
+            raise ValueError("a trap needs as many values as the point")
+        for value in (*self.values, *(item for trap in self.traps.values() for item in trap)):
+            exact_value(value)
+
+
+def check(spec: Spec, typed: str, options: Options) -> Verdict:
+    """Judge typed coordinates."""
+    items, tail = read_list(typed, len(spec.values), options.decimal)
+    items = reordered(items, spec.names, ReadError("item-count", 1))
+    unit = _unit(tail)
+    first, second, doubt = read_all(items, spec.unit, unit, options.decimal)
+    verdict = _judge(spec, first, options)
+    if second is None or doubt is None or (doubt.native and verdict.credit):
+        return verdict
+    echoes = (_echo(spec, first), _echo(spec, second))
+    return settle(verdict, _judge(spec, second, options), doubt, echoes)
+
+
+def _unit(tail: Source) -> TypedUnit | None:
+    """Read the unit behind the closing bracket."""
+    if not tail.text:
+        return None
+    quantity = split_quantity(Source(f"1 {tail.text}", (1, 1, *tail.columns)))
+    return quantity.unit
+
+
+def read_all(
+    items: list[Source], asked: str, unit: TypedUnit | None, decimal: str
+) -> tuple[list[Number], list[Number] | None, Any]:
+    """Read every item in the asked unit; both readings if one item has two."""
+    first, second, doubt = [], [], None
+    for item in items:
+        quantity = split_quantity(item)
+        scale = _scale(quantity.unit or unit, asked, item)
+        readings = read_source(quantity.number, decimal)
+        first.append(_scaled(readings.main, scale))
+        second.append(_scaled(readings.other or readings.main, scale))
+        doubt = doubt or readings.doubt
+    return first, second if doubt else None, doubt
+
+
+def _scale(unit: TypedUnit | None, asked: str, item: Source) -> Any:
+    if unit is None:
+        return fmpq(1)
+    wanted = plain_unit(asked)
+    if unit.dimension != wanted.dimension:
+        code = "unit-not-asked" if not wanted.dimension else "unit-other"
+        raise ReadError(code, item.column(0), shown_unit(unit.text), [shown_unit(asked)])
+    return unit.factor / wanted.factor
+
+
+def _scaled(number: Number, scale: Any) -> Number:
+    return number if scale == 1 else replace(number, value=number.value * scale)
+
+
+def _echo(spec: Spec, numbers: list[Number]) -> str:
+    inside = "; ".join(number.read_as for number in numbers)
+    return f"({inside}) {shown_unit(spec.unit)}".rstrip()
+
+
+def _judge(spec: Spec, numbers: list[Number], options: Options) -> Verdict:
+    values = [number.value for number in numbers]
+    read_as = _echo(spec, numbers)
+    keys = [exact_value(value) for value in spec.values]
+    if spec.up_to_scale:
+        return _up_to_scale(spec, values, keys, read_as)
+    return with_values(_coordinates(spec, numbers, keys, read_as, options), *values)
+
+
+def _up_to_scale(spec: Spec, values: list[Any], keys: list[Any], read_as: str) -> Verdict:
+    """Compare homogeneous coordinates: scaled by the key's largest, or all zero."""
+    if all(value == 0 for value in values):
+        return wrong(read_as, "all-zero")
+    largest = max(range(len(keys)), key=lambda i: abs(float(keys[i])))
+    if values[largest] == 0:
+        return wrong(read_as)
+    scale = keys[largest] / values[largest]
+    right = all(accepted(spec, v * scale, k) for v, k in zip(values, keys, strict=True))
+    return correct(read_as) if right else wrong(read_as)
+
+
+def _coordinates(
+    spec: Spec, numbers: list[Number], keys: list[Any], read_as: str, options: Options
+) -> Verdict:
+    cells = tuple(_cell(spec, i, numbers[i], keys[i], options) for i in range(len(keys)))
+    if all(cell.credit == 1 for cell in cells):
+        carried = any(cell.note == CARRIED for cell in cells)
+        if carried:
+            return partial(Fraction(1), read_as, CARRIED)
+        return correct(read_as)
+    trap = _trap(spec, numbers)
+    if trap:
+        return replace(wrong(read_as, f"trap:{trap}"), cells=cells)
+    return replace(_hint(spec, numbers, keys, cells, read_as), cells=cells)
+
+
+def _cell(spec: Spec, index: int, number: Number, key: Any, options: Options) -> Verdict:
+    target = spec.quantities()[index] if len(spec.of) == len(spec.values) else ""
+    hints = hints_for(spec, number, fmpq(1), options, target) if target else None
+    return judge_value(Asked(spec, key, hints=hints), number, number.value)
+
+
+def _trap(spec: Spec, numbers: list[Number]) -> str:
+    for name, wrong_values in spec.traps.items():
+        pairs = zip(numbers, wrong_values, strict=True)
+        if all(gives(spec, n, n.value, exact_value(target)) for n, target in pairs):
+            return name
+    return ""
+
+
+def _hint(
+    spec: Spec, numbers: list[Number], keys: list[Any], cells: tuple[Verdict, ...], read_as: str
+) -> Verdict:
+    """Swapped axes, signs, or which coordinate is right."""
+    values = [number.value for number in numbers]
+    turned = zip(numbers, reversed(keys), strict=True)
+    if all(gives(spec, n, n.value, key) for n, key in turned):
+        return wrong(read_as, "swapped")
+    missed = [i for i, cell in enumerate(cells) if cell.credit < 1]
+    note, fields = "coordinate", dict[str, Any]()
+    if all(keys[i] != 0 and close(-values[i], keys[i]) for i in missed):
+        note = "coordinate-sign"
+    elif len(missed) == len(cells):
+        note, fields = _common(cells)
+    return shared(_credit(keys, cells), read_as, note, names=_names(spec, missed), **fields)
+
+
+_SHARED = frozenset({"power-of-ten", "factor", "reciprocal", "percent-slip"})
+
+
+def _common(cells: tuple[Verdict, ...]) -> tuple[str, dict[str, Any]]:
+    """Return the slip that all coordinates share."""
+    slips = {(cell.note, tuple(cell.fields.items())) for cell in cells}
+    note, fields = slips.pop()
+    return (note, dict(fields)) if not slips and note in _SHARED else ("", {})
+
+
+def _credit(keys: list[Any], cells: tuple[Verdict, ...]) -> Fraction:
+    """Share of right coordinates; a zero in the key earns nothing by itself."""
+    counted = [cell.credit for key, cell in zip(keys, cells, strict=True) if key != 0]
+    if counted and all(credit == 1 for credit in counted):
+        return Fraction(len(counted), len(cells))
+    return sum(counted, Fraction(0)) / len(counted) if counted else Fraction(0)
+
+
+def _names(spec: Spec, missed: list[int]) -> tuple[str, ...]:
+    names = spec.names or [str(i + 1) for i in range(len(spec.values))]
+    return tuple(names[i] for i in missed)
+
+
+def show(spec: Spec, lang: str) -> str:  # noqa: ARG001 - one notation in all languages
+    """Return the key as printed and as it can be typed back."""
+    inside = "; ".join(shown(spec, exact_value(value)) for value in spec.values)
+    return f"({inside}) {shown_unit(spec.unit)}".rstrip()

@@ -1,0 +1,135 @@
+"""Kind ``quantity``: a number with a unit; compared in base units, judged in the key's unit."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from flint import fmpq
+
+from quizgen.errors import FormulaError
+from quizgen.marking.diagnosis.context import hints_for
+from quizgen.marking.diagnosis.slips import close, power_of_ten
+from quizgen.marking.judging.number import Asked, judge_value, resolve
+from quizgen.marking.kinds.number import shown, trap_values, without_name
+from quizgen.marking.options import Options
+from quizgen.marking.reading.quantities import TypedQuantity, split_quantity
+from quizgen.marking.reading.rewrites import normalise
+from quizgen.marking.reading.scalars import Number, exact_value, read_source
+from quizgen.marking.reading.unit_words import TypedUnit, plain_unit
+from quizgen.marking.specs import Scalar, Tolerance
+from quizgen.marking.verdict import HALF, Verdict, partial, with_values, wrong
+from quizgen.maths.units import shown as shown_unit
+
+
+class Spec(Tolerance, kw_only=True):
+    """Quantity: ``value`` in ``unit``; with ``bare`` the unit is printed beside the field."""
+
+    value: Scalar
+    unit: str
+    bare: bool = False
+
+    def validate(self) -> None:
+        """Check tolerance, value, unit and traps."""
+        super().validate()
+        exact_value(self.value)
+        plain_unit(self.unit)
+        trap_values(self)
+
+
+def check(spec: Spec, typed: str, options: Options) -> Verdict:
+    """Judge a typed quantity."""
+    source = without_name(normalise(typed))
+    quantity = split_quantity(source)
+    readings = read_source(quantity.number, options.decimal)
+    return resolve(readings, lambda n: _judge(spec, n, quantity, options), spec.decimals)
+
+
+def _judge(spec: Spec, number: Number, quantity: TypedQuantity, options: Options) -> Verdict:
+    wanted = plain_unit(spec.unit)
+    if quantity.unit is None:
+        return _without_unit(spec, number, wanted, options)
+    read_as = f"{number.read_as} {shown_unit(quantity.unit.text)}"
+    if quantity.unit.dimension != wanted.dimension:
+        return _clash(spec, number, quantity.unit, read_as)
+    value = number.value * quantity.unit.factor / wanted.factor
+    verdict = judge_unit(spec, number, value, options, read_as)
+    return _prefix(spec, number, value, quantity.unit, verdict)
+
+
+def judge_unit(spec: Spec, number: Number, value: Any, options: Options, read_as: str) -> Verdict:
+    """Judge a value that stands in the key's unit."""
+    asked = Asked(
+        spec,
+        exact_value(spec.value),
+        trap_values(spec),
+        hints=hints_for(spec, number, fmpq(1), options),
+    )
+    verdict = judge_value(asked, number, value, read_as)
+    return with_values(verdict, value)
+
+
+def _without_unit(spec: Spec, number: Number, wanted: TypedUnit, options: Options) -> Verdict:
+    verdict = judge_unit(spec, number, number.value, options, number.read_as)
+    if spec.unit == "%" and not verdict.credit:
+        fraction = judge_unit(spec, number, number.value * 100, options, number.read_as)
+        verdict = fraction if fraction.credit else verdict
+    if not wanted.dimension and wanted.factor == 1:
+        return verdict
+    if spec.bare:
+        return _prefix(spec, number, number.value, wanted, verdict)
+    if verdict.credit:
+        unit = shown_unit(spec.unit)
+        credit = min(HALF, verdict.credit)
+        missing = partial(credit, number.read_as, "unit-missing", unit=unit)
+        return with_values(missing, number.value)
+    ratio = _logarithm(spec, number.value, number.read_as)
+    return ratio or _prefix(spec, number, number.value, wanted, verdict)
+
+
+def _clash(spec: Spec, number: Number, typed: TypedUnit, read_as: str) -> Verdict:
+    note = "unit-clash"
+    if close(number.value, exact_value(spec.value)):
+        note = "unit-wrong"
+    asked = shown_unit(spec.unit)
+    return with_values(wrong(read_as, note, given=shown_unit(typed.text), asked=asked), None)
+
+
+def _prefix(spec: Spec, number: Number, value: Any, typed: TypedUnit, verdict: Verdict) -> Verdict:
+    """Name a wrong power of ten as a slip of the prefix."""
+    key = exact_value(spec.value)
+    if verdict.note == "factor" and spec.unit == "dB":
+        return _decibel(value, key, verdict)
+    if verdict.note not in {"power-of-ten", "percent-slip"}:
+        return verdict
+    asked = shown_unit(spec.unit)
+    same = close(number.value, key) and typed.text != spec.unit
+    note = "unit-prefix" if same else "unit-prefix-power"
+    fields = {"asked": asked, "power": power_of_ten(value, key)}
+    return with_values(wrong(verdict.read_as, note, **fields), *verdict.values)
+
+
+def _decibel(value: Any, key: Any, verdict: Verdict) -> Verdict:
+    if close(value * 2, key):
+        return with_values(wrong(verdict.read_as, "decibel-ten"), *verdict.values)
+    if close(value, key * 2):
+        return with_values(wrong(verdict.read_as, "decibel-twenty"), *verdict.values)
+    return verdict
+
+
+def _logarithm(spec: Spec, value: Any, read_as: str) -> Verdict | None:
+    """Report a ratio given where decibels were asked."""
+    if spec.unit != "dB" or not value > 0:
+        return None
+    key = float(exact_value(spec.value))
+    for per_decade in (10, 20):
+        if abs(float(value) - 10 ** (key / per_decade)) <= 0.005 * float(value):
+            return wrong(read_as, "ratio-for-decibel")
+    return None
+
+
+def show(spec: Spec, lang: str) -> str:  # noqa: ARG001 - one notation in all languages
+    """Return the key as printed and as it can be typed back."""
+    return f"{shown(spec, exact_value(spec.value))} {shown_unit(spec.unit)}".strip()
+
+
+__all__ = ["FormulaError", "Spec", "check", "judge_unit", "show"]

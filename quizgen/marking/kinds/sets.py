@@ -1,0 +1,83 @@
+"""Kind ``set``: numbers in any order; duplicates are ignored."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from flint import fmpq
+
+from quizgen.marking.kinds.number import shown
+from quizgen.marking.kinds.point import read_all
+from quizgen.marking.options import Options
+from quizgen.marking.reading.lists import read_list
+from quizgen.marking.reading.scalars import Number, exact_value
+from quizgen.marking.reading.unit_words import plain_unit
+from quizgen.marking.specs import Scalar, Tolerance, accepted, gives
+from quizgen.marking.verdict import Verdict, correct, shared, wrong
+
+
+class Spec(Tolerance, kw_only=True):
+    """Set: ``values``; ``unit`` of all."""
+
+    values: list[Scalar]
+    unit: str = ""
+
+    def validate(self) -> None:
+        """Check tolerance, elements, unit and traps."""
+        super().validate()
+        plain_unit(self.unit)
+        for value in (*self.values, *(item for trap in self.traps.values() for item in trap)):
+            exact_value(value)
+
+
+_EMPTY = frozenset({"{}", "∅", "{ }", "()", "empty", "leer", "শূন্য"})
+
+
+def check(spec: Spec, typed: str, options: Options) -> Verdict:
+    """Judge a typed set."""
+    numbers: list[Number] = []
+    if typed.strip() not in _EMPTY:
+        items, _ = read_list(typed, None, options.decimal)
+        numbers, _, _ = read_all(items, spec.unit, None, options.decimal)
+    read_as = "{" + "; ".join(number.read_as for number in numbers) + "}"
+    return _judge(spec, numbers, read_as)
+
+
+def _judge(spec: Spec, numbers: list[Number], read_as: str) -> Verdict:
+    keys = [exact_value(value) for value in spec.values]
+    found, extra, twice = _matched(spec, numbers, keys)
+    if len(found) == len(keys) and not extra:
+        return correct(read_as, "duplicates" if twice else "")
+    for name, values in spec.traps.items():
+        wanted = [exact_value(value) for value in values]
+        if _covers(spec, numbers, wanted):
+            return wrong(read_as, f"trap:{name}")
+    credit = max(Fraction(len(found) - extra, max(len(keys), 1)), Fraction(0))
+    note = "set-extra" if extra else "set-missing"
+    return shared(credit, read_as, note, right=len(found), of=len(keys))
+
+
+def _matched(spec: Spec, numbers: list[Number], keys: list[fmpq]) -> tuple[set[int], int, bool]:
+    """Elements found, elements that do not belong, and whether one came twice."""
+    found: set[int] = set()
+    extra, twice = 0, False
+    for number in numbers:
+        hits = [i for i, key in enumerate(keys) if accepted(spec, number.value, key)]
+        if not hits:
+            extra += 1
+        elif set(hits) <= found:
+            twice = True
+        else:
+            found.add(next(i for i in hits if i not in found))
+    return found, extra, twice
+
+
+def _covers(spec: Spec, numbers: list[Number], wanted: list[fmpq]) -> bool:
+    return len(numbers) == len(wanted) and all(
+        any(gives(spec, n, n.value, value) for n in numbers) for value in wanted
+    )
+
+
+def show(spec: Spec, lang: str) -> str:  # noqa: ARG001 - one notation in all languages
+    """Return the key as printed and as it can be typed back."""
+    return "{" + "; ".join(shown(spec, exact_value(value)) for value in spec.values) + "}"

@@ -1,0 +1,157 @@
+"""Kind ``table``: several named numbers, each judged as a number, quantity or angle."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from fractions import Fraction
+from typing import Any
+
+import msgspec
+
+from quizgen.marking.kinds import angle, number, quantity
+from quizgen.marking.options import Options
+from quizgen.marking.reading.lists import read_list
+from quizgen.marking.reading.named import find_name, split_name
+from quizgen.marking.reading.rewrites import Source
+from quizgen.marking.reading.scalars import ReadError
+from quizgen.marking.specs import Scalar, Tolerance, decode
+from quizgen.marking.specs import Spec as AnySpec
+from quizgen.marking.verdict import Verdict, ambiguous, correct, partial, shared, with_values, wrong
+
+CELLS = {"number": number, "quantity": quantity, "angle": angle}
+
+
+class Spec(Tolerance, kw_only=True):
+    """Table: ``values`` (name to value); ``units`` (name to unit); ``cells`` (name to a table).
+
+    A cell is a number with the table's tolerance unless ``cells`` says otherwise:
+    ``cells = {H = {kind = "angle", abs = "0.5"}}``.
+    """
+
+    values: dict[str, Scalar]
+    units: dict[str, str] = msgspec.field(default_factory=dict)
+    cells: dict[str, dict[str, Any]] = msgspec.field(default_factory=dict)
+
+    def validate(self) -> None:
+        """Check tolerance and every cell."""
+        super().validate()
+        if not self.values:
+            raise ValueError("values must not be empty")
+        for name in (*self.units, *self.cells):
+            if name not in self.values:
+                raise ValueError(f"no value is named {name!r}")
+        for trap, wrong_values in self.traps.items():
+            if not isinstance(wrong_values, Mapping):
+                raise TypeError(f"trap {trap!r} must be a table of names and values")
+        for name in self.values:
+            cell(self, name)
+
+
+_INHERITED = ("decimals", "sigfigs", "rel", "abs", "exact", "within", "strict")
+_TOLERANCES = frozenset({"decimals", "sigfigs", "rel", "abs", "exact"})
+
+
+def cell(spec: Spec, name: str) -> AnySpec:
+    """Return the spec of one cell."""
+    own = spec.cells.get(name, {})
+    table: dict[str, Any] = {"kind": "number", "value": spec.values[name]}
+    if not _TOLERANCES & own.keys():
+        table |= {key: getattr(spec, key) for key in _INHERITED}
+    if spec.units.get(name):
+        table["unit"] = spec.units[name]
+    table["traps"] = {trap: values[name] for trap, values in spec.traps.items() if name in values}
+    if isinstance(spec.of, dict) and name in spec.of:
+        table["of"] = [spec.of[name]]
+    table |= own
+    if table["kind"] == "angle":
+        table.pop("unit", None)
+    if table["kind"] not in CELLS:
+        raise ValueError(f"cells.{name}: kind is one of {', '.join(CELLS)}")
+    return decode(CELLS[table["kind"]].Spec, table)
+
+
+def check(spec: Spec, typed: str, options: Options) -> Verdict:
+    """Judge each cell."""
+    names = list(spec.values)
+    placed = _placed(typed, names, options.decimal)
+    cells = [_one(spec, name, placed.get(name), options) for name in names]
+    stopped = next((c for c in cells if c.verdict == "ambiguous"), None)
+    read_as = "; ".join(
+        f"{name} = {c.read_as}" for name, c in zip(names, cells, strict=True) if c.read_as
+    )
+    if stopped is not None:
+        return ambiguous(stopped.note, stopped.read_as, **stopped.fields)
+    trap = _trap(spec, placed, options) if any(c.credit < 1 for c in cells) else ""
+    verdict = _together(names, cells, read_as, trap)
+    values = tuple(c.values[0] if c.values else None for c in cells)
+    return with_values(replace(verdict, cells=tuple(cells)), *values)
+
+
+def _placed(typed: str, names: list[str], decimal: str) -> dict[str, Source]:
+    """Name to what was typed for it: by name, or all in order."""
+    count = None if any(mark in typed for mark in "=:") else len(names)
+    items, _ = read_list(typed, count, decimal)
+    pairs = [split_name(item) for item in items]
+    if not any(name for name, _ in pairs):
+        if len(items) != len(names):
+            raise ReadError("item-count", 1, str(len(items)), [str(len(names))])
+        return dict(zip(names, items, strict=True))
+    placed: dict[str, Source] = {}
+    for (label, rest), item in zip(pairs, items, strict=True):
+        name = find_name(label, names)
+        if not name or name in placed:
+            raise ReadError("used-twice" if name else "unknown-name", item.column(0), label, names)
+        placed[name] = rest
+    return placed
+
+
+def _one(spec: Spec, name: str, item: Source | None, options: Options) -> Verdict:
+    if item is None:
+        return wrong("", "missing", names=(name,))
+    sub = cell(spec, name)
+    verdict: Verdict = CELLS[sub.kind].check(sub, item.text, options)
+    if verdict.verdict == "unreadable":
+        raise ReadError(verdict.note, item.column(0), verdict.read_as)
+    return verdict
+
+
+def _together(names: list[str], cells: list[Verdict], read_as: str, trap: str) -> Verdict:
+    credit = sum((c.credit for c in cells), Fraction(0)) / len(cells)
+    missed = tuple(n for n, c in zip(names, cells, strict=True) if c.credit < 1)
+    if not missed:
+        notes = {c.note for c in cells if c.verdict == "partial"}
+        return partial(credit, read_as, notes.pop()) if notes else correct(read_as)
+    return shared(credit, read_as, f"trap:{trap}" if trap else "cells", names=missed)
+
+
+def _trap(spec: Spec, placed: Mapping[str, Source], options: Options) -> str:
+    """Return the one known mistake that gives every cell as it was typed."""
+    fitting = [trap for trap in spec.traps if _gives(spec, trap, placed, options)]
+    return fitting[0] if len(fitting) == 1 else ""
+
+
+def _gives(spec: Spec, trap: str, placed: Mapping[str, Source], options: Options) -> bool:
+    """Whether a mistake explains all cells: whoever made it typed its values throughout."""
+    values = spec.traps[trap]
+    for name in spec.values:
+        if name not in placed:
+            return False
+        wrong_cell = cell(replace_values(spec, name, values.get(name, spec.values[name])), name)
+        if CELLS[wrong_cell.kind].check(wrong_cell, placed[name].text, options).credit < 1:
+            return False
+    return True
+
+
+def replace_values(spec: Spec, name: str, value: Scalar) -> Spec:
+    """The same table with another value in one cell and no known mistakes."""
+    return msgspec.structs.replace(spec, values={**spec.values, name: value}, traps={})
+
+
+def show(spec: Spec, lang: str) -> str:
+    """Return the key as printed and as it can be typed back."""
+    shown = []
+    for name in spec.values:
+        sub = cell(spec, name)
+        shown.append(f"{name} = {CELLS[sub.kind].show(sub, lang)}")
+    return "; ".join(shown)

@@ -1,0 +1,87 @@
+"""Kind ``text``: key points are looked for and suggested; a person decides, never the program."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+from rapidfuzz.distance import OSA
+
+from quizgen.marking.echo import safe
+from quizgen.marking.judging.wording import budget, fold
+from quizgen.marking.options import Options
+from quizgen.marking.reading.rewrites import LONGEST_PROSE, Source, refuse_invisible
+from quizgen.marking.reading.scalars import ReadError
+from quizgen.marking.specs import Spec as AnySpec
+from quizgen.marking.verdict import Verdict, ambiguous
+
+
+class Spec(AnySpec, kw_only=True):
+    """Text: ``points`` = key points, each a list of words of which one must occur.
+
+    ``points`` may be a table from a point's name to its words. ``needed`` of them (default: all)
+    give full marks.
+    """
+
+    points: list[list[str] | str] | dict[str, list[str]]
+    needed: int | None = None
+
+    def groups(self) -> Mapping[str, list[str]]:
+        """Name of each key point and its words."""
+        if isinstance(self.points, dict):
+            return self.points
+        groups = [[group] if isinstance(group, str) else group for group in self.points]
+        return {group[0]: group for group in groups if group}
+
+    def validate(self) -> None:
+        """Every key point needs a word."""
+        if not self.points or len(self.groups()) != len(self.points) or not all(self.points):
+            raise ValueError("every key point needs at least one word")
+
+
+_WORD = re.compile(r"[^\s.,;:!?()\"।/]+")
+
+
+def check(spec: Spec, typed: str, options: Options) -> Verdict:  # noqa: ARG001 - words only
+    """Suggest which key points a text contains."""
+    if len(typed) > LONGEST_PROSE:
+        raise ReadError("too-long", LONGEST_PROSE + 1, str(LONGEST_PROSE))
+    if not typed.strip():
+        raise ReadError("no-answer", 1)
+    refuse_invisible(Source.of(typed.strip("\u200e\u200f\ufeff")), "\r\n\t\u200c\u200d")
+    words = [fold(word) for word in _WORD.findall(typed)]
+    groups = spec.groups()
+    found = [name for name, terms in groups.items() if any(_occurs(t, words) for t in terms)]
+    missing = [name for name in groups if name not in found]
+    note = "self-mark" if found else "self-mark-none"
+    return ambiguous(
+        note,
+        safe(" ".join(typed.split()), 80),
+        right=len(found),
+        of=spec.needed or len(groups),
+        found=tuple(found),
+        missing=tuple(missing),
+    )
+
+
+def _occurs(term: str, words: list[str]) -> bool:
+    """Whether a term's words occur in a row, endings and small slips aside."""
+    wanted = [fold(word) for word in _WORD.findall(term)]
+    last = len(words) - len(wanted)
+    return bool(wanted) and any(
+        all(_alike(words[start + i], word) for i, word in enumerate(wanted))
+        for start in range(last + 1)
+    )
+
+
+def _alike(word: str, wanted: str) -> bool:
+    """Whether a word is the wanted one, one of its forms, or a slip of the fingers."""
+    if len(wanted) >= 4 and word.startswith(wanted):
+        return True
+    slips = budget(wanted)
+    return OSA.distance(word, wanted, score_cutoff=slips) <= slips
+
+
+def show(spec: Spec, lang: str) -> str:  # noqa: ARG001 - the key points stand as written
+    """Return the key points."""
+    return "; ".join(spec.groups())

@@ -1,0 +1,233 @@
+"""Kind ``witness``: any example or counterexample; it is tested, never compared."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from functools import lru_cache
+from typing import Any
+
+import flint
+import msgspec
+
+from quizgen.errors import FormulaError
+from quizgen.marking.judging.sampling import BITS, Domain, compiled
+from quizgen.marking.kinds.expression import author
+from quizgen.marking.options import Options
+from quizgen.marking.reading.lists import _depth, unbracketed
+from quizgen.marking.reading.named import find_name, name_key, split_name
+from quizgen.marking.reading.rewrites import Source, normalise
+from quizgen.marking.reading.scalars import Number, ReadError, exact_value, read_source
+from quizgen.marking.rounding import exact_or_figures
+from quizgen.marking.specs import Scalar
+from quizgen.marking.specs import Spec as AnySpec
+from quizgen.marking.verdict import Verdict, ambiguous, correct, with_values, wrong
+from quizgen.maths.notation import to_text
+from quizgen.maths.tree import RELATIONS, Call, Expr, names
+
+
+class Spec(AnySpec, kw_only=True):
+    """Witness: ``predicate`` to satisfy; ``symbols`` to give; ``where`` = constraints.
+
+    ``symbols`` is a list of names, or a table from names to ``real``, ``positive`` or
+    ``[low, high]``. Names such as ``a_1 a_2 a_3`` can be typed together: ``a = (1; 0; 0)``.
+    ``let`` = names with formulas over the symbols, to be used in ``predicate`` and ``where``.
+    ``example`` is one right answer to show; typed answers are never compared with it.
+    """
+
+    predicate: str
+    symbols: dict[str, Domain] | list[str]
+    where: list[str] = msgspec.field(default_factory=list)
+    let: dict[str, str] = msgspec.field(default_factory=dict)
+    example: dict[str, Scalar] = msgspec.field(default_factory=dict)
+
+    def names(self) -> tuple[str, ...]:
+        """Names to give, in order."""
+        return tuple(self.symbols)
+
+    def known(self) -> tuple[str, ...]:
+        """Names that conditions may use."""
+        return (*self.symbols, *self.let)
+
+    def validate(self) -> None:
+        """The predicate and every constraint must be relations over the names."""
+        for text in self.let.values():
+            author(text, self.known())
+        for text in (self.predicate, *self.where):
+            tree = author(text, self.known())
+            if not isinstance(tree, Call) or tree.op not in RELATIONS:
+                raise FormulaError(f"{text!r} is not a relation")
+        if self.example and {*self.example} != {*self.names()}:
+            raise ValueError("example must give every symbol")
+
+
+@lru_cache(maxsize=1024)
+def _compiled(text: str, symbols: tuple[str, ...]) -> Any:
+    return compiled(author(text, symbols))
+
+
+def check(spec: Spec, typed: str, options: Options) -> Verdict:
+    """Test a typed example."""
+    numbers = _numbers(spec, typed, options.decimal)
+    env = {name: number.value for name, number in numbers.items()}
+    read_as = "; ".join(f"{name} = {number.read_as}" for name, number in numbers.items())
+    with flint.ctx.workprec(BITS):
+        verdict = _tested(spec, _extended(spec, env), read_as)
+    return with_values(verdict, *env.values())
+
+
+def _extended(spec: Spec, env: dict[str, Any]) -> dict[str, Any]:
+    """Add the quantities that ``let`` derives, in order."""
+    full = dict(env)
+    for name, text in spec.let.items():
+        full[name] = _compiled(text, spec.known())(full)
+    return full
+
+
+def _tested(spec: Spec, env: dict[str, Any], read_as: str) -> Verdict:
+    for text in (*_domains(spec), *spec.where):
+        if _holds(spec, text, env) is not True:
+            return wrong(read_as, "constraint", constraint=_filled(spec, text, env))
+    held = _holds(spec, spec.predicate, env)
+    if held is True:
+        return correct(read_as)
+    if held is None:
+        return ambiguous("undecided", read_as)
+    return wrong(read_as, "predicate", claim=_filled(spec, spec.predicate, env))
+
+
+def _holds(spec: Spec, text: str, env: dict[str, Any]) -> bool | None:
+    """Whether a relation holds; False where it has no value, None if it cannot be told."""
+    result = _compiled(text, spec.known())(env)
+    if isinstance(result, type):
+        return None
+    return bool(result)
+
+
+def _domains(spec: Spec) -> Iterator[str]:
+    """Constraints that the symbols' domains state."""
+    if not isinstance(spec.symbols, dict):
+        return
+    for name, domain in spec.symbols.items():
+        if domain == "positive":
+            yield f"{name} > 0"
+        elif isinstance(domain, list):
+            low, high = (exact_or_figures(exact_value(bound), 12) for bound in domain)
+            yield f"{_signed(low)} <= {name} <= {_signed(high)}"
+
+
+def _signed(text: str) -> str:
+    return f"({text})" if text.startswith("-") else text
+
+
+def _filled(spec: Spec, text: str, env: dict[str, Any]) -> str:
+    """Return a failing relation with both sides' values: ``x^2 < x: 4 < 2``."""
+    tree = author(text, spec.known())
+    sides = tree.args if isinstance(tree, Call) and len(tree.args) == 2 else ()
+    values = [_side(side, env) for side in sides]
+    if not sides or None in values or tree.op in {"and", "or"}:  # type: ignore[union-attr]
+        return text
+    sign = {"lt": "<", "le": "≤", "gt": ">", "ge": "≥", "eq": "=", "ne": "≠"}[tree.op]  # type: ignore[union-attr]
+    return f"{to_text(sides[0])} {sign} {to_text(sides[1])}: {values[0]} {sign} {values[1]}"
+
+
+def _side(side: Expr, env: dict[str, Any]) -> str | None:
+    value = compiled(side)(env)
+    if value is None or isinstance(value, (type, bool)):
+        return None
+    return exact_or_figures(value, 6)
+
+
+_SEPARATOR = re.compile(r"[;|\n]|,(?= )|(?<=\)),?")
+
+
+def _numbers(spec: Spec, typed: str, decimal: str) -> dict[str, Number]:
+    """Read the example: by name, in groups, or all in order."""
+    source = normalise(re.sub(r"\s*\r?\n\s*", "; ", typed.strip()), longest=400)
+    names, placed = list(spec.names()), dict[str, Number]()
+    items = list(_items(source))
+    if len(items) == 1 and not items[0][0]:
+        items = [("", piece) for piece in _alone(items[0][1], len(names))]
+    for label, item in items:
+        targets = _targets(label, item, [n for n in names if n not in placed], names)
+        for name, piece in targets:
+            placed[name] = _number(piece, decimal)
+    if len(placed) < len(names):
+        missing = [name for name in names if name not in placed]
+        raise ReadError("values-missing", 1, "", missing)
+    return {name: placed[name] for name in names}
+
+
+def _alone(item: Source, count: int) -> list[Source]:
+    """Cut values that stand in a row without separators of their own: ``0.2 0.3``."""
+    for separator in (re.compile(r" +"), re.compile(r",")):
+        parts = _cut(item, separator)
+        if len(parts) == count and _depth(item.text, len(item.text)) == 0:
+            return parts
+    return [item]
+
+
+def _number(piece: Source, decimal: str) -> Number:
+    readings = read_source(piece, decimal)
+    if readings.other is not None and readings.doubt is not None and not readings.doubt.native:
+        raise ReadError("two-readings", piece.column(0), piece.text)
+    return readings.main
+
+
+def _items(source: Source) -> Iterator[tuple[str, Source]]:
+    for piece in _cut(source, _SEPARATOR):
+        label, rest = split_name(piece)
+        if label or rest.text:
+            yield label, rest
+
+
+def _cut(source: Source, separator: re.Pattern[str]) -> list[Source]:
+    start, pieces = 0, []
+    for match in separator.finditer(source.text):
+        if _depth(source.text, match.start()) == 0:
+            pieces.append(source.cut(start, match.start()).strip())
+            start = match.end()
+    pieces.append(source.cut(start).strip(" ,"))
+    return [piece for piece in pieces if piece.text]
+
+
+def _targets(
+    label: str, item: Source, free: list[str], names: list[str]
+) -> list[tuple[str, Source]]:
+    """Which names an item gives: its own, those of a group, or the next free ones."""
+    inner, _ = unbracketed(item)
+    parts = _parts(inner) if inner.text != item.text else [item]
+    own = find_name(label, names) if label else ""
+    if label and not own:
+        return _group(label, item, parts, free)
+    if own:
+        free = [own]
+    if len(parts) > len(free):
+        raise ReadError("item-count", item.column(0), str(len(parts)), [str(len(free))])
+    return list(zip(free, parts, strict=False))
+
+
+def _group(
+    label: str, item: Source, parts: list[Source], free: list[str]
+) -> list[tuple[str, Source]]:
+    members = [name for name in free if name_key(name).startswith(name_key(label))]
+    if not members or len(members) != len(parts):
+        raise ReadError("unknown-name", item.column(0), label, free)
+    return list(zip(members, parts, strict=True))
+
+
+def _parts(inner: Source) -> list[Source]:
+    for separator in (re.compile(r"[;|]"), re.compile(r","), re.compile(r" +")):
+        if separator.search(inner.text):
+            return _cut(inner, separator)
+    return [inner]
+
+
+def show(spec: Spec, lang: str) -> str:  # noqa: ARG001 - a relation reads the same everywhere
+    """Return one right example if there is one, else what an example must satisfy."""
+    if spec.example:
+        return "; ".join(f"{name} = {spec.example[name]}" for name in spec.names())
+    return "; ".join((spec.predicate, *spec.where))
+
+
+__all__ = ["Spec", "check", "names", "show"]

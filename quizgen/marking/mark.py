@@ -1,0 +1,126 @@
+"""Checking typed answers: ``mark`` for one answer, ``quizgen.paper.marking`` for whole papers.
+
+A spec is a plain table with ``kind``; ``docs/answers.md`` documents every kind and field. What a
+student types never raises: it becomes a ``Verdict``. Neither SymPy nor NumPy is imported.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from quizgen.errors import KeyFileError
+from quizgen.marking.kinds import KINDS, kind_module
+from quizgen.marking.messages import say
+from quizgen.marking.options import DECIMALS, Context, Options
+from quizgen.marking.specs import Spec, decode
+from quizgen.marking.verdict import Verdict, ambiguous, unreadable, with_words
+from quizgen.maths.notation import ReadError
+
+TWO_READINGS = frozenset({"comma-twice", "two-readings"})
+"""Reasons for asking back that are not the learner's slip: the text can be read in two ways."""
+
+
+def load_spec(spec: Mapping[str, Any]) -> Spec:
+    """Read and validate a spec table.
+
+    Raises
+    ------
+    KeyFileError
+        Naming the field that is wrong.
+    """
+    name = spec.get("kind")
+    if not isinstance(name, str) or name not in KINDS:
+        raise KeyFileError(f"spec.kind: unknown kind {name!r}; known: {', '.join(KINDS)}")
+    return decode(kind_module(name).Spec, spec)
+
+
+def mark(
+    spec: Mapping[str, Any] | Spec,
+    typed: str,
+    *,
+    lang: str = "en",
+    decimal: str = "auto",
+    context: Context | None = None,
+    settle: bool = False,
+) -> Verdict:
+    """Mark one typed answer.
+
+    Parameters
+    ----------
+    spec : mapping
+        The answer's spec: ``{"kind": "number", "value": "20/3", "decimals": 3}``.
+    typed : str
+        What the student typed.
+    lang : str
+        Language of the message: ``en`` or ``bn``.
+    decimal : str
+        The student's decimal sign: ``auto``, ``point`` or ``comma``.
+    context : Context, optional
+        The question around, for diagnosis and errors carried forward.
+    settle : bool
+        Allow a few seconds of SymPy, in its own process, for a formula that stays undecided.
+
+    Returns
+    -------
+    Verdict
+        With the message in the student's language.
+
+    Raises
+    ------
+    KeyFileError
+        If the spec is wrong (never because of what was typed).
+    """
+    if decimal not in DECIMALS:
+        raise KeyFileError(f"decimal: {decimal!r} is not one of {', '.join(DECIMALS)}")
+    table = spec if isinstance(spec, Spec) else load_spec(spec)
+    return explained(table, judge(table, typed, Options(lang, decimal, context, settle)), lang)
+
+
+def judge(spec: Spec, typed: str, options: Options) -> Verdict:
+    """Return the language-free verdict of one answer."""
+    try:
+        verdict: Verdict = kind_module(spec.kind).check(spec, typed, options)
+    except ReadError as error:
+        return _asked_back(error)
+    return verdict
+
+
+def _asked_back(error: ReadError) -> Verdict:
+    note = error.code
+    if error.code == "unknown-unit" and error.expected:
+        note = "unknown-unit-case"
+    fields: dict[str, Any] = {"found": error.found, "expected": error.expected}
+    asked = ambiguous if note in TWO_READINGS else unreadable
+    return asked(note, column=error.column or 1, **fields)
+
+
+def explained(spec: Spec, verdict: Verdict, lang: str) -> Verdict:
+    """Put the verdict's note into words of a language."""
+    if not verdict.note and not verdict.cells:
+        return verdict
+    cells = tuple(explained(spec, cell, lang) for cell in verdict.cells)
+    return with_words(verdict, _sentence(spec, verdict, lang), cells)
+
+
+def _sentence(spec: Spec, verdict: Verdict, lang: str) -> str:
+    name = verdict.note.removeprefix("trap:")
+    if name == verdict.note:
+        return say(lang, verdict.note, verdict.fields) if name else ""
+    return spec.notes.get(lang, {}).get(name) or say(lang, "trap", verdict.fields)
+
+
+def show(spec: Mapping[str, Any] | Spec, lang: str = "en") -> str:
+    """Return the key of a spec as it is printed, and as it can be typed back.
+
+    Raises
+    ------
+    KeyFileError
+        If the spec is wrong.
+    """
+    table = spec if isinstance(spec, Spec) else load_spec(spec)
+    text: str = kind_module(table.kind).show(table, lang)
+    return text
+
+
+__all__ = ["Context", "Options", "Verdict", "explained", "judge", "load_spec", "mark", "show"]

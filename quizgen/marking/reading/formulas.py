@@ -1,0 +1,185 @@
+"""Reading typed formulas: students' spelling to the author's grammar."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from fractions import Fraction
+
+from quizgen.marking.reading.literals import Doubt, pointed
+from quizgen.marking.reading.rewrites import Rewrite, Source, normalise
+from quizgen.marking.reading.scalars import moved
+from quizgen.maths.notation import ReadError, double_reading, parse_pieces, to_text, tokens
+from quizgen.maths.notation.names import FUNCTIONS, folded
+from quizgen.maths.tree import RELATIONS, Call, Expr, Num
+
+MULTI_ARGUMENT = r"(?:atan2|min|max|mod|piecewise)"
+_SYNONYMS = {
+    "arctan2": "atan2",
+    "arctan": "atan",
+    "arctg": "atan",
+    "arcsin": "asin",
+    "arccos": "acos",
+    "tg": "tan",
+    "lg": "log10",
+    "ld": "log2",
+    "lb": "log2",
+    "log_10": "log10",
+    "log_2": "log2",
+    "log_e": "ln",
+    "loge": "ln",
+    "Sqrt": "sqrt",
+    "wurzel": "sqrt",
+    "Wurzel": "sqrt",
+    "Abs": "abs",
+    "betrag": "abs",
+    "sgn": "sign",
+    "Log": "log",
+    "LN": "ln",
+    "Ln": "ln",
+    "Exp": "exp",
+    "EXP": "exp",
+    "Sin": "sin",
+    "Cos": "cos",
+    "Tan": "tan",
+    "Max": "max",
+    "Min": "min",
+}
+
+FORMULA_REWRITES: dict[str, Rewrite] = {
+    "function synonyms": (
+        re.compile(
+            r"(?<![^\W\d_])(?:" + "|".join(sorted(_SYNONYMS, key=len, reverse=True)) + r")(?= ?\()"
+        ),
+        lambda m: _SYNONYMS[m[0]],
+    ),
+    "degrees": (re.compile(r"(\d+(?:[.,]\d+)?) ?°"), lambda m: f"({m[1]}*pi/180)"),
+    "percent": (re.compile(r"(\d+(?:[.,]\d+)?) ?%"), lambda m: f"({m[1]}/100)"),
+    "semicolon arguments": (re.compile(r";"), lambda _m: ", "),
+    "square brackets": (re.compile(r"[\[\]]"), lambda m: "(" if m[0] == "[" else ")"),
+    "leading point": (re.compile(r"(?<![\w.,)\]'])[.,](?=\d)"), lambda _m: "0."),
+    "pi": (re.compile(r"π"), lambda _m: " pi "),
+}
+"""Rewrites that only formulas need, in order."""
+
+_EULER = re.compile(r"(?<![^\W_])e ?(?:\^|\*\*) ?(?=[(\w-])")
+_ARGUMENTS = re.compile(rf"{MULTI_ARGUMENT} ?\([^()]*\d,\d")
+_LITERAL = re.compile(r"(?<![^\W\d_])(?<![\w'])\d+(?:[.,]\d+)*")
+
+
+@dataclass(frozen=True, slots=True)
+class Formula:
+    """A formula as read, and the other reading if there are two."""
+
+    tree: Expr
+    other: Expr | None = None
+    doubt: Doubt | None = None
+
+    @property
+    def read_as(self) -> str:
+        """Echo in the author's notation."""
+        return to_text(self.tree)
+
+
+def read_formula(typed: str, symbols: Iterable[str], decimal: str = "auto") -> Formula:
+    """Read a typed formula over declared names.
+
+    Parameters
+    ----------
+    typed : str
+        For example ``fX/Z``, ``x' = f·X / Z``, ``r(1+k1 r²)``, ``20·log10(A/B)``.
+    symbols : iterable of str
+        Declared names.
+    decimal : str
+        The learner's decimal sign.
+
+    Raises
+    ------
+    ReadError
+        With the column and what was expected.
+    """
+    declared = frozenset(symbols)
+    source = normalise(typed, keep_x=bool(declared & {"x", "X"}))
+    source = _right_side(source)
+    for pattern, new in FORMULA_REWRITES.values():
+        source = source.sub(pattern, new)
+    if "e" not in declared:
+        source = _euler(source)
+    _refuse_bare_log(source, declared)
+    return _literals(source, declared, decimal)
+
+
+def _right_side(source: Source) -> Source:
+    """Drop the name on the left of ``u = ...``."""
+    match = re.match(r"([^\W\d_][\w']*(?:\([^()]*\))?) ?(?:=|:=|≈) ?(?=\S)", source.text)
+    if match is None or "=" in source.text[match.end() :]:
+        return source
+    return source.cut(match.end())
+
+
+def _euler(source: Source) -> Source:
+    """``e^x`` and ``e^(…)`` become ``exp(1)^…`` when no quantity is named e."""
+    return source.sub(_EULER, lambda _m: "exp(1)^")
+
+
+def _refuse_bare_log(source: Source, declared: frozenset[str]) -> None:
+    match = re.search(r"(?<![^\W_])log(?![\w'])", source.text)
+    if match and "log" not in declared:
+        raise ReadError("which-base", source.column(match.start()), "log")
+
+
+def _literals(source: Source, declared: frozenset[str], decimal: str) -> Formula:
+    if "," not in source.text and not re.search(r"\d\.\d{3}(?!\d)", source.text):
+        return Formula(_tree(source, declared))
+    if _ARGUMENTS.search(source.text) and decimal != "comma":
+        if decimal == "auto":
+            raise ReadError("two-readings", source.column(source.text.index(",")), source.text)
+        return Formula(_tree(source, declared))
+    main, other, doubt = pointed(source, decimal)
+    if other is None or doubt is None or (doubt.native and doubt.mark == "."):
+        return Formula(_tree(main, declared))
+    return Formula(_tree(main, declared), _tree(other, declared), doubt)
+
+
+def _tree(source: Source, declared: frozenset[str]) -> Expr:
+    try:
+        pieces = tokens(source.text, declared, loose=True)
+        loose = _formula(parse_pieces(pieces, len(source.text), tight=False))
+        if double_reading(pieces) is None:
+            return loose
+        tight = _formula(parse_pieces(pieces, len(source.text), tight=True))
+    except ReadError as error:
+        raise _meant(moved(error, source), declared) from None
+    if tight == loose:
+        return loose
+    raise ReadError("two-readings", source.column(0), "", [to_text(loose), to_text(tight)])
+
+
+_E = Call("exp", (Num(Fraction(1)),))
+
+
+def _formula(tree: Expr) -> Expr:
+    if isinstance(tree, Call) and tree.op in RELATIONS:
+        raise ReadError("not-a-formula", 1)
+    return _exponentials(tree)
+
+
+def _exponentials(tree: Expr) -> Expr:
+    """``exp(1)^x`` is ``exp(x)``."""
+    if not isinstance(tree, Call):
+        return tree
+    args = tuple(map(_exponentials, tree.args))
+    if tree.op == "pow" and args[0] == _E:
+        return Call("exp", args[1:])
+    return Call(tree.op, args)
+
+
+def _meant(error: ReadError, declared: frozenset[str]) -> ReadError:
+    """Suggest a declared name or function that differs in case only."""
+    if error.code != "unknown-name":
+        return error
+    same = [n for n in declared if folded(n).lower() == folded(error.found).lower()]
+    if error.found in FUNCTIONS:
+        return ReadError("bracket-missing", error.column or 1, error.found)
+    return ReadError(error.code, error.column or 1, error.found, same or sorted(declared))

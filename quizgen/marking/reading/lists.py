@@ -1,0 +1,118 @@
+"""Splitting typed lists. A comma is a separator or a decimal sign, never both."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from quizgen.marking.reading.rewrites import Source, normalise
+from quizgen.maths.notation import ReadError
+
+BRACKETS = {"(": ")", "[": "]", "{": "}", "<": ">"}
+_HARD = re.compile(r"[;|\n]")
+_COMMA = re.compile(r",")
+_SPACED = re.compile(r"(?<=[\d)%°A-Za-z]) +(?=[-+]?[\d.(])")
+
+
+def read_list(typed: str, count: int | None, decimal: str) -> tuple[list[Source], Source]:
+    """Split a typed list.
+
+    Parameters
+    ----------
+    typed : str
+        ``(320; 240)``, ``[1.5, 2.5]``, ``1,5 2,5``, one item per line, ...
+    count : int or None
+        How many items are expected; None for sets.
+    decimal : str
+        The learner's decimal sign.
+
+    Returns
+    -------
+    list of Source, Source
+        The items, and what stood behind the closing bracket (a unit).
+
+    Raises
+    ------
+    ReadError
+        If commas separate and mark decimals at once, or the number of items is wrong.
+    """
+    source, tail = unbracketed(normalise(re.sub(r"\r?\n", ";", typed.strip())))
+    items = _items(source, count, decimal)
+    if count is not None and len(items) != count:
+        raise ReadError("item-count", 1, str(len(items)), [str(count)])
+    return items, tail
+
+
+def unbracketed(source: Source) -> tuple[Source, Source]:
+    """Remove one pair of brackets around everything; what follows it is returned apart."""
+    close = BRACKETS.get(source.text[:1])
+    if close is None:
+        return source, source.cut(0, 0)
+    end = _closing(source.text, close)
+    if end < 0 or re.search(r"[;,|\d(\[{]", source.text[end + 1 :]):
+        return source, source.cut(0, 0)
+    return source.cut(1, end).strip(), source.cut(end + 1).strip()
+
+
+def _closing(text: str, close: str) -> int:
+    depth = 0
+    for position, character in enumerate(text):
+        depth += (character == text[0]) - (character == close)
+        if depth == 0:
+            return position
+    return -1
+
+
+def _items(source: Source, count: int | None, decimal: str) -> list[Source]:
+    if _HARD.search(source.text):
+        return list(_parts(source, _HARD))
+    commas = source.text.count(",")
+    if not commas:
+        spaced = list(_parts(source, _SPACED))
+        return spaced if count is None or len(spaced) == count else [source]
+    if count == 1:
+        return [source]
+    return _by_commas(source, commas, count, decimal)
+
+
+def _by_commas(source: Source, commas: int, count: int | None, decimal: str) -> list[Source]:
+    spaced = list(_parts(source, re.compile(r",? +")))
+    if _mixed_commas(source.text):
+        raise ReadError("comma-twice", source.column(source.text.index(",")), source.text)
+    if count is not None and commas + 1 == count:
+        return list(_parts(source, _COMMA))
+    if (
+        len(spaced) > 1
+        and not re.search(", ", source.text)
+        and len(spaced) == (count or len(spaced))
+    ):
+        return spaced
+    if decimal == "comma" and count is None:
+        raise ReadError("comma-twice", source.column(source.text.index(",")), source.text)
+    return list(_parts(source, _COMMA))
+
+
+def _mixed_commas(text: str) -> bool:
+    """``1,5, 2,5``: some commas stand between digits, others before a blank."""
+    return bool(re.search(r"\d,\d", text) and re.search(r", ", text))
+
+
+def _parts(source: Source, separator: re.Pattern[str]) -> Iterator[Source]:
+    """Cut at separators outside brackets; empty pieces at the ends are dropped."""
+    start, pieces = 0, []
+    for match in separator.finditer(source.text):
+        if _depth(source.text, match.start()) == 0:
+            pieces.append(source.cut(start, match.start()).strip())
+            start = match.end()
+    pieces.append(source.cut(start).strip())
+    while pieces and not pieces[-1].text:
+        pieces.pop()
+    for piece in pieces:
+        if not piece.text:
+            raise ReadError("empty-item", 1)
+        yield piece
+
+
+def _depth(text: str, end: int) -> int:
+    before = text[:end]
+    return sum(before.count(b) for b in "([{") - sum(before.count(b) for b in ")]}")

@@ -1,0 +1,112 @@
+"""Decimal literals: point or comma, thousands groups, and literals with two readings."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from quizgen.marking.reading.rewrites import Source
+from quizgen.maths.notation import ReadError
+
+LITERAL = re.compile(r"[.,]?\d+(?:(?:[.,]+|[ '](?=\d{3}(?!\d)))\d+)*\.?")
+"""A run of digits with marks and groups, as typed."""
+
+_ONE_MARK = re.compile(r"(\d*)([.,])(\d+)")
+_GROUPS = re.compile(r"\d{1,3}(?:([.,])\d{3})(?:\1\d{3})+|\d{1,2}(?:,\d{2})+,\d{3}")
+_GROUPED_DECIMAL = re.compile(r"\d{1,3}(?:([.,])\d{3})+(?!\1)([.,])\d+")
+
+
+@dataclass(frozen=True, slots=True)
+class Doubt:
+    """A literal such as ``1.000`` that is a decimal or a group of thousands.
+
+    ``native`` says that the mark is this learner's decimal sign (or could be); ``group_wins`` that
+    the learner declared the other mark as decimal sign and groups this way.
+    """
+
+    mark: str
+    native: bool
+    group_wins: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Literal:
+    """A literal in point notation, and its second reading if it has one."""
+
+    text: str
+    other: str = ""
+    doubt: Doubt | None = None
+
+
+def read_literal(typed: str, decimal: str = "auto", column: int = 1) -> Literal:
+    """Read one decimal literal.
+
+    Parameters
+    ----------
+    typed : str
+        Digits with ``.``, ``,``, blanks or apostrophes.
+    decimal : str
+        The learner's decimal sign: ``auto``, ``point`` or ``comma``.
+
+    Raises
+    ------
+    ReadError
+        If the marks fit no way of writing numbers.
+    """
+    compact = typed.replace(" ", "").replace("'", "")
+    match = _ONE_MARK.fullmatch(compact)
+    if match is None:
+        return Literal(_several_marks(compact, column))
+    whole, mark, digits = match.groups()
+    decimal_reading = f"{whole or 0}.{digits}"
+    if compact != typed or len(digits) != 3 or not 1 <= len(whole) <= 3 or whole[0] == "0":
+        return Literal(decimal_reading)
+    return Literal(decimal_reading, whole + digits, doubtful(mark, decimal))
+
+
+def doubtful(mark: str, decimal: str) -> Doubt | None:
+    """Tell how far the declared decimal sign settles the matter."""
+    if decimal == "point":
+        return None if mark == "." else Doubt(mark, native=False, group_wins=True)
+    native = decimal == "auto" or mark == ","
+    return Doubt(mark, native=native, group_wins=False)
+
+
+def _several_marks(compact: str, column: int) -> str:
+    if compact.rstrip(".").isdigit():
+        return compact.rstrip(".")
+    match = _GROUPED_DECIMAL.fullmatch(compact)
+    if match:
+        return compact.replace(match[1], "").replace(match[2], ".")
+    if _GROUPS.fullmatch(compact):
+        return compact.replace(",", "").replace(".", "")
+    raise ReadError("bad-number", column, compact)
+
+
+def pointed(source: Source, decimal: str) -> tuple[Source, Source | None, Doubt | None]:
+    """Write every literal of a text with a decimal point.
+
+    Returns
+    -------
+    tuple
+        The decimal reading; the reading with thousands groups, if it differs; and the doubt.
+    """
+    doubts: list[Doubt] = []
+
+    def first(match: re.Match[str]) -> str:
+        literal = read_literal(match[0], decimal, source.column(match.start()))
+        if literal.doubt:
+            doubts.append(literal.doubt)
+        return literal.text
+
+    def second(match: re.Match[str]) -> str:
+        literal = read_literal(match[0], decimal)
+        return literal.other or literal.text
+
+    main = source.sub(_STANDING, first)
+    if not doubts:
+        return main, None, None
+    return main, source.sub(_STANDING, second), doubts[0]
+
+
+_STANDING = re.compile(rf"(?<![^\W\d_])(?<![\w'])(?:{LITERAL.pattern})")

@@ -1,0 +1,58 @@
+"""Items that carry their names: ``u = 420; v = 290``."""
+
+from __future__ import annotations
+
+import re
+
+from quizgen.marking.reading.rewrites import Source
+from quizgen.maths.notation import ReadError
+from quizgen.maths.notation.names import folded
+
+_NAME = re.compile(r"([^\W\d][\w' ./-]*?) ?(?::=|[=:≈]|->|→) ?")
+
+
+def split_name(item: Source) -> tuple[str, Source]:
+    """Split ``u = 420`` into the name and the rest; the name is empty if there is none."""
+    match = _NAME.match(item.text)
+    if match is None or match.end() == len(item.text):
+        return "", item
+    return match[1].strip(), item.cut(match.end())
+
+
+def name_key(name: str) -> str:
+    """Return the spelling that names are compared by."""
+    return re.sub(r"[\s_.-]", "", folded(name))
+
+
+def find_name(typed: str, names: list[str]) -> str:
+    """Return the declared name that a typed one means (case counts only if it must), or ''."""
+    for same in (name_key, lambda name: name_key(name).lower()):
+        found = [name for name in names if same(name) == same(typed)]
+        if len(found) == 1:
+            return found[0]
+    return ""
+
+
+def reordered(items: list[Source], names: list[str], error: ReadError) -> list[Source]:
+    """Put named items into the declared order; items without names keep theirs.
+
+    Raises
+    ------
+    ReadError
+        If a name is unknown, or used twice.
+    """
+    pairs = [split_name(item) for item in items]
+    if not any(name for name, _ in pairs):
+        return items
+    if not names:
+        return [rest for _, rest in pairs]
+    placed: dict[str, Source] = {}
+    for (typed, rest), item in zip(pairs, items, strict=True):
+        name = find_name(typed, names)
+        if not name or name in placed:
+            code = "used-twice" if name else "unknown-name"
+            raise ReadError(code, item.column(0), typed, names)
+        placed[name] = rest
+    if len(placed) != len(names):
+        raise error
+    return [placed[name] for name in names]

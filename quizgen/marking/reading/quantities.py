@@ -1,0 +1,61 @@
+"""Splitting a typed quantity into its number and its unit."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from quizgen.errors import FormulaError
+from quizgen.marking.reading.rewrites import Source
+from quizgen.marking.reading.unit_words import TypedUnit, suggestion, typed_unit
+from quizgen.maths.notation import ReadError
+
+_NUMBER_PART = re.compile(
+    r"(?:[\d.,' +()√π^*/-]|[eE](?=[-+]?\d)|sqrt(?=\()|pi(?![^\W\d_])|[xX](?= ?10))*"
+)
+_FAST = re.compile(r"(-?\d+(?:[.,]\d+)?) ?([a-zA-Zµμ°%]+)", re.ASCII)
+
+
+@dataclass(frozen=True, slots=True)
+class TypedQuantity:
+    """The number part and the unit of an answer; the unit is None when none was typed."""
+
+    number: Source
+    unit: TypedUnit | None
+
+
+def split_quantity(source: Source) -> TypedQuantity:
+    """Split at the first letter that is not part of the number.
+
+    Raises
+    ------
+    ReadError
+        If what follows the number is not a listed unit.
+    """
+    match = _NUMBER_PART.match(source.text)
+    end = match.end() if match else 0
+    number, rest = source.text[:end], source.text[end:]
+    if rest and number.rstrip().endswith(("/", "*")):
+        number, rest = _unit_with_sign(number, rest)
+    if not rest.strip():
+        return TypedQuantity(source.strip(), None)
+    if not any(map(str.isdigit, number)) and not re.search("[π√]|pi", number):
+        raise ReadError("number-missing", source.column(0), rest)
+    return TypedQuantity(source.cut(0, len(number)).strip(), _unit(rest, source, end))
+
+
+def _unit_with_sign(number: str, rest: str) -> tuple[str, str]:
+    """``15 1/mm`` and ``0.015/mm``: the division sign belongs to the unit."""
+    match = re.search(r"(?:(?<=[\d)] )1 ?)?([/*]) ?$", number)
+    if match is None:
+        return number, rest
+    return number[: match.start()], ("1/" if match[1] == "/" else "") + rest
+
+
+def _unit(text: str, source: Source, position: int) -> TypedUnit:
+    try:
+        return typed_unit(text)
+    except FormulaError:
+        column = source.column(position)
+        meant = suggestion(text)
+        raise ReadError("unknown-unit", column, text.strip(), [meant] if meant else []) from None

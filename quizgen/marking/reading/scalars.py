@@ -1,0 +1,364 @@
+"""Reading one number as people type it, exactly, with how it was written."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cache, lru_cache
+from typing import Any
+
+import flint
+from flint import fmpq
+
+from quizgen.errors import MathError
+from quizgen.marking.reading.literals import Doubt, doubtful, pointed
+from quizgen.marking.reading.rewrites import Source, normalise
+from quizgen.maths.notation import ReadError, parse_pieces, to_text, tokens
+from quizgen.maths.notation.lexer import LARGEST_EXPONENT, LONGEST_NUMBER, SMALLEST_EXPONENT
+from quizgen.maths.tree import PRECISION, Expr, Field, compile_expr, exact
+
+LARGEST_BITS = 4000
+"""Largest size of an intermediate value in a typed number."""
+
+LARGEST_VALUE = fmpq(10) ** LARGEST_EXPONENT
+"""Largest number read."""
+
+
+@dataclass(frozen=True, slots=True)
+class Number:
+    """A number that was read.
+
+    Parameters
+    ----------
+    value : flint.fmpq or flint.arb
+        Exact while rational. With ``percent`` it is the number before the sign.
+    read_as : str
+        Echo in point notation.
+    form : str
+        ``integer``, ``decimal``, ``scientific``, ``fraction``, ``mixed`` or ``expression``.
+    places : int
+        Decimal places written (0 unless a decimal).
+    figures : tuple of int
+        Fewest and most significant figures that the spelling can mean.
+    lowest : bool
+        A fraction in lowest terms with a positive denominator (or an integer).
+    percent : bool
+        A percent sign follows.
+    """
+
+    value: Any
+    read_as: str
+    form: str
+    places: int = 0
+    figures: tuple[int, int] = (1, 99)
+    lowest: bool = True
+    percent: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Readings:
+    """The reading of a number and, if its literals are doubtful, the other one."""
+
+    main: Number
+    other: Number | None = None
+    doubt: Doubt | None = field(default=None)
+
+
+_FAST = re.compile(r"([-−–]?)([0-9]{1,30})(?:([.,])([0-9]{1,30}))?")
+_DIGITS = str.maketrans("০১২৩৪৫৬৭৮৯０１２３４５６７８９", "01234567890123456789")
+_SCIENTIFIC = re.compile(
+    r"(?P<sign>[-+]?) ?(?P<whole>\d*)(?:\.(?P<digits>\d*))?"
+    r"(?: ?(?:[eE] ?(?P<e>[-+]?\d{1,5})"
+    r"|\* ?10 ?(?:\^|\*\*) ?(?P<p>[-+]?\d{1,5}|\([-+]?\d{1,5}\))))?",
+    re.ASCII,
+)
+_TEN = re.compile(
+    r"(?P<sign>[-+]?) ?10 ?(?:\^|\*\*) ?(?P<p>[-+]?\d{1,5}|\([-+]?\d{1,5}\))", re.ASCII
+)
+_FRACTION = re.compile(
+    r"(?P<sign>[-+]?) ?\(?(?P<top>\d+) ?/ ?(?P<minus>-?) ?(?P<bottom>\d+)\)?", re.ASCII
+)
+_MIXED = re.compile(
+    r"(?P<sign>[-+]?) ?(?P<whole>\d+) +(?P<top>\d+) ?/ ?(?P<bottom>\d+)"
+    r"|(?P<sign2>[-+]?) ?\((?P<whole2>\d+)\+(?P<top2>\d+)/(?P<bottom2>\d+)\)",
+    re.ASCII,
+)
+_E_SPACED = re.compile(r"(?<=[\d.]) ?[eE] ?(?=[-+]?\d)")
+
+
+def fast(typed: str) -> Number | None:
+    """Read a plain number that can be read only one way, without any rewriting."""
+    match = _FAST.fullmatch(typed if typed.isascii() else typed.translate(_DIGITS))
+    if match is None:
+        return None
+    sign, whole, mark, digits = match.groups()
+    sign = "-" if sign else ""
+    if mark is None:
+        return _decimal(sign, whole, "")
+    if len(digits) == 3 and len(whole) <= 3 and whole[0] != "0":
+        return None
+    return _decimal(sign, whole, digits)
+
+
+def quick(typed: str, decimal: str) -> Readings | None:
+    """Read a plain number without any rewriting, with both readings if there are two."""
+    number = fast(typed)
+    if number is not None:
+        return Readings(number)
+    match = _FAST.fullmatch(typed if typed.isascii() else typed.translate(_DIGITS))
+    if match is None:
+        return None
+    sign, whole, mark, digits = match.groups()
+    main = _decimal("-" if sign else "", whole, digits)
+    doubt = doubtful(mark, decimal)
+    if doubt is None:
+        return Readings(main)
+    return Readings(main, _decimal("-" if sign else "", whole + digits, ""), doubt)
+
+
+def _decimal(sign: str, whole: str, digits: str) -> Number:
+    top = int(whole + digits)
+    value = fmpq(-top if sign == "-" else top, 10 ** len(digits))
+    if digits:
+        significant = len((whole + digits).lstrip("0")) or len(digits)
+        return Number(
+            value, f"{sign}{whole}.{digits}", "decimal", len(digits), (significant, significant)
+        )
+    least = len(whole.strip("0")) or 1
+    return Number(value, sign + whole, "integer", 0, (least, len(whole.lstrip("0")) or 1))
+
+
+def read_number(typed: str, decimal: str = "auto") -> Readings:
+    """Read a typed number.
+
+    Parameters
+    ----------
+    typed : str
+        For example ``66,67``, ``১২.৫``, ``3x10^5``, ``1 1/2``, ``√2/2``, ``4,55 %``.
+    decimal : str
+        The learner's decimal sign: ``auto``, ``point`` or ``comma``.
+
+    Raises
+    ------
+    ReadError
+        With the column, if it cannot be read.
+    """
+    return quick(typed, decimal) or read_source(normalise(typed), decimal)
+
+
+def read_source(source: Source, decimal: str) -> Readings:
+    """Read a number whose text has been normalised already.
+
+    Raises
+    ------
+    ReadError
+        With the column, if it cannot be read.
+    """
+    found = quick(source.text, decimal)
+    if found:
+        return found
+    main, other, doubt = pointed(source, decimal)
+    if other is None:
+        return Readings(_written(main))
+    return Readings(_written(main), _written(other), doubt)
+
+
+def _written(source: Source) -> Number:
+    """Read a number in point notation."""
+    text = source.text
+    percent = text.endswith("%")
+    if percent:
+        text = text[:-1].rstrip()
+    number = _scientific(text) or _ten(text) or _fraction(text) or _mixed(text)
+    number = number or _expression(source, text)
+    if abs(number.value) > LARGEST_VALUE:
+        raise ReadError("too-large", 1)
+    if not percent:
+        return number
+    return Number(
+        number.value,
+        f"{number.read_as} %",
+        number.form,
+        number.places,
+        number.figures,
+        number.lowest,
+        percent=True,
+    )
+
+
+def _power(text: str) -> int:
+    exponent = int(text.strip("()"))
+    if not SMALLEST_EXPONENT <= exponent <= LARGEST_EXPONENT:
+        raise ReadError("number-too-large", 1, text)
+    return exponent
+
+
+def _scientific(text: str) -> Number | None:
+    match = _SCIENTIFIC.fullmatch(text)
+    if match is None or not (match["whole"] or match["digits"]):
+        return None
+    sign, whole, digits = match["sign"].replace("+", ""), match["whole"] or "0", match["digits"]
+    if len(whole) + len(digits or "") > LONGEST_NUMBER:
+        raise ReadError("number-too-long", 1)
+    number = _decimal(sign, whole, digits or "")
+    exponent = match["e"] or match["p"]
+    if exponent is None:
+        return number
+    power = _power(exponent)
+    figures = number.figures if digits else (number.figures[1], number.figures[1])
+    return Number(
+        number.value * fmpq(10) ** power,
+        f"{number.read_as}·10^{power}",
+        "scientific",
+        max(0, number.places - power),
+        figures,
+    )
+
+
+def _ten(text: str) -> Number | None:
+    match = _TEN.fullmatch(text)
+    if match is None:
+        return None
+    power = _power(match["p"])
+    sign = -1 if match["sign"] == "-" else 1
+    read_as = f"{'-' if sign < 0 else ''}10^{power}"
+    return Number(sign * fmpq(10) ** power, read_as, "scientific", max(0, -power), (1, 1))
+
+
+def _fraction(text: str) -> Number | None:
+    match = _FRACTION.fullmatch(text)
+    if match is None or len(text) > 2 * LONGEST_NUMBER:
+        return None
+    if not int(match["bottom"]):
+        raise ReadError("division-by-zero", 1, text)
+    value = fmpq(int(match["top"]), int(match["bottom"]))
+    negative = (match["sign"] == "-") != (match["minus"] == "-")
+    lowest = int(match["bottom"]) == value.q and not match["minus"]
+    read_as = f"{match['sign'].strip('+')}{match['top']}/{match['minus']}{match['bottom']}"
+    return Number(-value if negative else value, read_as, "fraction", lowest=lowest)
+
+
+def _mixed(text: str) -> Number | None:
+    match = _MIXED.fullmatch(text)
+    if match is None or len(text) > 2 * LONGEST_NUMBER:
+        return None
+    sign, whole, top, bottom = [group or "" for group in match.groups() if group is not None]
+    if not int(bottom):
+        raise ReadError("division-by-zero", 1, text)
+    part = fmpq(int(top), int(bottom))
+    value = int(whole) + part
+    lowest = part.q == int(bottom) and part < 1
+    read_as = f"{sign.strip('+')}{whole} {top}/{bottom}"
+    return Number(-value if sign == "-" else value, read_as, "mixed", lowest=lowest)
+
+
+def _expression(source: Source, text: str) -> Number:
+    text = _E_SPACED.sub("e", text) if "e " in text or "E " in text else text
+    try:
+        pieces = tokens(text, frozenset(), loose=True)
+        tree = parse_pieces(pieces, len(text), tight=False)
+    except ReadError as error:
+        raise moved(error, source) from None
+    return Number(constant(tree), to_text(tree), "expression")
+
+
+def moved(error: ReadError, source: Source) -> ReadError:
+    """Point a reading error at the column in the typed text."""
+    if error.code == "unknown-name" and not error.expected:
+        error.code = "number-expected"
+    column = source.column((error.column or 1) - 1)
+    return ReadError(error.code, column, error.found, error.expected)
+
+
+def _bits(value: Any) -> float:
+    """Return about how many binary digits a number's size takes, both ways from one."""
+    if isinstance(value, fmpq):
+        return float(value.height_bits())
+    if not value.is_finite():
+        raise MathError("no finite real value")
+    return abs(float(abs(value).mid().man_exp()[1])) + PRECISION if value != 0 else 1.0
+
+
+class TooLargeError(MathError):
+    """An intermediate value is beyond what anyone could mean."""
+
+
+def _guarded_power(a: Any, b: Any) -> Any:
+    size = abs(b) if isinstance(b, fmpq) else abs(b).mid().fmpq()
+    if size > LARGEST_BITS or _bits(a) * float(size) > LARGEST_BITS:
+        raise TooLargeError("too large")
+    return exact().ops["pow"](a, b)
+
+
+def _guarded_exp(a: Any) -> Any:
+    if abs(a) > LARGEST_BITS:
+        raise TooLargeError("too large")
+    return exact().ops["exp"](a)
+
+
+@cache
+def typed_field() -> Field:
+    """The exact field with bounds on size, for mathematics typed by learners."""
+    ops: dict[str, Callable[..., Any]] = {**exact().ops, "pow": _guarded_power, "exp": _guarded_exp}
+    return Field("typed", exact().constant, ops)
+
+
+def constant(tree: Expr) -> Any:
+    """Evaluate a tree without names, exactly or as a certified ball, in bounded time.
+
+    Raises
+    ------
+    ReadError
+        If it has no finite real value or is too large.
+    """
+    try:
+        with flint.ctx.workprec(PRECISION):
+            value = compile_expr(tree, typed_field())({})
+    except TooLargeError:
+        raise ReadError("too-large", 1) from None
+    except (MathError, ZeroDivisionError, OverflowError, ValueError) as error:
+        raise ReadError("no-value", 1, str(error)) from None
+    except (KeyError, TypeError, AttributeError):
+        raise ReadError("not-a-number", 1) from None
+    if isinstance(value, bool):
+        raise ReadError("not-a-number", 1)
+    if not isinstance(value, fmpq) and not _sharp(value):
+        raise ReadError("no-value", 1, "not determined")
+    return value
+
+
+def _sharp(ball: Any) -> bool:
+    return bool(ball.rel_accuracy_bits() >= 40 or ball.rad() < fmpq(1, 10**30))
+
+
+@lru_cache(maxsize=8192)
+def exact_text(text: str) -> Any:
+    """Return the value of an author's constant: ``20/3``, ``6.67``, ``-1e-3``, ``sqrt(2)/2``.
+
+    Raises
+    ------
+    FormulaError
+        If it cannot be read or has no value.
+    """
+    try:
+        whole, slash, below = text.partition("/")
+        return fmpq(int(whole), int(below) if slash else 1)
+    except (ValueError, ZeroDivisionError):
+        from quizgen.maths.notation import parse
+
+        return constant(parse(text, symbols=()))
+
+
+def exact_value(value: str | float) -> Any:
+    """Return the exact value of a spec's entry; a float counts as the decimal it prints as.
+
+    Raises
+    ------
+    FormulaError
+        If it cannot be read or has no value.
+    """
+    return exact_text(value if isinstance(value, str) else repr(value))
+
+
+__all__ = ["Number", "ReadError", "Readings", "exact_value", "read_number", "read_source"]
