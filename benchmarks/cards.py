@@ -17,7 +17,7 @@ from typing import Any
 COLD = """
 import resource, sys
 from time import process_time
-from quizgen.cli import main
+from quizgen.cli.main import main
 import click
 click.echo = lambda *a, **k: None
 main(sys.argv[1:])

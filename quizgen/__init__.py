@@ -33,7 +33,7 @@ _HOMES = {
     "render_paper": "quizgen.render",
     "mark": "quizgen.marking.mark",
     "show": "quizgen.marking.mark",
-    "lint_template": "quizgen.lint",
+    "lint_template": "quizgen.audit.lint",
     "QuizgenError": "quizgen.errors",
 }
 

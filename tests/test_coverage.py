@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from quizgen.coverage import INVENTORY, coverage, unknown
+from quizgen.audit.coverage import INVENTORY, coverage, unknown
 
 
 def test_the_inventory_counts_what_the_curriculum_counts():

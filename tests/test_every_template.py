@@ -8,9 +8,9 @@ import math
 import mpmath
 import pytest
 
+from quizgen.audit.lint import lint
 from quizgen.bank.draw import admissible, draw, plan_of
 from quizgen.bank.folder import LANGUAGES, builtin
-from quizgen.lint import lint
 from quizgen.marking.mark import load_spec, mark, show
 from quizgen.maths.numbers import to_float
 from quizgen.maths.tree import Call, Expr, Num, Sym

@@ -98,7 +98,7 @@ def loaded(code: str) -> set[str]:
 
 
 HELP = """
-from quizgen.cli import main
+from quizgen.cli.main import main
 try: main(['--help'])
 except SystemExit: pass
 """

@@ -86,7 +86,7 @@ def display(maths: Maths, lang: str) -> Markup:
 @cache
 def _environment() -> jinja2.Environment:
     environment = jinja2.Environment(
-        loader=jinja2.PackageLoader("quizgen", "pages"),
+        loader=jinja2.PackageLoader("quizgen.render", "pages"),
         autoescape=True,
         trim_blocks=True,
         lstrip_blocks=True,
@@ -105,7 +105,7 @@ def _environment() -> jinja2.Environment:
 
 @cache
 def _style() -> str:
-    return (files("quizgen") / "pages" / "paper.css").read_text(encoding="utf-8")
+    return (files("quizgen.render") / "pages" / "paper.css").read_text(encoding="utf-8")
 
 
 def render(paper: Paper, kind: str) -> bytes:

@@ -301,7 +301,7 @@ def _fonts() -> Any:
 
 @cache
 def _layout() -> str:
-    return (files("quizgen") / "pages" / "paper.typ").read_text(encoding="utf-8")
+    return (files("quizgen.render") / "pages" / "paper.typ").read_text(encoding="utf-8")
 
 
 def source(paper: Paper, kind: str) -> tuple[str, dict[str, bytes]]:

@@ -14,7 +14,7 @@ from PIL import Image as PillowImage
 
 from quizgen.camera import SceneError, png
 from quizgen.camera.reading import load
-from quizgen.cli_simulate import SCENES, simulate
+from quizgen.cli.simulate import SCENES, simulate
 
 NAMES = sorted(path.stem for path in SCENES.glob("*.toml"))
 

@@ -24,7 +24,7 @@ from quizgen.bank.prose import Paragraph, Words
 from quizgen.cards import build
 from quizgen.cards.tables import COLUMNS, HEADER, as_csv, tsv
 from quizgen.cards.versions import BASE, STEP, modified, raised
-from quizgen.cli import group
+from quizgen.cli.main import group
 
 ROOT = Path(__file__).parent.parent.parent
 SCRIPT = """

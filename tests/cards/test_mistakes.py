@@ -8,7 +8,7 @@ import pytest
 from click.testing import CliRunner
 
 from quizgen.cards.mistakes import from_marks
-from quizgen.cli import group
+from quizgen.cli.main import group
 from quizgen.errors import CodeError, KeyFileError
 from quizgen.paper.blueprint import load
 from quizgen.paper.marking import check_paper

@@ -76,7 +76,7 @@ def test_checking_a_paper_loads_no_heavy_package(tmp_path):
     paper.write_text(json.dumps(key()))
     form.write_text(json.dumps({"answers": {"1a": "7", "1b": "3 cm", "1c": "f*X"}}))
     code = (
-        "import sys\nfrom quizgen.cli import main\n"
+        "import sys\nfrom quizgen.cli.main import main\n"
         f"main(['check', {str(paper)!r}, {str(form)!r}])\n"
         f"print([m for m in {HEAVY!r} if m in sys.modules])"
     )

@@ -10,8 +10,8 @@ from fractions import Fraction
 import pytest
 from click.testing import CliRunner
 
-from quizgen.cli_check import check as check_command
-from quizgen.cli_check import mark as mark_command
+from quizgen.cli.check import check as check_command
+from quizgen.cli.check import mark as mark_command
 from quizgen.errors import KeyFileError
 from quizgen.marking.batch import marked
 from quizgen.paper.key import read_answers, read_key

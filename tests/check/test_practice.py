@@ -7,9 +7,9 @@ import json
 import pytest
 from click.testing import CliRunner
 
-from quizgen import cli_practice as practice
 from quizgen.bank.folder import builtin
-from quizgen.cli_check import practice as command
+from quizgen.cli import practice
+from quizgen.cli.check import practice as command
 from quizgen.marking.mark import show
 from quizgen.marking.messages import LANGUAGES, practice_words
 from quizgen.question.compose import compose

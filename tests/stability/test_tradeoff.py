@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from quizgen.cli_tradeoff import tradeoff
+from quizgen.cli.tradeoff import tradeoff
 from quizgen.maths.tree import compile_expr
 from quizgen.tradeoff import fields, ladder
 from quizgen.tradeoff.families import BY_NAME, FAMILIES

@@ -8,8 +8,8 @@ from typing import Any
 
 import click
 
+from quizgen.cli.options import bank_options, open_bank
 from quizgen.errors import BankError, QuizgenError
-from quizgen.options import bank_options, open_bank
 
 
 @click.command()
@@ -40,7 +40,7 @@ def _print_coverage(bank: Any) -> None:
     from rich.console import Console
     from rich.table import Table
 
-    from quizgen.coverage import coverage
+    from quizgen.audit.coverage import coverage
 
     table = Table("group", "covered", "of", "holes")
     for row in coverage(bank):
@@ -84,7 +84,7 @@ def lint(folder: Path | None, seeds: int, only: tuple[str, ...], **options: Any)
     from rich.console import Console
     from rich.table import Table
 
-    from quizgen.lint import lint as examine
+    from quizgen.audit.lint import lint as examine
 
     if folder is not None:
         options["bank"] = folder
@@ -115,7 +115,7 @@ def lint(folder: Path | None, seeds: int, only: tuple[str, ...], **options: Any)
 @click.command()
 def doctor() -> None:
     """Check fonts, glyph coverage and versions."""
-    from quizgen.doctor import checks
+    from quizgen.audit.doctor import checks
 
     bad = False
     for name, outcome, fine in checks():

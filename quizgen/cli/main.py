@@ -11,17 +11,17 @@ import click
 from quizgen.errors import QuizgenError
 
 COMMANDS = {
-    "exam": ("quizgen.cli_exam", "Make a mock exam with solutions and key."),
-    "check": ("quizgen.cli_check", "Mark typed answers with a paper's key."),
-    "practice": ("quizgen.cli_check", "Practise in the terminal with instant feedback."),
-    "mark": ("quizgen.cli_check", "Mark one answer, or JSON Lines of answers (for authors)."),
-    "cards": ("quizgen.cli_cards", "Make flashcards for Anki and other programs."),
-    "templates": ("quizgen.cli_bank", "List the templates of the bank."),
-    "preview": ("quizgen.cli_bank", "Show one question with its solution."),
-    "lint": ("quizgen.cli_bank", "Prove templates sound over many seeds."),
-    "doctor": ("quizgen.cli_bank", "Check fonts, glyphs and versions."),
-    "simulate": ("quizgen.cli_simulate", "Photograph a scene, running only the effects it needs."),
-    "tradeoff": ("quizgen.cli_tradeoff", "Show what accuracy costs in time."),
+    "exam": ("quizgen.cli.exam", "Make a mock exam with solutions and key."),
+    "check": ("quizgen.cli.check", "Mark typed answers with a paper's key."),
+    "practice": ("quizgen.cli.check", "Practise in the terminal with instant feedback."),
+    "mark": ("quizgen.cli.check", "Mark one answer, or JSON Lines of answers (for authors)."),
+    "cards": ("quizgen.cli.cards", "Make flashcards for Anki and other programs."),
+    "templates": ("quizgen.cli.bank", "List the templates of the bank."),
+    "preview": ("quizgen.cli.bank", "Show one question with its solution."),
+    "lint": ("quizgen.cli.bank", "Prove templates sound over many seeds."),
+    "doctor": ("quizgen.cli.bank", "Check fonts, glyphs and versions."),
+    "simulate": ("quizgen.cli.simulate", "Photograph a scene, running only the effects it needs."),
+    "tradeoff": ("quizgen.cli.tradeoff", "Show what accuracy costs in time."),
 }
 """Command name to the module that holds it and its one-line help."""
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from quizgen.options import bank_options, open_bank
+from quizgen.cli.options import bank_options, open_bank
 
 if TYPE_CHECKING:
     from quizgen.cards import Deck

@@ -11,7 +11,7 @@ import click
 if TYPE_CHECKING:
     from quizgen.camera.simulate import Photo
 
-SCENES = Path(__file__).parent / "camera" / "scenes"
+SCENES = Path(__file__).parent.parent / "camera" / "scenes"
 
 
 @click.command()

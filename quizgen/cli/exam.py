@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from quizgen.cli.options import bank_options, open_bank
 from quizgen.errors import CodeError
-from quizgen.options import bank_options, open_bank
 
 if TYPE_CHECKING:
     from quizgen.paper.paper import Paper

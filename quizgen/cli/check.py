@@ -140,6 +140,6 @@ def practice(**options: Any) -> None:
 
     Ctrl-C keeps the session; the same command goes on with it.
     """
-    from quizgen.cli_practice import run
+    from quizgen.cli.practice import run
 
     run(**options)
