@@ -1,10 +1,11 @@
-"""Which stage of the line may import which, read from the source with ast."""
+"""Which package may import which, read from the source with ast."""
 
 from __future__ import annotations
 
 import ast
 import subprocess
 import sys
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -12,71 +13,110 @@ import pytest
 ROOT = Path(__file__).parent.parent
 PACKAGE = ROOT / "quizgen"
 
-ALLOWED = {
-    "errors": set(),
-    "expr": {"errors", "_exact", "_floats"},
-    "_exact": {"errors"},
-    "_floats": set(),
-    "units": {"errors"},
-    "chain": {"errors", "expr"},
-    "numbers": {"errors"},
-    "reader": {"errors", "expr"},
-    "formula": {"errors", "expr", "units"},
-    "model": {"errors", "expr", "chain", "formula"},
-    "template": {"errors", "expr", "chain", "units", "reader"},
-    "text": {"errors", "expr", "reader"},
-    "bank": {"errors", "chain", "template", "text"},
-    "traps": {"errors", "expr", "chain", "numbers", "units", "template"},
-    "draw": {"errors", "expr", "chain", "numbers", "template", "traps"},
-    "locale": {"errors"},
-    "figures": {"errors", "camera", "bank"},
-    "check": {"errors", "expr", "chain", "numbers", "units", "reader", "locale"},
-    "asking": {"locale", "units"},
-    "specs": {"errors", "expr", "traps", "draw", "numbers", "text", "reader", "solution"},
-    "solution": {"errors", "expr", "locale", "chain", "draw", "numbers", "units", "text", "reader", "formula",
-                 "specs", "check"},
-    "question": {"errors", "expr", "traps", "draw", "numbers", "template", "text", "reader", "figures",
-                 "asking", "specs", "solution"},
-    "blueprint": {"errors", "locale"},
-    "exam": {"errors", "bank", "blueprint", "draw", "question", "template", "text"},
-    "camera": {"errors", "bank", "units"},
+LAYERS = {
+    "errors": "",
+    "files": "errors",
+    "locale": "errors",
+    "maths": "errors",
+    "arrays": "errors",
+    "typeset": "errors locale maths",
+    "bank": "errors files maths",
+    "camera": "errors files maths arrays",
+    "figures": "errors locale arrays camera",
+    "marking": "errors locale maths",
+    "question": "errors locale maths typeset bank figures marking",
+    "paper": "errors files locale maths bank marking question",
+    "practice": "errors files locale maths bank marking question paper",
+    "render": "errors files locale typeset bank question paper",
+    "cards": "errors files locale maths typeset bank figures question paper render",
+    "tradeoff": "errors files locale maths arrays typeset bank figures render",
+    "audit": "errors files locale maths bank figures marking question paper render",
+    "cli": "errors files locale maths bank camera figures marking question paper practice render cards "
+    "tradeoff audit",
+}
+"""Package to the packages below it that it may use. Solvers use ``maths.model`` alone."""
+
+MAY_IMPORT_BY_NAME = {
+    "__init__.py", "cli/main.py", "bank/folder.py",
+    "figures/__init__.py", "cards/deck.py", "marking/kinds/__init__.py", "render/__init__.py",
+    "tradeoff/families.py",
 }  # fmt: skip
-"""Stage to the stages it may use. Everything else (render, cards, lint, commands) may use all."""
+"""The lazy public names, the lazy commands, and a bank's own solvers."""
 
 
-def stage_of(path: Path) -> str:
+def package_of(path: Path) -> str:
     return path.relative_to(PACKAGE).parts[0].removesuffix(".py")
 
 
-def imported(path: Path) -> set[str]:
+def module_name(path: Path) -> str:
+    return ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__")
+
+
+MODULES = {module_name(path): path for path in sorted(PACKAGE.rglob("*.py"))}
+
+
+def imported_modules(path: Path) -> set[str]:
+    """Modules of quizgen that a file imports, anywhere in it."""
     found = set()
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.ImportFrom) and node.module and not node.level:
-            parts = node.module.split(".")
-            if parts[0] == "quizgen":
-                found |= {parts[1]} if len(parts) > 1 else {alias.name for alias in node.names}
+        if isinstance(node, ast.ImportFrom) and node.module and node.module.startswith("quizgen"):
+            whole = {f"{node.module}.{alias.name}" for alias in node.names} & MODULES.keys()
+            found |= whole or {node.module}
         elif isinstance(node, ast.Import):
-            found |= {a.name.split(".")[1] for a in node.names if a.name.startswith("quizgen.")}
-    return found
+            found |= {alias.name for alias in node.names if alias.name in MODULES}
+    return found - {module_name(path) if path.is_relative_to(PACKAGE) else ""}
 
 
-FILES = sorted(p for p in PACKAGE.rglob("*.py") if stage_of(p) in ALLOWED)
+def imported(path: Path) -> set[str]:
+    """Packages of quizgen that a file imports."""
+    return {name.split(".")[1] for name in imported_modules(path) if "." in name}
+
+
+FILES = [path for path in MODULES.values() if not package_of(path).startswith("__")]
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(PACKAGE)))
-def test_a_stage_imports_only_what_stands_before_it(path):
-    stage = stage_of(path)
-    assert imported(path) - {stage} <= ALLOWED[stage]
+def test_a_package_imports_only_packages_below_it(path):
+    package = package_of(path)
+    assert imported(path) - {package} <= set(LAYERS[package].split())
+
+
+def test_every_package_has_its_layer():
+    assert {package_of(path) for path in FILES} <= LAYERS.keys()
+
+
+def test_layers_are_listed_from_the_ground_up():
+    below: set[str] = set()
+    for package, uses in LAYERS.items():
+        assert set(uses.split()) <= below, package
+        below.add(package)
+
+
+def test_no_module_imports_itself_in_a_circle():
+    order = TopologicalSorter({name: imported_modules(path) for name, path in MODULES.items()})
+    order.prepare()
+
+
+@pytest.mark.parametrize("path", MODULES.values(), ids=lambda p: str(p.relative_to(PACKAGE)))
+def test_nothing_is_imported_by_a_computed_name(path):
+    names = {
+        node.id for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, ast.Name)
+    }
+    attributes = {
+        n.attr for n in ast.walk(ast.parse(path.read_text())) if isinstance(n, ast.Attribute)
+    }
+    if {"import_module", "__import__"} & (names | attributes):
+        assert str(path.relative_to(PACKAGE)) in MAY_IMPORT_BY_NAME
 
 
 def test_nothing_imports_commands():
-    others = [p for p in PACKAGE.rglob("*.py") if not stage_of(p).startswith(("cli", "__"))]
-    assert not [p for p in others if any(name.startswith("cli") for name in imported(p))]
+    others = [path for path in FILES if package_of(path) != "cli"]
+    assert not [path for path in others if "cli" in imported(path)]
 
 
 def test_solvers_know_only_the_model():
-    for path in (ROOT / "solvers").glob("*.py"):
-        assert imported(path) <= {"model"}, path
+    for path in (ROOT / "solvers").rglob("*.py"):
+        assert imported_modules(path) <= {"quizgen.maths.model"}, path
 
 
 def test_no_text_is_ever_run():
