@@ -14,8 +14,25 @@ import sys
 import time
 from collections.abc import Callable
 
-FIGURES = ("A3", "Q4a", "C14", "C13", "D17a", "S14", "S11")
-PLAIN = ("A4range", "A5", "B8", "C15a", "D18", "D19b", "K19", "S24")
+FIGURES = (
+    "point-to-image-plane",
+    "point-to-image-plane-fractions",
+    "image-height-and-fill-distance",
+    "gaussian-peak-and-tail-shares",
+    "thin-lens-image-distance",
+    "demosaic-blue-and-green-site",
+    "blur-disc-diameter",
+)
+PLAIN = (
+    "normalise-from-offset-range",
+    "mixing-kind-and-resulting-colour",
+    "floats-or-uint8",
+    "rgb-to-hsv",
+    "weak-perspective-scale-error",
+    "photon-snr-and-decibels",
+    "pixel-coordinates-in-python",
+    "image-scaling-laws",
+)
 COLD = "import sys; sys.path.insert(0, {path!r}); import papers; papers.paper_bytes(1)"
 
 

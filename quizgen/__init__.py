@@ -5,7 +5,8 @@ The small Python interface; each name is loaded when it is first used.
 Examples
 --------
 >>> import quizgen
->>> question, key = quizgen.compose(quizgen.builtin().template("A3"), seed="reference")
+>>> template = quizgen.builtin().template("point-to-image-plane")
+>>> question, key = quizgen.compose(template, seed="reference")
 >>> question.title
 'Perspective projection of a point'
 >>> key.solution.parts[0].answer

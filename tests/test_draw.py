@@ -26,7 +26,7 @@ def make_bank(tmp_path: Path, toml: str, name: str = "mine", **languages: str) -
 BASE = """
 topic = "projection"
 tier = "A"
-solver = "perspective"
+solver = "projection/perspective"
 [draw]
 f = { range = [2, 6, 1] }
 p_x = { range = [-15, 15, 1], skip = [0] }
@@ -53,7 +53,7 @@ def test_a_new_variable_changes_no_other_value(tmp_path):
 
 
 def test_seed_slot_and_version_matter(bank):
-    template = bank.template("A3")
+    template = bank.template("point-to-image-plane")
     assert draw(template, 1).shown == draw(template, "1").shown
     assert len({str(draw(template, 1, slot).shown) for slot in range(12)}) > 6
 
@@ -90,7 +90,7 @@ def test_shuffling_is_a_permutation_and_balanced():
         (("range = [2, 6, 1]", "rang = [2, 6, 1]"), "allowed: .*range"),
         (("range = [2, 6, 1]", "range = [2, 6]"), "first, last, step"),
         (("range = [2, 12, 1]", 'range = [2, 12, 1], unit = "parsec"'), "unknown unit"),
-        (('solver = "perspective"', 'solver = "nothing"'), "no such solver"),
+        (('solver = "projection/perspective"', 'solver = "nothing"'), "no such solver"),
         (("[draw]", "[draw"), "not valid TOML"),
         (("[draw]", 'where = ["f >"]\n[draw]'), "formula"),
         (("[draw]", 'where = ["g > 1"]\n[draw]'), "formula"),
@@ -128,8 +128,23 @@ def test_mistakes_in_prose_are_located(tmp_path, text, message):
 
 
 def test_unknown_template_suggests_a_near_one(bank):
-    with pytest.raises(BankError, match="did you mean"):
-        bank.template("Q4")
+    with pytest.raises(BankError, match="did you mean point-to-image-plane"):
+        bank.template("point-to-image-plan")
+
+
+def test_a_template_asked_for_by_its_first_name_is_found(bank):
+    with pytest.raises(BankError, match="now called 'point-to-image-plane-fractions'"):
+        bank.template("Q4a")
+
+
+def test_a_renamed_template_keeps_its_numbers(tmp_path):
+    before = draw(make_bank(tmp_path, BASE).template("mine"), 5)
+    moved = BASE.replace('tier = "A"', 'tier = "A"\nformerly = "mine"')
+    shutil.rmtree(tmp_path / "templates")
+    make_bank(tmp_path, moved, name="yours")
+    after = draw(Bank(tmp_path).template("yours"), 5)
+    assert after.template.id == "yours"
+    assert after.shown == before.shown
 
 
 def test_a_foreign_bank_runs_no_python_unless_trusted(tmp_path):

@@ -115,10 +115,12 @@ def test_adding_a_template_changes_no_number_of_another(bank, tmp_path):
     from quizgen.bank.folder import Bank, builtin_root
 
     shutil.copytree(builtin_root() / "templates", tmp_path / "templates")
-    source = bank.paths["A3"]
+    source = bank.paths["point-to-image-plane"]
     shutil.copytree(source, tmp_path / "templates" / "projection" / "A3copy")
     larger = Bank(tmp_path)
-    blueprint = Blueprint({"en": "x"}, (SlotRule(templates=("Q4a",), count=4),), name="x")
+    blueprint = Blueprint(
+        {"en": "x"}, (SlotRule(templates=("point-to-image-plane-fractions",), count=4),), name="x"
+    )
     small = build(bank, blueprint, 9, figures=False)
     big = build(larger, blueprint, 9, figures=False)
     assert [i.keys[0].draw.shown for i in small.items] == [i.keys[0].draw.shown for i in big.items]
@@ -144,9 +146,15 @@ def test_a_topic_and_a_time_choose_the_questions(bank):
 
 
 def test_the_number_of_possible_papers(bank):
-    one = Blueprint({"en": "x"}, (SlotRule(templates=("A3",)),), name="x")
-    two = Blueprint({"en": "x"}, (SlotRule(templates=("A3",), count=2),), name="x")
-    either = Blueprint({"en": "x"}, (SlotRule(templates=("A3", "Q4a")),), name="x")
+    one = Blueprint({"en": "x"}, (SlotRule(templates=("point-to-image-plane",)),), name="x")
+    two = Blueprint(
+        {"en": "x"}, (SlotRule(templates=("point-to-image-plane",), count=2),), name="x"
+    )
+    either = Blueprint(
+        {"en": "x"},
+        (SlotRule(templates=("point-to-image-plane", "point-to-image-plane-fractions")),),
+        name="x",
+    )
     assert build(bank, one, 0, figures=False).variety == 3760
     assert build(bank, two, 0, figures=False).variety == 3760 * 3759 // 2
     assert build(bank, either, 0, figures=False).variety == 3760 + 33976
@@ -154,7 +162,12 @@ def test_the_number_of_possible_papers(bank):
 
 def test_the_trial_exam_is_the_chapters_ten_points(bank):
     paper = build(bank, load("trial"), 2, figures=False)
-    assert [item.keys[0].template for item in paper.items][1:] == ["Q1b", "Q1c", "Q1d", "Q4a"]
+    assert [item.keys[0].template for item in paper.items][1:] == [
+        "mixing-kind-and-primaries",
+        "stopping-down-or-opening-effects",
+        "recognise-and-sketch-distortion",
+        "point-to-image-plane-fractions",
+    ]
     assert paper.points == 10
     key = json.loads(key_bytes(paper))
     assert sum(Fraction(p["points"]) for q in key["questions"] for p in q["parts"]) == 10
@@ -163,9 +176,9 @@ def test_the_trial_exam_is_the_chapters_ten_points(bank):
 def test_the_reference_paper_is_the_notes_own(bank):
     paper = reference_paper(bank, load("mock"), "en")
     answers = {item.keys[0].template: item.keys[0].solution.parts for item in paper.items}
-    assert answers["A3"][0].answer == "(4; 6)"
-    assert answers["D17a"][0].answer.startswith("200/3 mm")
-    assert answers["C11b"][0].answer.startswith("(440; 160)")
+    assert answers["point-to-image-plane"][0].answer == "(4; 6)"
+    assert answers["thin-lens-image-distance"][0].answer.startswith("200/3 mm")
+    assert answers["point-to-pixel"][0].answer.startswith("(440; 160)")
     assert rebuild(bank, paper.code).code == paper.code
 
 

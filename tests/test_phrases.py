@@ -51,7 +51,13 @@ def test_a_phrase_may_contain_a_drawn_value(sizes):
     assert stems == {"Here is a person.", "Here is a tree of 12\u00a0m."}
 
 
-@pytest.mark.parametrize(("template", "low", "high"), [("C14", "1.5", "2"), ("C14", "70", "150")])
+@pytest.mark.parametrize(
+    ("template", "low", "high"),
+    [
+        ("image-height-and-fill-distance", "1.5", "2"),
+        ("image-height-and-fill-distance", "70", "150"),
+    ],
+)
 def test_named_objects_have_plausible_sizes(bank, template, low, high):
     fitting = {"person", "statue"} if Fraction(high) < 5 else {"tower", "mast"}
     for seed in range(300):
@@ -67,20 +73,23 @@ def verdict_of(template, value):
 
 def test_dividing_by_256_is_told_apart_as_it_would_be_written(bank):
     """64/255 = 0.25098 is 0.251, 64/256 is 0.250; 20/255 and 20/256 both round to 0.078."""
-    _, traps = verdict_of(bank.template("A4"), "64")
+    _, traps = verdict_of(bank.template("normalise-from-8-bit-range"), "64")
     assert "one-more" in traps[0]
-    assert verdict_of(bank.template("A4"), "20") == "trap 'one-more' cannot be told from 'the key'"
+    assert (
+        verdict_of(bank.template("normalise-from-8-bit-range"), "20")
+        == "trap 'one-more' cannot be told from 'the key'"
+    )
 
 
 def test_half_a_unit_is_accepted_in_one_step(bank):
-    spec = build(reference(bank.template("A4")), 0)
+    spec = build(reference(bank.template("normalise-from-8-bit-range")), 0)
     assert mark(spec, "0.251").verdict == "correct"
     assert mark(spec, "64/255").verdict == "correct"
     assert mark(spec, "0.25").note == "trap:one-more"
 
 
 def test_percent_tolerances_are_in_percent(bank):
-    spec = build(reference(bank.template("C12")), 3)
+    spec = build(reference(bank.template("radial-points-and-line-bow")), 3)
     assert mark(spec, "56.25 %").verdict == "correct"
     assert mark(spec, "56.7 %").verdict == "correct"
     assert mark(spec, "57 %").verdict == "wrong"
@@ -95,13 +104,13 @@ def test_percent_tolerances_are_in_percent(bank):
     ],
 )
 def test_key_points_are_found_in_both_languages(bank, typed, found):
-    verdict = mark(build(draw(bank.template("B6"), 0), 0), typed)
+    verdict = mark(build(draw(bank.template("why-bayer-green-and-demosaicing"), 0), 0), typed)
     assert verdict.note == "self-mark"
     assert set(verdict.fields["found"]) == found
 
 
 def test_the_solution_of_a_text_question_shows_its_key_points(bank):
-    _, key = compose(bank.template("B6"), 0, "bn")
+    _, key = compose(bank.template("why-bayer-green-and-demosaicing"), 0, "bn")
     assert [plain(point)[:3] for point in key.solution.parts[0].options] == ["চোখ", "lum"]
 
 
@@ -116,7 +125,7 @@ def test_the_solution_of_a_text_question_shows_its_key_points(bank):
     ],
 )
 def test_any_other_point_of_the_ray_in_front_of_the_camera_counts(bank, typed, verdict):
-    spec = build(reference(bank.template("A3ray")), 1)
+    spec = build(reference(bank.template("points-on-one-ray")), 1)
     assert mark(spec, typed).verdict == verdict
 
 
@@ -125,7 +134,7 @@ def test_the_letters_asked_for_are_those_of_the_picture(bank, seed):
     """The figure's own table of permutations decides where each edit stands."""
     from quizgen.figures.hsv_edits import edit_order
 
-    one = draw(bank.template("Q1a"), seed)
+    one = draw(bank.template("hsv-edit-from-pictures"), seed)
     order = edit_order(float(int(one.shown["order"].p)))
     expected = [["ABCD"[order.index(edit)]] for edit in ("V", "S", "H")]
     assert [gap[:1] for gap in build(one, 0)["accept"]] == expected

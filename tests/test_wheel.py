@@ -35,8 +35,8 @@ def built(uv, tmp_path_factory):
 def test_wheel_and_sdist_hold_the_bank(built):
     wheel = next(built.glob("*.whl"))
     names = zipfile.ZipFile(wheel).namelist()
-    assert "quizgen/builtin/templates/projection/A3/template.toml" in names
-    assert "quizgen/builtin/solvers/perspective.py" in names
+    assert "quizgen/builtin/templates/projection/point-to-image-plane/template.toml" in names
+    assert "quizgen/builtin/solvers/projection/perspective.py" in names
     assert not [n for n in names if n.startswith(("templates/", "solvers/", "tests/"))]
     assert not [n for n in names if n.endswith(".pyc")]
     assert next(built.glob("*.tar.gz")).stat().st_size > 0

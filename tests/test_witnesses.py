@@ -24,7 +24,7 @@ def typed(values):
 
 
 def test_hsv_value_fails_additivity_exactly_without_a_common_largest_channel(bank):
-    spec, _ = spec_of(bank, "C15b")
+    spec, _ = spec_of(bank, "hsv-nonlinearity-counterexample")
     tenths = [Fraction(i, 10) for i in range(6)]
     chosen = random.Random(5)
     for _ in range(300):
@@ -37,13 +37,13 @@ def test_hsv_value_fails_additivity_exactly_without_a_common_largest_channel(ban
 
 
 def test_a_colour_and_its_multiple_refute_nothing(bank):
-    spec, _ = spec_of(bank, "C15b")
+    spec, _ = spec_of(bank, "hsv-nonlinearity-counterexample")
     verdict = mark(spec, "a = (0.4; 0.2; 0.1); b = (0.2; 0.1; 0.05)")
     assert (verdict.verdict, verdict.note) == ("wrong", "predicate")
 
 
 def test_colours_out_of_range_are_told_so(bank):
-    spec, _ = spec_of(bank, "C15b")
+    spec, _ = spec_of(bank, "hsv-nonlinearity-counterexample")
     assert mark(spec, "a = (1; 0; 0); b = (0.5; 1; 0)").note == "constraint"
 
 
@@ -55,7 +55,7 @@ def bent(points, k):
 
 @pytest.mark.parametrize("seed", range(5))
 def test_three_points_of_a_line_are_a_witness_exactly_if_their_images_are_not_in_line(bank, seed):
-    spec, one = spec_of(bank, "C12line", seed)
+    spec, one = spec_of(bank, "straight-line-counterexample", seed)
     k = Fraction(int(one.shown["k"].p), int(one.shown["k"].q))
     steps = [Fraction(i, 4) for i in (-2, 0, 3)]
     for x, slope in itertools.product((Fraction(0), Fraction(1, 2), Fraction(-1, 4)), (0, 1)):
@@ -65,13 +65,13 @@ def test_three_points_of_a_line_are_a_witness_exactly_if_their_images_are_not_in
 
 
 def test_points_that_are_not_in_line_are_told_so(bank):
-    spec, _ = spec_of(bank, "C12line")
+    spec, _ = spec_of(bank, "straight-line-counterexample")
     assert mark(spec, "A = (0; 0); B = (0.5; 0.5); C = (0.2; 1)").note == "constraint"
 
 
 @pytest.mark.parametrize("seed", range(6))
 def test_encoding_is_refuted_by_any_two_positive_intensities(bank, seed):
-    spec, _ = spec_of(bank, "D20ac", seed, part=1)
+    spec, _ = spec_of(bank, "gamma-linearity-counterexample", seed, part=1)
     assert mark(spec, "0.25; 0.25").verdict == "correct"
     assert mark(spec, "a = 0.1; b = 0.6").verdict == "correct"
     assert mark(spec, "0; 0.5").note in {"predicate", "undecided"}

@@ -70,13 +70,18 @@ def coverage(bank: Bank) -> list[Row]:
 
 
 def unknown(bank: Bank) -> list[tuple[str, str]]:
-    """Template and item wherever a template claims something the curriculum does not have."""
-    known = {item for items in INVENTORY.values() for item in items}
+    """Template and item wherever a template claims something the curriculum does not have.
+
+    A whole question (``C12``) is known by its sub-parts (``C12a``).
+    """
+    items = [item for items in INVENTORY.values() for item in items]
+    whole = {re.sub(r"(?<=\d)[a-z]$|-.*$", "", item) for item in items}
+    known = {*items, *whole}
     return [
         (name, item)
         for name in bank.paths
         for item in bank.rules(name).covers
-        if item not in known and item not in bank.paths and not BEYOND.fullmatch(item)
+        if item not in known and not BEYOND.fullmatch(item)
     ]
 
 

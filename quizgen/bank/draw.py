@@ -1,6 +1,6 @@
 """From a template and a seed to admissible numbers.
 
-Every value is a function of (template id, version, paper seed, slot, variable, try) through
+Every value is a function of (template origin, version, paper seed, slot, variable, try) through
 SHA-256, so adding a template, a variable, a language or a format changes no other value. A draw is
 kept only if it meets every condition of the template *and* no known mistake would be accepted or
 could be taken for another one.
@@ -271,7 +271,7 @@ def draw(template: Template, seed: str | int, slot: str | int = "0") -> Draw:
         If no try within ``MAX_TRIES`` is admissible; names the condition met most often.
     """
     plan = plan_of(template)
-    stem = f"{template.id}/{template.rules.version}/{seed}/{slot}"
+    stem = f"{template.origin}/{template.rules.version}/{seed}/{slot}"
     reasons: Counter[str] = Counter()
     for attempt in range(MAX_TRIES):
         shown, words = plan.candidate(stem, attempt)
@@ -299,7 +299,7 @@ def reference(template: Template) -> Draw:
     if given is None:
         raise DrawError(f"template {template.id!r} has no reference instance")
     plan = plan_of(template)
-    shown, words = plan.candidate(f"{template.id}/reference", 0)
+    shown, words = plan.candidate(f"{template.origin}/reference", 0)
     for variable in plan.variables:
         if variable.name in given and variable.words:
             words[variable.name] = str(given[variable.name])

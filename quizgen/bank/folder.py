@@ -6,6 +6,7 @@ always safe to read. Solvers are Python, so a foreign bank runs its own only whe
 
 from __future__ import annotations
 
+import difflib
 import importlib
 import importlib.util
 import sys
@@ -46,7 +47,7 @@ def mount(folder: Path, name: str) -> ModuleType:
 
 
 def solver_module(name: str) -> ModuleType:
-    """A module of the built-in solvers, for example ``arrays.hsv``."""
+    """A module of the built-in solvers, for example ``colour/rgb_to_hsv``."""
     return builtin().solver(name)
 
 
@@ -94,20 +95,24 @@ class Bank:
         BankError
             If it does not exist, or the bank has solvers of its own and is not trusted.
         """
-        file = self.root / "solvers" / f"{name.replace('.', '/')}.py"
+        file = self.root / "solvers" / f"{name}.py"
         if not file.exists():
             if self.root != builtin_root():
                 return builtin().solver(name)
             raise BankError(f"{file}: no such solver")
         if not self.trusted:
             raise BankError(f"{file}: this bank brings its own Python; allow it with --trust")
-        return importlib.import_module(f"{self._package}.{name}")
+        return importlib.import_module(f"{self._package}.{name.replace('/', '.')}")
 
     def rules(self, name: str) -> Rules:
         """Checked ``template.toml`` of a template, without loading solver or prose."""
         if name not in self._rules:
             self._rules[name] = read_rules(self._folder(name) / "template.toml")
         return self._rules[name]
+
+    def origin(self, name: str) -> str:
+        """The name that a template's numbers are drawn under: its first one."""
+        return self.rules(name).formerly or name
 
     def template(self, name: str) -> Template:
         """Load a template, once.
@@ -123,8 +128,15 @@ class Bank:
 
     def _folder(self, name: str) -> Path:
         if name not in self.paths:
-            raise BankError(f"unknown template {name!r}{_nearest(name, self.paths)}")
+            raise BankError(f"unknown template {name!r}{self._hint(name)}")
         return self.paths[name]
+
+    def _hint(self, name: str) -> str:
+        renamed = [known for known in self.paths if self.rules(known).formerly == name]
+        if renamed:
+            return f"; it is now called {renamed[0]!r}"
+        close = difflib.get_close_matches(name, self.paths, 3)
+        return f"; did you mean {', '.join(close)}?" if close else f" (there are {len(self.paths)})"
 
     def _load(self, name: str) -> Template:
         folder = self._folder(name)
@@ -167,13 +179,6 @@ def _chain_of(module: ModuleType) -> Chain:
     except BankError as error:
         raise BankError(f"{module.__file__}: {error}") from error
     return chain
-
-
-def _nearest(name: str, known: dict[str, Path]) -> str:
-    import difflib
-
-    close = difflib.get_close_matches(name, known, 3)
-    return f"; did you mean {', '.join(close)}?" if close else f" (there are {len(known)})"
 
 
 @cache

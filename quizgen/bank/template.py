@@ -76,6 +76,7 @@ class Rules(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     tier: Literal["A", "B", "C", "D"]
     part: tuple[PartRule, ...]
     version: int = 1
+    formerly: str = ""
     minutes: int | None = None
     solver: str = ""
     covers: tuple[str, ...] = ()
@@ -124,6 +125,11 @@ class Template:
     texts: Mapping[str, Any]
     digest: str
     path: Path = field(default=Path())
+
+    @property
+    def origin(self) -> str:
+        """The name that numbers are drawn under: its first one, so that a rename changes none."""
+        return self.rules.formerly or self.id
 
     @property
     def languages(self) -> tuple[str, ...]:

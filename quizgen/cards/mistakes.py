@@ -125,7 +125,7 @@ def _note(part: MarkedPart, item: Item, langs: tuple[str, ...], path: Path) -> N
     index, rules = places[0], drawn.template.rules
     slip = part.note or part.status
     return Note(
-        key=f"mistake/{key.template}/{question.parts[index].label or '-'}/{slip}",
+        key=f"mistake/{drawn.template.origin}/{question.parts[index].label or '-'}/{slip}",
         kind="mistake",
         form="basic",
         topic=question.topic,

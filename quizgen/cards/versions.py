@@ -48,7 +48,7 @@ def version_of(note: Note) -> int:
 
 def template_version(template: Template) -> int:
     """Version of a worked question, from the files of its template."""
-    version, digest = registry().get(f"question/{template.id}", (template.rules.version, ""))
+    version, digest = registry().get(f"question/{template.origin}", (template.rules.version, ""))
     return version + (bool(digest) and digest != template.digest[: len(digest)])
 
 
@@ -79,7 +79,7 @@ def current() -> dict[str, str]:
 
     digests = {note.key: digest_of(note) for note in build("both", kinds=_authored()).notes}
     digests |= {f"looks/{form}": looks.digest_of(form) for form in looks.NAMES}
-    return digests | {f"question/{t.id}": t.digest[:12] for t in builtin()}
+    return digests | {f"question/{t.origin}": t.digest[:12] for t in builtin()}
 
 
 def _authored() -> tuple[str, ...]:

@@ -121,7 +121,7 @@ def _choose(templates: list[Any], seed: str, number: int) -> Any:
     turn = (number - 1) // len(templates)
 
     def rank(template: Any) -> bytes:
-        return hashlib.sha256(f"practice/{seed}/{turn}/{template.id}".encode()).digest()
+        return hashlib.sha256(f"practice/{seed}/{turn}/{template.origin}".encode()).digest()
 
     return sorted(templates, key=rank)[(number - 1) % len(templates)]
 

@@ -6,7 +6,7 @@
     en = "Mock exam"
     bn = "..."
     [[slot]]
-    tier = "A"            # and/or: topic = "optics", templates = ["D17a", "S11"]
+    tier = "A"            # and/or: topic = "optics", templates = ["rgb-to-hsv"]
     count = 5
     points = 2            # marks of each question, shared out over its parts (default: its own)
 

@@ -263,7 +263,7 @@ def _slotted(bank: Bank, blueprint: Blueprint, seed: int) -> list[str]:
                 key=lambda name: (
                     _gives_away(bank, name, chosen),
                     uses.get(name, 0),
-                    _rank(seed, index, place, name),
+                    _rank(seed, index, place, bank.origin(name)),
                 ),
             )
             uses[best] = uses.get(best, 0) + 1
@@ -294,7 +294,7 @@ def _timed(bank: Bank, blueprint: Blueprint, seed: int) -> list[str]:
                 and not _gives_away(bank, n, chosen)
             ]  # fmt: skip
             if fitting:
-                best = min(fitting, key=lambda n: _rank(seed, turn, len(chosen), n))
+                best = min(fitting, key=lambda n: _rank(seed, turn, len(chosen), bank.origin(n)))
                 chosen.append(best)
                 left -= minutes_of(rules[best])
         if len(chosen) == before:
@@ -321,8 +321,8 @@ def variety(bank: Bank, blueprint: Blueprint) -> int:
     return total
 
 
-def _rank(seed: int, index: int, place: int, name: str) -> bytes:
-    return hashlib.sha256(f"choose/{seed}/{index}/{place}/{name}".encode()).digest()
+def _rank(seed: int, index: int, place: int, origin: str) -> bytes:
+    return hashlib.sha256(f"choose/{seed}/{index}/{place}/{origin}".encode()).digest()
 
 
 def _fitting(bank: Bank, slot: SlotRule, index: int) -> list[str]:

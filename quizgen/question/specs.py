@@ -180,7 +180,7 @@ def _option_order(drawn: Draw, index: int) -> list[str]:
 
 def _stem(drawn: Draw, index: int) -> str:
     template = drawn.template
-    return f"{template.id}/{template.rules.version}/{drawn.seed}/{drawn.slot}/order/{index}"
+    return f"{template.origin}/{template.rules.version}/{drawn.seed}/{drawn.slot}/order/{index}"
 
 
 def _choice(drawn: Draw, index: int, answer: Mapping[str, Any]) -> Spec:

@@ -244,15 +244,15 @@ def _gap_hard(rng: Any, n: int) -> list[Any]:
 
 FAMILIES = (
     Family(
-        "gaussian-tail", ("k",), ("noise_tails", "P_1"), ("gaussian", "two_sided_tail"),
+        "gaussian-tail", ("k",), ("noise/gaussian_tails", "P_1"), ("gaussian", "two_sided_tail"),
         _tail_exam, _tail_hard, given={"t_1": "k", "sigma": "1"}, rational=False,
     ),
     Family(
-        "thin-lens", ("f", "z"), ("thin_lens", "z'"), ("thin_lens", "image_distance"),
+        "thin-lens", ("f", "z"), ("optics/thin_lens", "z'"), ("thin_lens", "image_distance"),
         _lens_exam, _lens_hard,
     ),
     Family(
-        "blur-disc", ("f", "N_1", "s", "z"), ("blur_disc", "c"), ("blur", "blur_disc"),
+        "blur-disc", ("f", "N_1", "s", "z"), ("optics/blur_disc", "c"), ("blur", "blur_disc"),
         _blur_exam, _blur_hard,
         given={"z'_s": "1/(1/f - 1/s)", "z'_p": "1/(1/f - 1/z)"},
     ),
@@ -271,15 +271,16 @@ FAMILIES = (
         _inverse_exam, _inverse_hard, rational=False,
     ),
     Family(
-        "hue", ("R", "G", "B"), ("rgb_to_hsv", "H"), ("hsv", "hue"),
+        "hue", ("R", "G", "B"), ("colour/rgb_to_hsv", "H"), ("hsv", "hue"),
         _colour_exam, _colour_hard, whole_turn=360.0,
     ),
     Family(
-        "normalisation", ("I", "I_min", "I_max", "N_min", "N_max"), ("normalization", "N_b"),
-        ("normalise", "normalise"), _range_exam, _range_hard,
+        "normalisation", ("I", "I_min", "I_max", "N_min", "N_max"),
+        ("normalisation/linear_normalisation", "N_b"), ("normalise", "normalise"),
+        _range_exam, _range_hard,
     ),
     Family(
-        "pixel", ("f", "s", "p_x", "p_z", "o_x"), ("pixel_coordinates", "u"),
+        "pixel", ("f", "s", "p_x", "p_z", "o_x"), ("projection/pixel_coordinates", "u"),
         ("projection", "pixel"), _pixel_exam, _pixel_hard, decimal=True,
     ),
     Family(

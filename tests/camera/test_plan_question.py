@@ -45,7 +45,7 @@ def _camera(given) -> Camera:
 
 @pytest.mark.parametrize("seed", range(SEEDS))
 def test_key_and_plan_agree(bank, seed):
-    drawn = draw(bank.template("Oplan"), seed)
+    drawn = draw(bank.template("which-effects-to-simulate"), seed)
     given = {name: float(value) for name, value in drawn.shown.items()}
     made = plan(_scene(given), _camera(given), budget="visible")
     options, _ = display(drawn, 4)
@@ -57,6 +57,6 @@ def test_key_and_plan_agree(bank, seed):
 
 
 def test_every_number_of_effects_occurs(bank):
-    template = bank.template("Oplan")
+    template = bank.template("which-effects-to-simulate")
     sizes = {len(build(draw(template, seed), 4)["correct"]) for seed in range(SEEDS)}
     assert sizes == {1, 2, 3}

@@ -19,7 +19,7 @@ BLUEPRINT = """
 en = "Two questions"
 bn = "দুটি প্রশ্ন"
 [[slot]]
-templates = ["A3", "C14"]
+templates = ["point-to-image-plane", "image-height-and-fill-distance"]
 count = 2
 """
 
@@ -50,7 +50,7 @@ def marked(key, answers, folder):
 
 def swapped(key):
     """The projection answered with both coordinates exchanged."""
-    part = part_of(key, "A3")
+    part = part_of(key, "point-to-image-plane")
     return part["id"], "({}; {})".format(*part["spec"]["traps"]["swapped"])
 
 
@@ -69,29 +69,31 @@ def test_the_mistake_is_on_the_front_and_the_right_way_on_the_back(key, blueprin
     assert typed.replace("-", "−") in text(note, "Front").replace("-", "−")
     assert "coordinates are exchanged" in text(note, "Back")
     assert "অদলবদল" in text(note, "Back bn")
-    right = part_of(key, "A3")["spec"]["values"]
+    right = part_of(key, "point-to-image-plane")["spec"]["values"]
     assert "; ".join(right) in text(note, "Back")
     assert "frac" in text(note, "Work")
     assert note.media()
 
 
 def test_right_answers_give_no_card_and_blank_ones_do(key, blueprint, bank, tmp_path):
-    part = part_of(key, "A3")
+    part = part_of(key, "point-to-image-plane")
     right = "({}; {})".format(*part["spec"]["values"])
     deck = from_marks(
         marked(key, {part["id"]: right}, tmp_path), "en", bank=bank, blueprint=blueprint
     )
-    assert {note.refs[0] for note in deck.notes} == {"C14"}
+    assert {note.refs[0] for note in deck.notes} == {"image-height-and-fill-distance"}
     assert all("You left this blank" in text(note, "Front") for note in deck.notes)
     assert len(deck.notes) == len(
-        next(q for q in key["questions"] if q["template"] == "C14")["parts"]
+        next(q for q in key["questions"] if q["template"] == "image-height-and-fill-distance")[
+            "parts"
+        ]
     )
 
 
 def test_an_unreadable_answer_is_not_a_mistake(key, blueprint, bank, tmp_path):
     name, _ = swapped(key)
     deck = from_marks(marked(key, {name: "((("}, tmp_path), "en", bank=bank, blueprint=blueprint)
-    assert not [note for note in deck.notes if note.refs[0] == "A3"]
+    assert not [note for note in deck.notes if note.refs[0] == "point-to-image-plane"]
 
 
 def test_the_same_mistake_on_two_papers_is_one_note(bank, blueprint, tmp_path):

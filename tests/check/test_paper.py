@@ -34,7 +34,7 @@ KEY = {
     "questions": [
         {
             "number": "1",
-            "template": "C14",
+            "template": "image-height-and-fill-distance",
             "points": "5",
             "chain": CHAIN,
             "parts": [
@@ -60,7 +60,7 @@ KEY = {
         },
         {
             "number": "2",
-            "template": "A1",
+            "template": "define-image-pixel-channel",
             "points": "3",
             "chain": None,
             "parts": [

@@ -40,7 +40,7 @@ def pairs(bank, name, part=0):
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_k06_only_widening_before_the_sum_gives_255(bank, seed):
-    source, truth, key, part = asked(bank, "K06", seed)
+    source, truth, key, part = asked(bank, "uint8-sum-repair", seed)
     scope = run(source)
     texts = dict(zip(truth, [said[0].text for _, said in part.field.options], strict=True))
     for name, right in truth.items():
@@ -50,7 +50,7 @@ def test_k06_only_widening_before_the_sum_gives_255(bank, seed):
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_k08_wrong_order_of_indices(bank, seed):
-    source, truth, key, _ = asked(bank, "K08", seed)
+    source, truth, key, _ = asked(bank, "pixel-indexing-outcome", seed)
     try:
         run(source)
         happened = "other-pixel"
@@ -61,7 +61,7 @@ def test_k08_wrong_order_of_indices(bank, seed):
 
 
 def test_k12_both_repairs_exchange_red_and_blue(bank):
-    _, truth, _, part = asked(bank, "K12", part=1)
+    _, truth, _, part = asked(bank, "opencv-image-in-matplotlib", part=1)
     texts = dict(zip(truth, [said[0].text for _, said in part.field.options], strict=True))
     image = np.arange(60, dtype=np.uint8).reshape(4, 5, 3)
     wanted = np.stack([image[..., 2], image[..., 1], image[..., 0]], axis=-1)
@@ -72,15 +72,15 @@ def test_k12_both_repairs_exchange_red_and_blue(bank):
 
 def test_k14_a_missing_file_is_none(bank, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    source, truth, _, _ = asked(bank, "K14")
+    source, truth, _, _ = asked(bank, "imread-missing-file")
     with pytest.raises(AttributeError):
         run(source)
     assert truth["attribute-error"]
 
 
 def test_k20_assertion_division_mirror(bank):
-    source, _, _, _ = asked(bank, "K20")
-    assert pairs(bank, "K20") == {
+    source, _, _, _ = asked(bank, "projection-non-positive-depth")
+    assert pairs(bank, "projection-non-positive-depth") == {
         "zero": "assertion", "optimised": "division", "behind": "mirrored",
     }  # fmt: skip
     project = run(source)["project_pinhole"]
@@ -95,8 +95,8 @@ def test_k20_assertion_division_mirror(bank):
 
 
 def test_k21_the_order_gives_a_clean_uint8_image(bank):
-    answer = bank.template("K21").rules.part[0].answer
-    words = bank.template("K21").texts["en"].named["options"]
+    answer = bank.template("add-noise-to-uint8-order").rules.part[0].answer
+    words = bank.template("add-noise-to-uint8-order").texts["en"].named["options"]
     scope = {
         "np": np, "image": np.full((50, 50), 250, np.uint8),
         "rng": np.random.default_rng(1), "sigma": 20.0,
@@ -109,33 +109,36 @@ def test_k21_the_order_gives_a_clean_uint8_image(bank):
 
 
 def test_k22_calls_share_one_generator(bank):
-    source, truth, _, _ = asked(bank, "K22")
+    source, truth, _, _ = asked(bank, "random-generator-default-argument")
     scope = run(source)
     assert not np.array_equal(scope["first"], scope["second"])
     assert truth["differ"]
 
 
 def test_k23_types_and_ranges(bank):
-    source, _, _, _ = asked(bank, "K23")
+    source, _, _, _ = asked(bank, "noise-function-return-types")
     scope = run(source)
     image = np.random.default_rng(2).integers(0, 256, (64, 64), dtype=np.uint8)
     soft = scope["gaussian"](image, 0.3, np.random.default_rng(3))
     hard = scope["impulse"](image, 0.2, np.random.default_rng(3))
-    assert pairs(bank, "K23") == {"gaussian": "float-unit", "impulse": "uint8-full"}
+    assert pairs(bank, "noise-function-return-types") == {
+        "gaussian": "float-unit",
+        "impulse": "uint8-full",
+    }
     assert (soft.dtype, soft.min(), soft.max()) == (np.float64, 0.0, 1.0)
     assert (hard.dtype, hard.min(), hard.max()) == (np.uint8, 0, 255)
 
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_k26_borders(bank, seed):
-    source, _, key, _ = asked(bank, "K26", seed)
+    source, _, key, _ = asked(bank, "demosaic-at-border", seed)
     width = int(key.draw.shown["W"].p)
     scope = run(source)
     assert scope["neighbours"](0) == (scope["row"][-1] + scope["row"][1]) / 2
     assert scope["neighbours"](1) == 10.0
     with pytest.raises(IndexError):
         scope["neighbours"](width - 1)
-    assert pairs(bank, "K26")["right"] == "index-error"
+    assert pairs(bank, "demosaic-at-border")["right"] == "index-error"
 
 
 PLACE = {"R": 2, "G": 1, "B": 0}
@@ -143,7 +146,7 @@ PLACE = {"R": 2, "G": 1, "B": 0}
 
 @pytest.mark.parametrize("seed", range(12))
 def test_k27_the_constant_keeps_a_red_scene_red(bank, seed):
-    _, truth, key, part = asked(bank, "K27", seed)
+    _, truth, key, part = asked(bank, "opencv-bayer-constant", seed)
     tile = key.draw.words["tile"].upper()
     rows = (tile[:2], tile[2:])
     mosaic = np.array(

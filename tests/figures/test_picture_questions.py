@@ -36,20 +36,20 @@ def _drawn(bank, name, seed):
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_named_artefact_is_the_one_shown(bank, seed):
-    given, key = _drawn(bank, "XB01", seed)
+    given, key = _drawn(bank, "name-artefact-from-photo", seed)
     assert artefacts.KINDS[int(given["k"])] == NAMES[key]
 
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_gaussian_noise_stands_where_the_key_says(bank, seed):
-    given, key = _drawn(bank, "XB02", seed)
+    given, key = _drawn(bank, "recognise-noise-from-histograms", seed)
     place = ("left", "middle", "right").index(key)
     assert noise.noise_order(given["order"])[place] == "gaussian"
 
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_wide_aperture_stands_where_the_key_says(bank, seed):
-    given, key = _drawn(bank, "Q1cpair", seed)
+    given, key = _drawn(bank, "which-photo-which-f-number", seed)
     shown = {"N_1": given["N_b"], "N_2": given["N_a"], "order": given["order"]}
     pair = depth_of_field.f_numbers(shown)
     assert pair[("left", "right").index(key)] == min(pair) == given["N_a"]
@@ -57,7 +57,7 @@ def test_the_wide_aperture_stands_where_the_key_says(bank, seed):
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_brighter_laser_is_the_higher_on_the_curve(bank, seed):
-    given, key = _drawn(bank, "XC25", seed)
+    given, key = _drawn(bank, "two-lasers-from-curves", seed)
     heights = [float(luminosity.photopic(given[name])) for name in ("l_1", "l_2")]
     assert [given["V_1"], given["V_2"]] == pytest.approx(heights)
     assert heights[("first", "second").index(key)] == max(heights)
@@ -65,7 +65,7 @@ def test_the_brighter_laser_is_the_higher_on_the_curve(bank, seed):
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_spikes_stand_where_the_limits_cut(bank, seed):
-    given, key = _drawn(bank, "A4hist", seed)
+    given, key = _drawn(bank, "normalisation-from-histograms", seed)
     cuts = given["low"] > given["a"], given["b"] > given["high"]
     touches = given["low"] == given["a"] and given["high"] == given["b"]
     seen = {(True, True): "both", (True, False): "bottom", (False, True): "top"}

@@ -45,13 +45,13 @@ def of_template(template: Template, wish: Wish) -> Iterator[Note]:
     rules = template.rules
     for index, label in enumerate(template.labels):
         yield Note(
-            key=f"question/{template.id}" + (f"/{label}" if label else ""),
+            key=f"question/{template.origin}" + (f"/{label}" if label else ""),
             kind="question",
             form="basic",
             topic=rules.topic,
             tier=rules.tier,
             section=section_of(rules.covers, rules.topic),
-            refs=tuple(dict.fromkeys((template.id, *rules.covers))),
+            refs=tuple(dict.fromkeys((*rules.covers, template.id))),
             langs=wish.langs,
             words={
                 "Front": {lang: front(pair[0], index) for lang, pair in pairs.items()},
