@@ -3,48 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from quizgen.errors import MathError, QuizgenError
+from quizgen.errors import QuizgenError
 from quizgen.maths.tree import Expr, compile_expr, exact
 from quizgen.tradeoff import fields
 from quizgen.tradeoff.families import Family
-
-WANTED_BITS = 63
-"""Relative bits asked of a ball, so that rounding it to 53 bits is right."""
+from quizgen.tradeoff.rung import DIGITS, Rung, ball_value, to_float
+from quizgen.tradeoff.special import ORACLES, RUNGS
 
 ORACLE_BITS = 200
-MOST_BITS = 12800
-DIGITS = 50
 ORACLE_DIGITS = 80
 AGREEMENT = 1e-25
-
-
-@dataclass(frozen=True)
-class Rung:
-    """One way of computing.
-
-    Parameters
-    ----------
-    key : str
-        Language-free name; the words stand in ``words/*.toml``.
-    kind : str
-        ``array`` (``run`` takes columns) or ``scalar`` (``run`` takes one prepared input).
-    run : callable
-        The computation that is timed.
-    prepare : callable
-        Turns a row of doubles into what a scalar ``run`` takes; not timed.
-    finish : callable
-        Turns what ``run`` returns into doubles; not timed.
-    """
-
-    key: str
-    kind: str
-    run: Callable[..., Any]
-    prepare: Callable[[Any], Any] = tuple
-    finish: Callable[[Any], Any] = float
 
 
 def rational(value: float, *, decimal: bool) -> Any:
@@ -55,21 +26,10 @@ def rational(value: float, *, decimal: bool) -> Any:
     return flint.fmpq(q.numerator, q.denominator)
 
 
-def to_float(value: Any) -> float:
-    """Nearest double of an exact rational or the middle of a ball."""
-    if hasattr(value, "rel_accuracy_bits"):
-        return float(value.mid())
-    if hasattr(value, "p") and hasattr(value, "q"):
-        return int(value.p) / int(value.q)
-    return float(value)
-
-
 def rungs(family: Family) -> list[Rung]:
     """Every rung that works for a family, cheapest number system first."""
     formula = family.formula
     if formula is None:
-        from quizgen.tradeoff.special import RUNGS
-
         return [*RUNGS[family.name](family), _stable(family)]
     found = [_array(family, formula, 32), _array(family, formula, 64), _stable(family)]
     if fields.fits_pairs(formula):
@@ -122,33 +82,6 @@ def _exact(family: Family, formula: Expr) -> Rung:
     compiled = compile_expr(formula, exact())
     prepare = _environment(family, lambda v: rational(v, decimal=family.decimal))
     return Rung("exact", "scalar", compiled, prepare, to_float)
-
-
-def ball_value(compiled: Callable[..., Any], inputs: Any, wanted: int = WANTED_BITS) -> Any:
-    """Evaluate with balls, doubling the precision until enough bits are certain.
-
-    Raises
-    ------
-    MathError
-        If 12800 bits are not enough.
-    """
-    import flint
-
-    precision = 80
-    while precision <= MOST_BITS:
-        with flint.ctx.workprec(precision):
-            try:
-                value = compiled({name: flint.arb(q) for name, q in inputs.items()})
-            except (MathError, ZeroDivisionError):
-                value = None
-            if value is not None and (not hasattr(value, "rad") or _certain(value, wanted)):
-                return value
-        precision *= 2
-    raise MathError("a ball does not become small enough")
-
-
-def _certain(value: Any, wanted: int) -> bool:
-    return bool(value.rel_accuracy_bits() >= wanted or value.is_zero())
 
 
 def _balls(family: Family, formula: Expr) -> Rung:
@@ -225,8 +158,6 @@ def oracles(family: Family) -> tuple[Callable[..., Any], Callable[..., Any]]:
     """The certified oracle and the independent one, as functions of a row of doubles."""
     formula = family.formula
     if formula is None:
-        from quizgen.tradeoff.special import ORACLES
-
         return ORACLES[family.name]
     compiled = compile_expr(formula, exact())
     precise = compile_expr(formula, fields.multiprecision())

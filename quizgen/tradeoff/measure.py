@@ -14,7 +14,8 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from quizgen.tradeoff.families import Family
-from quizgen.tradeoff.ladder import Rung, rungs, truths
+from quizgen.tradeoff.ladder import rungs, truths
+from quizgen.tradeoff.rung import Rung
 
 ARRAY = 100_000
 """Elements in a timed array."""

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from quizgen.tradeoff.families import Family
-from quizgen.tradeoff.ladder import DIGITS, Rung, ball_value, to_float
+from quizgen.tradeoff.rung import DIGITS, Rung, ball_value, to_float
 
 Row = Sequence[float]
 

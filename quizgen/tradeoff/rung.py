@@ -1,0 +1,76 @@
+"""One way of computing a family, and what several ways share: balls, rounding, digits."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from quizgen.errors import MathError
+
+WANTED_BITS = 63
+"""Relative bits asked of a ball, so that rounding it to 53 bits is right."""
+
+MOST_BITS = 12800
+DIGITS = 50
+
+
+@dataclass(frozen=True)
+class Rung:
+    """One way of computing.
+
+    Parameters
+    ----------
+    key : str
+        Language-free name; the words stand in ``words/*.toml``.
+    kind : str
+        ``array`` (``run`` takes columns) or ``scalar`` (``run`` takes one prepared input).
+    run : callable
+        The computation that is timed.
+    prepare : callable
+        Turns a row of doubles into what a scalar ``run`` takes; not timed.
+    finish : callable
+        Turns what ``run`` returns into doubles; not timed.
+    """
+
+    key: str
+    kind: str
+    run: Callable[..., Any]
+    prepare: Callable[[Any], Any] = tuple
+    finish: Callable[[Any], Any] = float
+
+
+def to_float(value: Any) -> float:
+    """Nearest double of an exact rational or the middle of a ball."""
+    if hasattr(value, "rel_accuracy_bits"):
+        return float(value.mid())
+    if hasattr(value, "p") and hasattr(value, "q"):
+        return int(value.p) / int(value.q)
+    return float(value)
+
+
+def ball_value(compiled: Callable[..., Any], inputs: Any, wanted: int = WANTED_BITS) -> Any:
+    """Evaluate with balls, doubling the precision until enough bits are certain.
+
+    Raises
+    ------
+    MathError
+        If 12800 bits are not enough.
+    """
+    import flint
+
+    precision = 80
+    while precision <= MOST_BITS:
+        with flint.ctx.workprec(precision):
+            try:
+                value = compiled({name: flint.arb(q) for name, q in inputs.items()})
+            except (MathError, ZeroDivisionError):
+                value = None
+            if value is not None and (not hasattr(value, "rad") or _certain(value, wanted)):
+                return value
+        precision *= 2
+    raise MathError("a ball does not become small enough")
+
+
+def _certain(value: Any, wanted: int) -> bool:
+    return bool(value.rel_accuracy_bits() >= wanted or value.is_zero())
