@@ -16,14 +16,14 @@ from fractions import Fraction
 from functools import cache, cached_property, partial
 from typing import Any
 
-import flint
 from flint import fmpq
 
 from quizgen.bank.template import KeepRule, Template
 from quizgen.bank.traps import PartPlan, factor
 from quizgen.errors import DrawError, MathError
 from quizgen.maths.numbers import places, rational, to_float
-from quizgen.maths.tree import PRECISION, Compiled, compile_expr, exact, names
+from quizgen.maths.precision import working_precision
+from quizgen.maths.tree import Compiled, compile_expr, exact, names
 
 MAX_TRIES = 5000
 """Tries before a template is called impossible."""
@@ -239,7 +239,7 @@ def admissible(
                 return condition.text
         values = plan.solve(shown)
         if plan.late and not lenient:
-            with flint.ctx.workprec(PRECISION):
+            with working_precision():
                 env = plan.shown_env(shown, values)
                 for condition in plan.late:
                     if not condition.test(env):

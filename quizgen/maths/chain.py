@@ -10,14 +10,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
-
-import flint
 
 from quizgen.errors import MathError
-from quizgen.maths.tree import PRECISION, Compiled, Expr, compile_expr, exact, names
-
-Values = Mapping[str, Any]
+from quizgen.maths.precision import PRECISION, working_precision
+from quizgen.maths.tree import Compiled, Expr, compile_inner, exact, names
+from quizgen.maths.values import Value, Values
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +51,7 @@ class Chain:
 
     @cached_property
     def _compiled(self) -> list[tuple[str, Compiled]]:
-        return [(step.name, compile_expr(step.expr, exact())) for step in self.steps]
+        return [(step.name, compile_inner(step.expr, exact())) for step in self.steps]
 
     @cached_property
     def _trap_plans(self) -> dict[str, list[tuple[str, Compiled]]]:
@@ -67,14 +64,14 @@ class Chain:
         plan = []
         for name, compiled in self._compiled:
             if name in swapped:
-                plan.append((name, compile_expr(swapped[name].expr, exact())))
+                plan.append((name, compile_inner(swapped[name].expr, exact())))
                 changed.add(name)
             elif changed & names(self.by_name[name].expr):
                 plan.append((name, compiled))
                 changed.add(name)
         return plan
 
-    def solve(self, given: Values, precision: int = PRECISION) -> dict[str, Any]:
+    def solve(self, given: Values, precision: int = PRECISION) -> dict[str, Value]:
         """Every quantity of the chain, exactly or as a certified ball.
 
         Parameters
@@ -91,7 +88,7 @@ class Chain:
         """
         return _run(self._compiled, dict(given), precision)
 
-    def trapped(self, trap: str, solved: Values, precision: int = PRECISION) -> dict[str, Any]:
+    def trapped(self, trap: str, solved: Values, precision: int = PRECISION) -> dict[str, Value]:
         """The quantities as a student in this trap would get them.
 
         Raises
@@ -101,7 +98,7 @@ class Chain:
         """
         return _run(self._trap_plans[trap], dict(solved), precision)
 
-    def with_steps(self, wrong: Iterable[ChainStep], solved: Values) -> dict[str, Any]:
+    def with_steps(self, wrong: Iterable[ChainStep], solved: Values) -> dict[str, Value]:
         """Recompute with some steps replaced (mutations, a student's own earlier answer)."""
         return _run(self._plan(wrong), dict(solved), PRECISION)
 
@@ -117,8 +114,10 @@ class Chain:
         return frozenset(seen)
 
 
-def _run(plan: list[tuple[str, Compiled]], env: dict[str, Any], precision: int) -> dict[str, Any]:
-    with flint.ctx.workprec(precision):
+def _run(
+    plan: list[tuple[str, Compiled]], env: dict[str, Value], precision: int
+) -> dict[str, Value]:
+    with working_precision(precision):
         for name, compiled in plan:
             try:
                 env[name] = compiled(env)

@@ -7,12 +7,12 @@ balls that exclude a tie; binary floating point never decides a digit.
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Any
 
-import flint
 from flint import arb, fmpq, fmpz
 
 from quizgen.errors import Undecided
+from quizgen.maths.precision import WIDE, working_precision
+from quizgen.maths.values import Value
 
 MINUS = "\u2212"
 LONGEST_DECIMAL = 6
@@ -28,17 +28,17 @@ def rational(value: int | str | Fraction) -> fmpq:
     return fmpq(fraction.numerator, fraction.denominator)
 
 
-def is_exact(value: Any) -> bool:
+def is_exact(value: Value) -> bool:
     """Whether a value of the exact field is a rational."""
     return isinstance(value, fmpq)
 
 
-def to_float(value: Any) -> float:
+def to_float(value: Value) -> float:
     """Nearest float of a rational or of a ball's midpoint."""
     return int(value.p) / int(value.q) if isinstance(value, fmpq) else float(value)
 
 
-def round_to(value: Any, decimals: int) -> fmpq:
+def round_to(value: Value, decimals: int) -> fmpq:
     """Round to ``decimals`` places, half away from zero, certified.
 
     Raises
@@ -47,29 +47,36 @@ def round_to(value: Any, decimals: int) -> fmpq:
         If a ball is too wide to tell the last digit.
     """
     scale = fmpq(10) ** decimals
-    half = fmpq(1, 2)
-    with flint.ctx.workprec(400):
-        scaled = abs(value) * scale + half
-        whole = fmpz(scaled.floor()) if is_exact(value) else scaled.floor().unique_fmpz()
-    if whole is None:
-        raise Undecided("the last digit cannot be certified")
+    if is_exact(value):
+        whole = fmpz((abs(value) * scale + fmpq(1, 2)).floor())
+    else:
+        whole = _nearest_to_ball(value, scale)
     result = fmpq(whole) / scale
     return -result if value < 0 else result
 
 
-def magnitude(value: Any) -> int:
+@working_precision(WIDE)
+def _nearest_to_ball(value: arb, scale: fmpq) -> fmpz:
+    whole = (abs(value) * scale + fmpq(1, 2)).floor().unique_fmpz()
+    if whole is None:
+        raise Undecided("the last digit cannot be certified")
+    return whole
+
+
+def magnitude(value: Value) -> int:
     """Power of ten of the leading digit: 0 for 6.7, -4 for 0.00050505."""
     number = abs(to_float(value))
     if number == 0:
         return 0
     guess = int(f"{number:e}".split("e")[1])
-    exact = rational(Fraction(10) ** guess)
-    if abs(value) < exact:
-        return guess - 1
-    return guess + 1 if abs(value) >= exact * 10 else guess
+    with working_precision(WIDE):
+        size, power = abs(value), fmpq(10) ** guess
+        if size < power:
+            return guess - 1
+        return guess + 1 if size >= power * 10 else guess
 
 
-def decimals_for(value: Any, figures: int) -> int:
+def decimals_for(value: Value, figures: int) -> int:
     """How many decimal places show ``figures`` significant figures of a value."""
     return max(figures - 1 - magnitude(value), 0)
 
@@ -102,7 +109,7 @@ def fraction_text(value: fmpq, *, minus: str = MINUS) -> str:
     return f"{sign}{abs(int(value.p))}/{int(value.q)}"
 
 
-def short_decimal(value: Any) -> bool:
+def short_decimal(value: Value) -> bool:
     """Whether a value is a rational with a short terminating decimal."""
     if not is_exact(value):
         return False
@@ -110,7 +117,7 @@ def short_decimal(value: Any) -> bool:
     return count is not None and count <= LONGEST_DECIMAL
 
 
-def exact_text(value: Any, *, minus: str = MINUS) -> str | None:
+def exact_text(value: Value, *, minus: str = MINUS) -> str | None:
     """The exact value as text: a short decimal, else a readable fraction, else None."""
     if short_decimal(value):
         return decimal_text(value, minus=minus)
@@ -120,7 +127,7 @@ def exact_text(value: Any, *, minus: str = MINUS) -> str | None:
 
 
 def rounded_text(
-    value: Any, *, decimals: int | None = None, figures: int = 4, minus: str = MINUS
+    value: Value, *, decimals: int | None = None, figures: int = 4, minus: str = MINUS
 ) -> str:
     """Round for showing: to ``decimals`` places, or to ``figures`` significant figures.
 
@@ -128,16 +135,17 @@ def rounded_text(
     """
     if decimals is None and value != 0 and magnitude(value) < SMALLEST_MAGNITUDE:
         power = magnitude(value)
-        scaled = value * rational(Fraction(10) ** -power)
+        with working_precision(WIDE):
+            scaled = value * fmpq(10) ** -power
         return f"{rounded_text(scaled, figures=figures, minus=minus)}e{power}"
     count = decimals_for(value, figures) if decimals is None else decimals
     return decimal_text(round_to(value, count), count, minus=minus)
 
 
-def key_text(value: Any) -> str:
+def key_text(value: Value) -> str:
     """The value as stored in a key: an exact rational, or 40 certified digits."""
     if is_exact(value):
         whole = int(value.q) == 1
         return str(int(value.p)) if whole else fraction_text(value, minus="-")
-    with flint.ctx.workprec(400):
-        return str(arb(value).str(40, radius=False, condense=0))
+    with working_precision(WIDE):
+        return str(value.str(40, radius=False, condense=0))

@@ -25,9 +25,6 @@ from typing import Any
 
 from quizgen.errors import MathError, Undecided
 
-PRECISION = 160
-"""Working precision of certified balls in bits."""
-
 
 @dataclass(frozen=True, slots=True)
 class Num:
@@ -67,6 +64,8 @@ class Field:
     constant: Callable[[Fraction], Any]
     ops: Mapping[str, Callable[..., Any]]
     truth: Callable[[Any], bool] = bool
+    guard: Callable[[Compiled], Compiled] | None = None
+    """What a compiled formula is wrapped in: certified balls need a stated precision."""
 
 
 def number(value: int | str | Fraction) -> Num:
@@ -112,6 +111,12 @@ def compile_expr(expr: Expr, field: Field) -> Compiled:
     callable
         Takes a mapping from names to numbers of the field and returns the value.
     """
+    compiled = compile_inner(expr, field)
+    return compiled if field.guard is None else field.guard(compiled)
+
+
+def compile_inner(expr: Expr, field: Field) -> Compiled:
+    """Compile a formula that runs among others, where the precision is stated once around all."""
     if isinstance(expr, Num):
         constant = field.constant(expr.value)
         return lambda _env: constant
@@ -119,7 +124,7 @@ def compile_expr(expr: Expr, field: Field) -> Compiled:
         return _lookup(expr.name)
     if expr.op == "piecewise":
         return _compile_piecewise(expr, field)
-    return _compile_call(field.ops[expr.op], [compile_expr(arg, field) for arg in expr.args])
+    return _compile_call(field.ops[expr.op], [compile_inner(arg, field) for arg in expr.args])
 
 
 def _lookup(name: str) -> Compiled:
@@ -139,9 +144,9 @@ def _compile_call(op: Callable[..., Any], args: list[Compiled]) -> Compiled:
 def _compile_piecewise(expr: Call, field: Field) -> Compiled:
     if "piecewise" in field.ops:
         return _compile_call(
-            field.ops["piecewise"], [compile_expr(arg, field) for arg in expr.args]
+            field.ops["piecewise"], [compile_inner(arg, field) for arg in expr.args]
         )
-    parts = [compile_expr(arg, field) for arg in expr.args]
+    parts = [compile_inner(arg, field) for arg in expr.args]
     pairs = list(zip(parts[:-1:2], parts[1::2], strict=True))
     otherwise = parts[-1]
 
@@ -172,11 +177,11 @@ def taken_branch(expr: Expr, env: Env, field: Field) -> Expr:
 @cache
 def exact() -> Field:
     """Exact rationals (``flint.fmpq``), and certified balls (``flint.arb``) beyond them."""
-    import flint
-
     from quizgen.maths import exact as operators
+    from quizgen.maths.numbers import rational
+    from quizgen.maths.precision import with_precision
 
-    return Field("exact", lambda q: flint.fmpq(q.numerator, q.denominator), operators.OPS)
+    return Field("exact", rational, operators.OPS, guard=with_precision)
 
 
 @cache
@@ -203,17 +208,13 @@ def evaluate(expr: Expr, env: Env, field: Field | None = None) -> Any:
     MathError
         If there is no finite real value.
     """
-    import flint
-
-    with flint.ctx.workprec(PRECISION):
-        try:
-            return compile_expr(expr, field or exact())(env)
-        except (ZeroDivisionError, OverflowError) as error:
-            raise MathError(str(error)) from error
+    try:
+        return compile_expr(expr, field or exact())(env)
+    except (ZeroDivisionError, OverflowError) as error:
+        raise MathError(str(error)) from error
 
 
 __all__ = [
-    "PRECISION",
     "RELATIONS",
     "Call",
     "Compiled",
@@ -224,6 +225,7 @@ __all__ = [
     "Sym",
     "Undecided",
     "compile_expr",
+    "compile_inner",
     "evaluate",
     "exact",
     "floats",

@@ -22,8 +22,8 @@ from quizgen.locale import word
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.notation import to_text
 from quizgen.maths.numbers import exact_text, rational, rounded_text, short_decimal
+from quizgen.maths.precision import working_precision
 from quizgen.maths.tree import (
-    PRECISION,
     Expr,
     Sym,
     compile_expr,
@@ -329,7 +329,7 @@ def key_field(spec: Mapping[str, Any], value: Any) -> str:
 
 def worked(drawn: Draw, step: ChainStep) -> Maths:
     """One step, printed from formula to rounded value."""
-    with _precision():
+    with working_precision():
         expr = taken_branch(step.expr, drawn.values, exact())
     ways = [("=", typeset.layout(expr), to_text(expr))]
     if names(expr):
@@ -360,12 +360,6 @@ def _typed_numbers(drawn: Draw, expr: Expr) -> str:
         if not isinstance(expr, Sym)
         else quantity_text(drawn.in_unit(expr.name), units.get(expr.name, ""))
     )
-
-
-def _precision() -> Any:
-    import flint
-
-    return flint.ctx.workprec(PRECISION)
 
 
 def _sign(drawn: Draw, expr: Expr) -> str:

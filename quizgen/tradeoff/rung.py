@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from quizgen.errors import MathError
+from quizgen.maths.precision import working_precision
 
 WANTED_BITS = 63
 """Relative bits asked of a ball, so that rounding it to 53 bits is right."""
@@ -61,7 +62,7 @@ def ball_value(compiled: Callable[..., Any], inputs: Any, wanted: int = WANTED_B
 
     precision = 80
     while precision <= MOST_BITS:
-        with flint.ctx.workprec(precision):
+        with working_precision(precision):
             try:
                 value = compiled({name: flint.arb(q) for name, q in inputs.items()})
             except (MathError, ZeroDivisionError):

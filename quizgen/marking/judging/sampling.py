@@ -8,12 +8,12 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-import flint
 from flint import fmpq
 
 from quizgen.errors import MathError, Undecided
 from quizgen.marking.reading.scalars import ReadError, TooLargeError, exact_value, typed_field
 from quizgen.marking.specs import Scalar
+from quizgen.maths.precision import working_precision
 from quizgen.maths.tree import Expr, compile_expr, names
 
 POINTS = 8
@@ -103,12 +103,12 @@ def compare(first: Expr, second: Expr, symbols: Mapping[str, Domain]) -> Compari
     if not used:
         return _constants(first, second)
     points = sample_points({name: domain for name, domain in symbols.items() if name in used})
-    with flint.ctx.workprec(BITS):
+    with working_precision(BITS):
         return _sampled(compiled(first), compiled(second), points)
 
 
 def _constants(first: Expr, second: Expr) -> Comparison:
-    with flint.ctx.workprec(2 * BITS):
+    with working_precision(2 * BITS):
         a, b = compiled(first)({}), compiled(second)({})
         if b is TooLargeError:
             raise ReadError("too-large", 1)

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from functools import lru_cache
 from typing import Any
 
-import flint
 import msgspec
 
 from quizgen.errors import FormulaError
@@ -23,6 +22,7 @@ from quizgen.marking.specs import Scalar
 from quizgen.marking.specs import Spec as AnySpec
 from quizgen.marking.verdict import Verdict, ambiguous, correct, with_values, wrong
 from quizgen.maths.notation import to_text
+from quizgen.maths.precision import working_precision
 from quizgen.maths.tree import RELATIONS, Call, Expr, names
 
 
@@ -71,7 +71,7 @@ def check(spec: Spec, typed: str, options: Options) -> Verdict:
     numbers = _numbers(spec, typed, options.decimal)
     env = {name: number.value for name, number in numbers.items()}
     read_as = "; ".join(f"{name} = {number.read_as}" for name, number in numbers.items())
-    with flint.ctx.workprec(BITS):
+    with working_precision(BITS):
         verdict = _tested(spec, _extended(spec, env), read_as)
     return with_values(verdict, *env.values())
 

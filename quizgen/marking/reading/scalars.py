@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache, lru_cache
 from typing import Any
 
-import flint
 from flint import fmpq
 
 from quizgen.errors import MathError
@@ -16,7 +15,8 @@ from quizgen.marking.reading.literals import Doubt, doubtful, pointed
 from quizgen.marking.reading.rewrites import Source, normalise
 from quizgen.maths.notation import ReadError, parse_pieces, to_text, tokens
 from quizgen.maths.notation.lexer import LARGEST_EXPONENT, LONGEST_NUMBER, SMALLEST_EXPONENT
-from quizgen.maths.tree import PRECISION, Expr, Field, compile_expr, exact
+from quizgen.maths.precision import PRECISION, working_precision
+from quizgen.maths.tree import Expr, Field, compile_expr, exact
 
 LARGEST_BITS = 4000
 """Largest size of an intermediate value in a typed number."""
@@ -301,7 +301,7 @@ def _guarded_exp(a: Any) -> Any:
 def typed_field() -> Field:
     """The exact field with bounds on size, for mathematics typed by learners."""
     ops: dict[str, Callable[..., Any]] = {**exact().ops, "pow": _guarded_power, "exp": _guarded_exp}
-    return Field("typed", exact().constant, ops)
+    return replace(exact(), name="typed", ops=ops)
 
 
 def constant(tree: Expr) -> Any:
@@ -313,7 +313,7 @@ def constant(tree: Expr) -> Any:
         If it has no finite real value or is too large.
     """
     try:
-        with flint.ctx.workprec(PRECISION):
+        with working_precision():
             value = compile_expr(tree, typed_field())({})
     except TooLargeError:
         raise ReadError("too-large", 1) from None

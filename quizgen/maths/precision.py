@@ -1,0 +1,83 @@
+"""The working precision of certified numbers, whatever else the process does with FLINT.
+
+FLINT keeps one precision for the whole process, and every operation on a ball reads it: sums and
+roots, but also a minus sign, an absolute value and a comparison with a rational. So each stretch of
+work on balls states its precision, and no other thread works on balls meanwhile. Rationals are
+exact without it.
+
+Examples
+--------
+>>> from flint import arb
+>>> with working_precision():
+...     root = arb(2).sqrt()
+>>> root.rel_accuracy_bits() > 150
+True
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from contextlib import ContextDecorator
+from functools import wraps
+from threading import RLock
+from typing import TypeVar
+
+from flint import ctx
+
+PRECISION = 160
+"""Working precision of certified balls in bits."""
+
+WIDE = 400
+"""Precision in bits at which digits are read off: wider than any ball to be written."""
+
+Result = TypeVar("Result")
+Argument = TypeVar("Argument")
+
+_LOCK = RLock()
+_OUTER: list[int] = []
+"""Precisions to go back to, innermost last; touched only under the lock."""
+
+os.register_at_fork(
+    before=_LOCK.acquire, after_in_parent=_LOCK.release, after_in_child=_LOCK.release
+)
+
+
+class working_precision(ContextDecorator):  # noqa: N801 - reads as a statement
+    """Work on balls with so many bits: one thread at a time, nested at will.
+
+    Never hold it across a ``yield``: the precision would leak into the caller. Used as a decorator
+    it spans the whole call.
+
+    Parameters
+    ----------
+    bits : int
+        Precision in force inside.
+    """
+
+    def __init__(self, bits: int = PRECISION) -> None:
+        self.bits = bits
+
+    def __enter__(self) -> None:
+        _LOCK.acquire()
+        _OUTER.append(ctx.prec)
+        ctx.prec = self.bits
+
+    def __exit__(self, *_error: object) -> None:
+        ctx.prec = _OUTER.pop()
+        _LOCK.release()
+
+
+def with_precision(function: Callable[[Argument], Result]) -> Callable[[Argument], Result]:
+    """Let a function keep the precision stated around its call, else state ``PRECISION``."""
+    usual = working_precision()
+
+    @wraps(function)
+    def run(argument: Argument) -> Result:
+        with _LOCK:
+            if _OUTER:
+                return function(argument)
+            with usual:
+                return function(argument)
+
+    return run
