@@ -20,7 +20,7 @@ LAYERS = {
     "maths": "errors",
     "arrays": "errors",
     "typeset": "errors locale maths",
-    "bank": "errors files maths",
+    "bank": "errors files locale maths",
     "camera": "errors files maths arrays",
     "figures": "errors locale arrays camera",
     "marking": "errors locale maths",

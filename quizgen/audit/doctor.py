@@ -5,10 +5,10 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator
 from importlib.metadata import PackageNotFoundError, version
-from importlib.resources import files
 
 from quizgen.bank.folder import builtin
 from quizgen.errors import QuizgenError
+from quizgen.locale import PLACES, language, languages
 from quizgen.render import fonts
 
 PACKAGES = ("numpy", "sympy", "jinja2", "matplotlib", "python-flint", "mpmath", "click", "rich",
@@ -51,14 +51,15 @@ def _bank() -> Outcome:
 
 def bangla_text() -> str:
     """Every Bangla sentence of interface and templates."""
-    interface = [
-        entry.read_text(encoding="utf-8")
-        for entry in (files("quizgen") / "locale").iterdir()
-        if entry.name.endswith("bn.toml")
+    langs = [lang for lang in languages() if language(lang).script == "Beng"]
+    paths = [
+        *(
+            entry
+            for lang in langs
+            for place in PLACES
+            if (place / lang).is_dir()
+            for entry in (place / lang).iterdir()
+        ),
+        *(folder / f"{lang}.md" for folder in builtin().paths.values() for lang in langs),
     ]
-    prose = [
-        path.read_text(encoding="utf-8")
-        for folder in builtin().paths.values()
-        for path in folder.glob("bn.md")
-    ]
-    return "".join(interface + prose)
+    return "".join(path.read_text(encoding="utf-8") for path in paths if path.is_file())

@@ -17,11 +17,11 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from quizgen.bank.draw import Draw, draw, plan_of, reference
-from quizgen.bank.folder import LANGUAGES
 from quizgen.bank.prose import CodeBlock, Items, Paragraph, Table, slots
 from quizgen.bank.template import Template
 from quizgen.bank.traps import answer_names
 from quizgen.errors import QuizgenError
+from quizgen.locale import languages
 from quizgen.marking.mark import mark, show
 from quizgen.maths.numbers import to_float
 from quizgen.question.compose import identity, put_into_words
@@ -117,7 +117,7 @@ def _widen(report: Report, one: Draw) -> None:
 
 
 def _language_problems(template: Template) -> list[str]:
-    problems = [f"no {lang}.md" for lang in LANGUAGES if lang not in template.texts]
+    problems = [f"no {lang}.md" for lang in languages() if lang not in template.texts]
     for lang in template.texts:
         problems += [f"{lang}.md: {p}" for p in _missing(template, lang)]
     problems += _unequal_slots(template)

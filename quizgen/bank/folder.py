@@ -18,10 +18,8 @@ from types import ModuleType
 from quizgen.bank.prose import Text, read_text
 from quizgen.bank.template import Rules, Template, check_against_chain, digest_of, read_rules
 from quizgen.errors import BankError, QuizgenError
+from quizgen.locale import languages
 from quizgen.maths.chain import Chain
-
-LANGUAGES = ("en", "bn")
-"""Languages every built-in template is written in."""
 
 
 def builtin_root() -> Path:
@@ -144,7 +142,8 @@ class Bank:
         files = [folder / "template.toml", *sorted(folder.glob("??.md"))]
         chain, source = self._chain(rules)
         texts = {path.stem: read_text(path) for path in files[1:]}
-        order = [lang for lang in LANGUAGES if lang in texts] + sorted(set(texts) - set(LANGUAGES))
+        known = languages()
+        order = [lang for lang in known if lang in texts] + sorted(set(texts) - set(known))
         digest = digest_of(*(path.read_bytes() for path in files), source)
         ordered: dict[str, Text] = {lang: texts[lang] for lang in order}
         template = Template(name, rules, chain, ordered, digest, folder)

@@ -16,6 +16,7 @@ import msgspec
 from quizgen.bank.prose import Block, Formula, Inline, Slot, blocks, fill, inlines
 from quizgen.cards.equations import inline
 from quizgen.errors import BankError
+from quizgen.locale import table
 
 Tier = Literal["A", "B", "C", "D"]
 
@@ -163,11 +164,9 @@ def entries(name: str) -> tuple[Any, ...]:
     return load(read(name), KINDS[name], f"{name}.toml")
 
 
-@cache
 def words(lang: str) -> dict[str, str]:
     """Short words on the cards, such as *What is wrong here?*, in one language."""
-    table: dict[str, dict[str, str]] = tomllib.loads(read("words"))
-    return {name: both[lang] for name, both in table.items()}
+    return table(lang, "cards")
 
 
 def passage(entry: Entry, name: str, lang: str) -> tuple[Block, ...]:

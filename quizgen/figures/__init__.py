@@ -4,7 +4,7 @@ Each module draws one figure and has four names:
 
 * ``PARAMETERS``: parameter name to unit, meaning and default
 * ``draw(figure, values, *, quiz)``: draws on an empty matplotlib ``Figure``
-* ``alt(values, lang, *, quiz)``: the same picture in words, in "en" or "bn"
+* ``alt(values, lang, *, quiz)``: the same picture in words
 * ``DARK``: ``"invert"`` for line art on nothing, ``"keep"`` for pictures on white
 
 ``values`` maps every parameter to a float in its unit. ``quiz`` hides what a question asks for;
@@ -24,6 +24,7 @@ from typing import Any
 
 from quizgen.errors import BankError
 from quizgen.figures._parameters import Parameter, complete
+from quizgen.locale import languages
 
 FIGURES: Mapping[str, str] = {
     "artefacts": "quizgen.figures.artefacts",
@@ -40,8 +41,6 @@ FIGURES: Mapping[str, str] = {
     "thin_lens": "quizgen.figures.thin_lens",
 }
 """Figure name to the module that draws it, imported when first used."""
-
-LANGUAGES = ("en", "bn")
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +90,7 @@ def render(name: str, values: Mapping[str, float], *, quiz: bool, lang: str) -> 
         Parameters in the units that ``parameters(name)`` names. Optional ones may be left out.
     quiz : bool
         Hide what the question asks for.
-    lang : {"en", "bn"}
+    lang : str
         Language of the alt text; the drawing itself has no words.
 
     Returns
@@ -104,8 +103,9 @@ def render(name: str, values: Mapping[str, float], *, quiz: bool, lang: str) -> 
     BankError
         If the figure, a parameter or the language is unknown, or a value cannot be drawn.
     """
-    if lang not in LANGUAGES:
-        raise BankError(f"figure {name!r}: no alt text in {lang!r}, only in {', '.join(LANGUAGES)}")
+    if lang not in languages():
+        known = ", ".join(languages())
+        raise BankError(f"figure {name!r}: no alt text in {lang!r}, only in {known}")
     full = complete(name, parameters(name), values)
     return _render(name, tuple(full.items()), quiz, lang)
 
@@ -134,4 +134,4 @@ def _module(name: str) -> Any:
     return import_module(FIGURES[name])
 
 
-__all__ = ["FIGURES", "LANGUAGES", "Figure", "Parameter", "parameters", "render"]
+__all__ = ["FIGURES", "Figure", "Parameter", "parameters", "render"]

@@ -1,4 +1,19 @@
-"""Interface words of each language, from ``<lang>.toml`` in this folder."""
+"""Words of each language: ``locale/<lang>/*.toml``, and nothing about a language in Python.
+
+A language is a folder. ``language.toml`` holds its name, its place in lists and its script; the
+other files hold its sentences:
+
+============== ==================================================================
+interface      papers and their pages
+messages       what the checker and ``quizgen practice`` say
+figures        figures in words
+speech         mathematics in words, printed and read aloud
+cards          short words on flashcards
+tradeoff       the page of what accuracy costs
+============== ==================================================================
+
+A template has one ``<lang>.md`` besides.
+"""
 
 from __future__ import annotations
 
@@ -6,28 +21,74 @@ import tomllib
 from fractions import Fraction
 from functools import cache
 from importlib.resources import files
+from importlib.resources.abc import Traversable
 from typing import Any
+
+import msgspec
 
 from quizgen.errors import QuizgenError
 
+FIRST = "en"
+"""The language that every other one falls back to, and the first in every list."""
+
+PLACES: list[Traversable] = [files(__name__)]
+"""Folders that hold languages; one from outside is made known by adding its folder."""
+
+
+class Language(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """What ``language.toml`` says: its own name, place in lists, ISO 15924 script."""
+
+    name: str
+    order: int
+    script: str
+
+
+def languages() -> tuple[str, ...]:
+    """Every language there is, English first, then by ``order``."""
+    found = {entry.name for place in PLACES for entry in place.iterdir()
+             if (entry / "language.toml").is_file()}  # fmt: skip
+    return tuple(sorted(found, key=lambda lang: (lang != FIRST, language(lang).order, lang)))
+
 
 @cache
-def table(lang: str) -> dict[str, Any]:
-    """All words of a language.
+def language(lang: str) -> Language:
+    """Name, order and script of a language.
 
     Raises
     ------
     QuizgenError
         If there is no such language.
     """
-    path = files(__name__) / f"{lang}.toml"
-    if not path.is_file():
-        raise QuizgenError(f"no interface words for language {lang!r} (there are en, bn)")
-    return tomllib.loads(path.read_text(encoding="utf-8"))
+    return msgspec.convert(table(lang, "language"), Language)
+
+
+@cache
+def table(lang: str, name: str = "interface") -> dict[str, Any]:
+    """All words of one file of a language.
+
+    Parameters
+    ----------
+    lang : str
+        One of ``languages()``.
+    name : str
+        The file: ``interface``, ``messages``, ``figures``, ``speech``, ``cards`` or ``tradeoff``.
+
+    Raises
+    ------
+    QuizgenError
+        If the language has no such file.
+    """
+    for place in PLACES:
+        path = place / lang / f"{name}.toml"
+        if path.is_file():
+            return tomllib.loads(path.read_text(encoding="utf-8"))
+    raise QuizgenError(
+        f"no {name} words for language {lang!r} (there are {', '.join(languages())})"
+    )
 
 
 def word(lang: str, key: str, **values: object) -> str:
-    """One word or sentence, ``section.name``, with its blanks filled in."""
+    """One word or sentence of the interface, ``section.name``, with its blanks filled in."""
     section, _, name = key.partition(".")
     text: str = table(lang)[section][name]
     return text.format(**values) if values else text

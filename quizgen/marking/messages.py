@@ -2,37 +2,30 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
-from functools import cache
-from importlib.resources import files
 from typing import Any
 
+from quizgen.locale import FIRST, languages, table
 from quizgen.marking.echo import safe
 
-LANGUAGES = ("en", "bn")
 
-
-@cache
-def _tables(lang: str) -> dict[str, dict[str, str]]:
-    lang = lang if lang in LANGUAGES else "en"
-    text = (files("quizgen") / "locale" / f"check.{lang}.toml").read_text("utf-8")
-    return tomllib.loads(text)
+def _table(lang: str) -> dict[str, dict[str, str]]:
+    return table(lang if lang in languages() else FIRST, "messages")
 
 
 def sentences(lang: str) -> dict[str, str]:
     """Return the sentences of the notes; an unknown language falls back to English."""
-    return _tables(lang)["notes"]
+    return _table(lang)["notes"]
 
 
 def words(lang: str) -> dict[str, str]:
     """Return the names of token kinds and short words used inside sentences."""
-    return _tables(lang)["words"]
+    return _table(lang)["words"]
 
 
 def practice_words(lang: str) -> dict[str, str]:
     """Return the sentences of ``quizgen practice``."""
-    return _tables(lang)["practice"]
+    return _table(lang)["practice"]
 
 
 def say(lang: str, note: str, fields: Mapping[str, Any]) -> str:
@@ -41,7 +34,7 @@ def say(lang: str, note: str, fields: Mapping[str, Any]) -> str:
     Parameters
     ----------
     lang : str
-        ``en`` or ``bn``.
+        A language; English if there are no sentences in it.
     note : str
         Key of the sentence; an empty or unknown note has no sentence.
     fields : mapping
@@ -63,6 +56,6 @@ class _Blanks(dict[str, str]):
 
 def _shown(lang: str, value: Any) -> str:
     if isinstance(value, (tuple, list)):
-        table = words(lang)
-        return ", ".join(dict.fromkeys(safe(table.get(str(item), str(item))) for item in value))
+        known = words(lang)
+        return ", ".join(dict.fromkeys(safe(known.get(str(item), str(item))) for item in value))
     return safe(str(value), 120)

@@ -25,9 +25,8 @@ from pathlib import Path
 import msgspec
 
 from quizgen.errors import BlueprintError
-from quizgen.locale import table, word
+from quizgen.locale import languages, table, word
 
-LANGUAGES = ("en", "bn")
 MOST_QUESTIONS = 200
 
 
@@ -68,7 +67,7 @@ def of_topic(topic: str, minutes: int = 0) -> Blueprint:
     """Blueprint without a file: a topic (or ``all``), within a time (0: no limit)."""
     name = f"{topic}.{minutes}" if minutes else topic
     key = "paper.chapter" if topic == EVERYTHING else f"topic.{topic}"
-    title = {lang: f"{word(lang, 'paper.exam')}: {word(lang, key)}" for lang in LANGUAGES}
+    title = {lang: f"{word(lang, 'paper.exam')}: {word(lang, key)}" for lang in languages()}
     return Blueprint(title, (), None, (), name, name, topic, minutes)
 
 

@@ -13,8 +13,9 @@ from fractions import Fraction
 from itertools import repeat
 from typing import Any
 
+from quizgen import locale
 from quizgen.bank.draw import Draw, draw
-from quizgen.bank.folder import LANGUAGES, Bank
+from quizgen.bank.folder import Bank
 from quizgen.bank.prose import Block, CodeBlock
 from quizgen.bank.template import Template, minutes_of
 from quizgen.errors import BlueprintError, CodeError, DrawError
@@ -81,7 +82,7 @@ class Paper:
 
 def languages(choice: str) -> tuple[str, ...]:
     """Languages of ``en``, ``bn`` or ``both``."""
-    return LANGUAGES if choice == "both" else (choice,)
+    return locale.languages() if choice == "both" else (choice,)
 
 
 def parse_code(code: str) -> tuple[str, str, str, str]:

@@ -1,16 +1,14 @@
-"""The page: one self-contained HTML file in English and Bangla, without scripts."""
+"""The page: one self-contained HTML file in every language, without scripts."""
 
 from __future__ import annotations
 
 import json
 import math
-import tomllib
-from functools import cache
 from html import escape
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
+from quizgen.locale import language, languages, table
 from quizgen.tradeoff.knobs import Curve
 from quizgen.tradeoff.measure import Accuracy, Measured, pareto
 from quizgen.tradeoff.plot import (
@@ -25,7 +23,6 @@ from quizgen.tradeoff.plot import (
 )
 from quizgen.tradeoff.report import EXACT, FamilyReport, Report
 
-LANGUAGES = ("en", "bn")
 HALF_PIXEL = 0.5 / 255
 _ROUNDING = 2.0**-53
 
@@ -43,10 +40,7 @@ td.words,th.words{text-align:left}td.words{white-space:normal;min-width:9rem}
 tr.front td{font-weight:600}
 code{font-size:.88em;overflow-wrap:anywhere}.note{font-size:.86rem;opacity:.85}
 .verdict{border-left:4px solid #0b62c4;padding:.3rem .8rem;font-weight:600}
-.bn,label[lang=bn],.bn .tp text{
-font-family:"Hind Siliguri","Noto Sans Bengali",system-ui,sans-serif}
 label{margin-right:1rem;cursor:pointer}ul{columns:2;padding-left:1.2rem}
-#en:checked~main .bn,#bn:checked~main .en{display:none}
 @media(prefers-color-scheme:dark){
 body{color:#e8e8e8;background:#14171a}a{color:#8ab8ff}
 .tp circle.on,.tp rect.on{fill:#6aa9ff!important}
@@ -58,11 +52,9 @@ body{color:#e8e8e8;background:#14171a}a{color:#8ab8ff}
 """
 
 
-@cache
 def words(lang: str) -> dict[str, Any]:
     """All sentences of the page in one language."""
-    text = files("quizgen.tradeoff").joinpath(f"words/{lang}.toml").read_text("utf-8")
-    return tomllib.loads(text)
+    return table(lang, "tradeoff")
 
 
 def write(report: Report, folder: Path, command: str) -> list[Path]:
@@ -126,20 +118,29 @@ def html(report: Report, command: str) -> str:
     """The whole page."""
     switch = "".join(
         f'<input type="radio" name="lang" id="{lang}"{" checked" * (lang == "en")}>'
-        f'<label for="{lang}" lang="{lang}">{words(lang)["page"]["language"]}</label>'
-        for lang in LANGUAGES
+        f'<label for="{lang}" lang="{lang}">{language(lang).name}</label>'
+        for lang in languages()
     )
     body = "".join(
         f'<div class="{lang}" lang="{lang}">{_body(report, command, lang)}</div>'
-        for lang in LANGUAGES
+        for lang in languages()
     )
     title = escape(words("en")["page"]["title"])
     return (
         '<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
-        f"<title>{title}</title><style>{_font_face()}{CSS}{STYLE}</style></head>"
+        f"<title>{title}</title><style>{_font_face()}{CSS}{_language_rules()}{STYLE}</style></head>"
         f"<body>{switch}<main>{body}</main></body></html>\n"
     )
+
+
+def _language_rules() -> str:
+    """One language is seen at a time, in letters that its script has."""
+    bangla = [lang for lang in languages() if language(lang).script == "Beng"]
+    lettered = ",".join(f"[lang={lang}],[lang={lang}] .tp text" for lang in bangla)
+    fonts = 'font-family:"Hind Siliguri","Noto Sans Bengali",system-ui,sans-serif'
+    hidden = (f"#{lang}:checked~main>:not(.{lang})" for lang in languages())
+    return f"{lettered}{{{fonts}}}\n{','.join(hidden)}{{display:none}}\n"
 
 
 def _font_face() -> str:

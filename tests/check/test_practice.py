@@ -10,8 +10,9 @@ from click.testing import CliRunner
 from quizgen.bank.folder import builtin
 from quizgen.cli import practice
 from quizgen.cli.check import practice as command
+from quizgen.locale import languages
 from quizgen.marking.mark import show
-from quizgen.marking.messages import LANGUAGES, practice_words
+from quizgen.marking.messages import practice_words
 from quizgen.question.compose import compose
 
 
@@ -95,5 +96,5 @@ def test_all_templates_of_a_filter_come_before_one_returns():
 
 
 def test_every_sentence_exists_in_both_languages():
-    first, second = (practice_words(lang) for lang in LANGUAGES)
+    first, second = (practice_words(lang) for lang in languages())
     assert first.keys() == second.keys()

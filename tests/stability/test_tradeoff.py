@@ -12,12 +12,13 @@ import pytest
 from click.testing import CliRunner
 
 from quizgen.cli.tradeoff import tradeoff
+from quizgen.locale import languages
 from quizgen.maths.tree import compile_expr
 from quizgen.tradeoff import fields, ladder
 from quizgen.tradeoff.families import BY_NAME, FAMILIES
 from quizgen.tradeoff.knobs import KNOBS, coverage
 from quizgen.tradeoff.measure import QUICK, Bench, bits_of, pareto, steps
-from quizgen.tradeoff.page import LANGUAGES, words
+from quizgen.tradeoff.page import words
 
 SAFE = {"hue"}
 """Families whose printed formula is safe in float64 (the page says so)."""
@@ -138,7 +139,7 @@ def test_work_precision_curves_fall():
 
 def test_words_are_complete_in_both_languages():
     shapes = []
-    for lang in LANGUAGES:
+    for lang in languages():
         text = words(lang)
         assert set(text["family"]) == set(BY_NAME)
         assert set(text["knob"]) == {knob.key for knob in KNOBS}
