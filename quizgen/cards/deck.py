@@ -3,45 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
-from importlib import import_module
-from typing import Any
 
 from quizgen.bank.folder import Bank, builtin
 from quizgen.cards.kinds import KINDS
 from quizgen.cards.note import Note
+from quizgen.cards.versions import version_of
+from quizgen.cards.wish import SEED, Wish
 from quizgen.errors import BankError
 from quizgen.locale import table
 from quizgen.paper.paper import languages
-
-SEED = 0
-
-
-@dataclass(frozen=True)
-class Wish:
-    """What the deck should hold.
-
-    Parameters
-    ----------
-    langs : tuple of str
-        Languages, the leading one first.
-    topics : tuple of str
-        Only these topics; all if empty.
-    seed : int
-        Fixes the numbers of the worked questions.
-    bank : Bank
-        Where the questions come from.
-    """
-
-    langs: tuple[str, ...] = ("en",)
-    topics: tuple[str, ...] = ()
-    seed: int = SEED
-    bank: Bank = field(default_factory=builtin)
-
-    def wants(self, topic: str) -> bool:
-        """Whether a topic is asked for."""
-        return not self.topics or topic in self.topics
 
 
 @dataclass(frozen=True)
@@ -114,11 +86,8 @@ def _check(names: tuple[str, ...], allowed: tuple[str, ...], what: str) -> None:
 
 
 def _notes(wish: Wish, kinds: tuple[str, ...]) -> Iterator[Note]:
-    from quizgen.cards.versions import version_of
-
     for kind in KINDS:
         if kind in kinds:
-            module: Any = import_module(KINDS[kind])
-            for note in module.notes(wish):
+            for note in KINDS[kind](wish):
                 if wish.wants(note.topic):
                     yield replace(note, version=version_of(note))

@@ -3,7 +3,7 @@
 Anki updates a note only if the incoming one was modified later. A deck that depends on nothing but
 its input cannot use the clock, so every note has a version: ``content/versions.toml`` lists, per
 note, its version and a digest of what stands on it. A test compares the digests; after a change,
-``python -m quizgen.cards.versions`` raises the versions of the notes that changed.
+``python -m quizgen.cards.renew`` raises the versions of the notes that changed.
 
 A worked question counts its template's files instead: a template that is listed with another digest
 counts as one version newer until the list is written again.
@@ -12,11 +12,8 @@ counts as one version newer until the list is written again.
 from __future__ import annotations
 
 import hashlib
-import sys
 import tomllib
 from functools import cache
-from pathlib import Path
-from typing import Any
 
 from quizgen.bank.template import Template
 from quizgen.cards.content import read
@@ -32,8 +29,12 @@ DRAWN = frozenset({"question", "mistake"})
 FILE = "versions"
 
 
+Registry = dict[str, tuple[int, str]]
+"""Key to version and digest."""
+
+
 @cache
-def registry() -> dict[str, tuple[int, str]]:
+def registry() -> Registry:
     """Note key to its version and digest, as committed."""
     table = tomllib.loads(read(FILE))
     return {key: (int(version), str(digest)) for key, (version, digest) in table.items()}
@@ -69,53 +70,3 @@ def _breadth(langs: tuple[str, ...]) -> int:
 def digest_of(note: Note) -> str:
     """Digest of everything that stands on a note."""
     return hashlib.sha256("\x1f".join((*note.fields(), note.topic)).encode()).hexdigest()[:12]
-
-
-def current() -> dict[str, str]:
-    """Digest of every note and note type as the content stands now, in both languages."""
-    from quizgen.bank.folder import builtin
-    from quizgen.cards import looks
-    from quizgen.cards.deck import build
-
-    digests = {note.key: digest_of(note) for note in build("both", kinds=_authored()).notes}
-    digests |= {f"looks/{form}": looks.digest_of(form) for form in looks.NAMES}
-    return digests | {f"question/{t.origin}": t.digest[:12] for t in builtin()}
-
-
-def _authored() -> tuple[str, ...]:
-    from quizgen.cards.kinds import KINDS
-
-    return tuple(kind for kind in KINDS if kind != "question")
-
-
-def raised(old: dict[str, tuple[int, str]], new: dict[str, str]) -> dict[str, tuple[int, str]]:
-    """The list after a change: a new digest raises the version, a new note starts at 1.
-
-    A note that is gone stays listed, so that its version never falls should it return.
-    """
-    merged = dict(old)
-    for key, digest in new.items():
-        version, known = old.get(key, (0, ""))
-        merged[key] = (version if known == digest else version + 1, digest)
-    return merged
-
-
-def written(table: dict[str, tuple[int, str]]) -> str:
-    """The list as TOML."""
-    head = "# Version and digest of every card; `python -m quizgen.cards.versions` keeps it.\n"
-    rows: Any = (f'"{key}" = [{v}, "{digest}"]\n' for key, (v, digest) in sorted(table.items()))
-    return head + "".join(rows)
-
-
-def main() -> None:
-    """Write the list anew."""
-    old = registry()
-    new = raised(old, current())
-    path = Path(__file__).parent / "content" / f"{FILE}.toml"
-    path.write_text(written(new), encoding="utf-8")
-    changed = sum(new[key] != old.get(key) for key in new)
-    sys.stdout.write(f"{path.name}: {len(new)} cards, {changed} changed\n")
-
-
-if __name__ == "__main__":
-    main()

@@ -208,19 +208,19 @@ def test_each_choice_has_four_terms_and_the_right_one_anywhere():
 
 
 def test_every_authored_card_is_in_the_list_of_versions(authored):
-    """A changed card needs a higher version: run ``python -m quizgen.cards.versions``."""
+    """A changed card needs a higher version: run ``python -m quizgen.cards.renew``."""
     listed = registry()
     for note in authored.notes:
         version, digest = listed.get(note.key, (0, ""))
         assert (note.version, digest_of(note)) == (version, digest), (
-            f"{note.key} changed: run `python -m quizgen.cards.versions`"
+            f"{note.key} changed: run `python -m quizgen.cards.renew`"
         )
 
 
 @pytest.mark.parametrize("form", list(looks.NAMES))
 def test_every_note_type_is_in_the_list_of_versions(form):
     assert registry()[f"looks/{form}"][1] == looks.digest_of(form), (
-        "fields, card templates or style changed: run `python -m quizgen.cards.versions`"
+        "fields, card templates or style changed: run `python -m quizgen.cards.renew`"
     )
 
 

@@ -22,8 +22,9 @@ from click.testing import CliRunner
 
 from quizgen.bank.prose import Paragraph, Words
 from quizgen.cards import build
+from quizgen.cards.renew import raised
 from quizgen.cards.tables import COLUMNS, HEADER, as_csv, tsv
-from quizgen.cards.versions import BASE, STEP, modified, raised
+from quizgen.cards.versions import BASE, STEP, modified
 from quizgen.cli.main import group
 
 ROOT = Path(__file__).parent.parent.parent

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-KINDS: Mapping[str, str] = {
-    "vocab": "quizgen.cards.kinds.vocab",
-    "formula": "quizgen.cards.kinds.formulas",
-    "cheat": "quizgen.cards.kinds.cheat",
-    "trap": "quizgen.cards.kinds.trap",
-    "figure": "quizgen.cards.kinds.figure",
-    "truth": "quizgen.cards.kinds.truth",
-    "choice": "quizgen.cards.kinds.choice",
-    "question": "quizgen.cards.kinds.question",
+from quizgen.cards.kinds import cheat, choice, figure, formulas, question, trap, truth, vocab
+from quizgen.cards.wish import CardKind
+
+KINDS: Mapping[str, CardKind] = {
+    "vocab": vocab.notes,
+    "formula": formulas.notes,
+    "cheat": cheat.notes,
+    "trap": trap.notes,
+    "figure": figure.notes,
+    "truth": truth.notes,
+    "choice": choice.notes,
+    "question": question.notes,
 }
-"""Kind to the module whose ``notes(wish)`` makes its notes, in the order of learning."""
+"""Kind to what makes its notes, in the order of learning."""

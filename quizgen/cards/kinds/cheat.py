@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from quizgen.cards.content import entries, passage
-from quizgen.cards.deck import Wish
 from quizgen.cards.note import Note
+from quizgen.cards.wish import Wish
 
 
 def notes(wish: Wish) -> Iterator[Note]:

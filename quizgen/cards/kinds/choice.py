@@ -7,9 +7,9 @@ from collections.abc import Iterator, Sequence
 
 from quizgen.bank.prose import Paragraph, Styled, Words
 from quizgen.cards.content import Term, entries, passage, sentence, words
-from quizgen.cards.deck import Wish
 from quizgen.cards.note import Blocks, Note
 from quizgen.cards.prose import Label
+from quizgen.cards.wish import Wish
 
 LETTERS = "ABCD"
 

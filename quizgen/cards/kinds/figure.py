@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 from quizgen import figures
 from quizgen.cards.content import FigureEntry, entries, passage
-from quizgen.cards.deck import Wish
 from quizgen.cards.note import Note
 from quizgen.cards.prose import Picture
+from quizgen.cards.wish import Wish
 
 
 def notes(wish: Wish) -> Iterator[Note]:

@@ -7,10 +7,10 @@ from collections.abc import Iterator
 from quizgen import typeset
 from quizgen.bank.prose import Paragraph
 from quizgen.cards.content import FormulaEntry, entries, passage, sentence
-from quizgen.cards.deck import Wish
 from quizgen.cards.equations import sides
 from quizgen.cards.note import Note
 from quizgen.cards.prose import Hole
+from quizgen.cards.wish import Wish
 from quizgen.errors import BankError
 from quizgen.question.solution import Maths
 from quizgen.typeset.nodes import Row

@@ -8,10 +8,10 @@ from typing import Any
 from quizgen.bank.prose import Items, Paragraph, Styled, Words
 from quizgen.bank.template import Template
 from quizgen.cards.content import entries, words
-from quizgen.cards.deck import Wish
 from quizgen.cards.note import Blocks, Note
 from quizgen.cards.prose import Display, Fold, Label, Picture, Said
 from quizgen.cards.versions import template_version
+from quizgen.cards.wish import Wish
 from quizgen.locale import word
 from quizgen.question.compose import Key, Part, Question, instance, put_into_words
 from quizgen.question.solution import PartSolution

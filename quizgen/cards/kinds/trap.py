@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from quizgen.cards.content import entries, passage, words
-from quizgen.cards.deck import Wish
 from quizgen.cards.note import Note
 from quizgen.cards.prose import Label
+from quizgen.cards.wish import Wish
 
 
 def notes(wish: Wish) -> Iterator[Note]:

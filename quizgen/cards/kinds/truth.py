@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 from quizgen.bank.prose import Paragraph, Styled, Words
 from quizgen.cards.content import Statement, entries, passage, words
-from quizgen.cards.deck import Wish
 from quizgen.cards.note import Blocks, Note
 from quizgen.cards.prose import Label
+from quizgen.cards.wish import Wish
 
 
 def notes(wish: Wish) -> Iterator[Note]:

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from quizgen.bank.prose import Paragraph
 from quizgen.cards.content import entries, passage, sentence
-from quizgen.cards.deck import Wish
 from quizgen.cards.note import Note
+from quizgen.cards.wish import Wish
 
 
 def notes(wish: Wish) -> Iterator[Note]:
