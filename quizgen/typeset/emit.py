@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, TypeVar
 
 from quizgen.errors import RenderError
 from quizgen.typeset import nodes as n
@@ -32,6 +32,8 @@ KINDS = (
 
 Rule = Callable[[Any, str], str]
 
+V = TypeVar("V")
+
 
 def printer(medium: str, functions: Mapping[str, Any]) -> Rule:
     """Collect the rules of one medium: ``_frac`` for ``Frac``, and so on for every kind.
@@ -55,10 +57,10 @@ def printer(medium: str, functions: Mapping[str, Any]) -> Rule:
     return emit
 
 
-def known(medium: str) -> Callable[[Mapping[str, Any], str, str], Any]:
+def known(medium: str) -> Callable[[Mapping[str, V], str, str], V]:
     """Look-up in a medium's tables that names what it does not know."""
 
-    def look_up(table: Mapping[str, Any], key: str, what: str) -> Any:
+    def look_up(table: Mapping[str, V], key: str, what: str) -> V:
         try:
             return table[key]
         except KeyError:

@@ -13,7 +13,7 @@ from quizgen.typeset import nodes as n
 from quizgen.typeset.emit import known, printer
 from quizgen.typeset.names import GREEK, KNOWN
 from quizgen.typeset.units import TIGHT, parts
-from quizgen.typeset.words import TEXTS
+from quizgen.typeset.words import words_of
 
 _known = known("LaTeX")
 
@@ -110,7 +110,7 @@ def _escaped(text: str) -> str:
 
 
 def _text(node: n.Text, lang: str) -> str:
-    return rf"\text{{ {_known(TEXTS[lang], node.key, 'word')} }}"
+    return rf"\text{{ {_known(words_of(lang).printed, node.key, 'word')} }}"
 
 
 @lru_cache(maxsize=512)
@@ -209,7 +209,7 @@ def _under(node: n.Under, lang: str) -> str:
 def _cases(node: n.Cases, lang: str) -> str:
     rows = []
     for value, condition in node.rows:
-        when = r"\text{otherwise}".replace("otherwise", TEXTS[lang]["otherwise"])
+        when = r"\text{otherwise}".replace("otherwise", words_of(lang).printed["otherwise"])
         if condition is not None:
             when = _case(_emit(condition, lang), lang)
         rows.append(f"{_emit(value, lang)} & {when}")
@@ -217,7 +217,7 @@ def _cases(node: n.Cases, lang: str) -> str:
 
 
 def _case(condition: str, lang: str) -> str:
-    before, after = TEXTS[lang]["if"].split("{}")
+    before, after = words_of(lang).printed["if"].split("{}")
     left = rf"\text{{{before}}} " if before else ""
     return left + condition + (rf" \text{{{after}}}" if after else "")
 

@@ -11,7 +11,7 @@ from quizgen.typeset import nodes as n
 from quizgen.typeset.emit import known, printer
 from quizgen.typeset.names import GREEK_LETTERS
 from quizgen.typeset.units import TIGHT, parts
-from quizgen.typeset.words import TEXTS
+from quizgen.typeset.words import words_of
 
 _known = known("MathML")
 
@@ -111,7 +111,7 @@ def _word(node: n.Word, _lang: str) -> str:
 
 
 def _text(node: n.Text, lang: str) -> str:
-    return f"<mtext>\u00a0{_known(TEXTS[lang], node.key, 'word')}\u00a0</mtext>"
+    return f"<mtext>\u00a0{_known(words_of(lang).printed, node.key, 'word')}\u00a0</mtext>"
 
 
 @lru_cache(maxsize=512)
@@ -226,7 +226,7 @@ def _under(node: n.Under, lang: str) -> str:
 def _cases(node: n.Cases, lang: str) -> str:
     rows = []
     for value, condition in node.rows:
-        when = f"<mtext>{TEXTS[lang]['otherwise']}</mtext>"
+        when = f"<mtext>{words_of(lang).printed['otherwise']}</mtext>"
         if condition is not None:
             when = _case(_inside(condition, lang), lang)
         rows.append(f"<mtr>{_cell(_emit(value, lang))}{_cell(when)}</mtr>")
@@ -239,7 +239,7 @@ def _cell(body: str) -> str:
 
 
 def _case(condition: str, lang: str) -> str:
-    before, after = (half.strip() for half in TEXTS[lang]["if"].split("{}"))
+    before, after = (half.strip() for half in words_of(lang).printed["if"].split("{}"))
     left = f"<mtext>{before}\u00a0</mtext>" if before else ""
     return left + condition + (f"<mtext>\u00a0{after}</mtext>" if after else "")
 

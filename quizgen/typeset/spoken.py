@@ -13,14 +13,9 @@ from quizgen.typeset import nodes as n
 from quizgen.typeset.emit import known, printer
 from quizgen.typeset.names import GREEK
 from quizgen.typeset.units import Part, parts
-from quizgen.typeset.words import TEXTS, Words
-from quizgen.typeset.words_bn import BANGLA
-from quizgen.typeset.words_en import ENGLISH
+from quizgen.typeset.words import Words, words_of
 
 _known = known("reading")
-
-WORDS = {"en": ENGLISH, "bn": BANGLA}
-"""Reading tables by language."""
 
 _BINDING = tuple(map(n.Op, ("", "·", "×", "mod")))
 _BOUNDS = tuple(map(n.Op, "<≤"))
@@ -37,7 +32,7 @@ def spoken(node: n.Node, lang: str = "en") -> str:
     node : Node
         The layout.
     lang : str
-        ``en`` or ``bn``.
+        A language of ``quizgen.locale``.
 
     Raises
     ------
@@ -70,7 +65,7 @@ def simple(node: n.Node | None) -> bool:
 
 
 def _phrase(lang: str, key: str, nodes: tuple[n.Node, ...]) -> str:
-    words: Words = WORDS[lang]
+    words = words_of(lang)
     table = words.short if all(map(simple, nodes)) else words.long
     return str(table[key]).format(*[_say(node, lang) for node in nodes])
 
@@ -81,36 +76,37 @@ def _number(node: n.Number, _lang: str) -> str:
 
 def letter(char: str, lang: str) -> str:
     """Say one letter; a capital is announced, since x and X differ."""
-    words = WORDS[lang]
+    words = words_of(lang)
     lower = char.lower()
     said = words.letters.get(lower) or words.greek.get(lower) or _GREEK_NAMES.get(lower)
     if said is None:
         said = char if char.isascii() else _known(words.greek, char, "letter")
     if char == lower:
         return str(said)
-    return words.capital.format(char if lang == "en" and char.isascii() else said)
+    as_written = char.isascii() and not words.letters
+    return words.capital.format(char if as_written else said)
 
 
 def _ident(node: n.Ident, lang: str) -> str:
     said = letter(node.text, lang)
-    return WORDS[lang].short["bold"].format(said) if node.bold else said
+    return words_of(lang).short["bold"].format(said) if node.bold else said
 
 
 def _word(node: n.Word, lang: str) -> str:
-    words = WORDS[lang]
+    words = words_of(lang)
     if node.text.isupper() and words.letters:
         return "".join([words.letters.get(char.lower(), char) for char in node.text])
     return words.names.get(node.text, node.text)
 
 
 def _text(node: n.Text, lang: str) -> str:
-    return str(_known(TEXTS[lang], node.key, "word"))
+    return _known(words_of(lang).printed, node.key, "word")
 
 
 @lru_cache(maxsize=512)
 def unit_words(text: str, lang: str, *, one: bool = False) -> str:
     """Say a unit, in the singular after the number one."""
-    words = WORDS[lang]
+    words = words_of(lang)
     said = ""
     for part in parts(text):
         below = part.sign == "/" or part.power.startswith("-")
@@ -126,7 +122,7 @@ def _simple_unit(part: Part, words: Words, *, one: bool) -> str:
         return words.units[part.name][not one]
     prefix = {"µ": "u", "μ": "u"}.get(part.name[0], part.name[0])
     pair = _known(words.units, part.name[1:], "unit")
-    return str(_known(words.prefixes, prefix, "prefix")).format(pair[not one])
+    return _known(words.prefixes, prefix, "prefix").format(pair[not one])
 
 
 def _unit(node: n.Unit, lang: str) -> str:
@@ -139,7 +135,7 @@ def _quantity(node: n.Quantity, lang: str) -> str:
 
 
 def _op(node: n.Op, lang: str) -> str:
-    return "" if node.name == " " else str(_known(WORDS[lang].operators, node.name, "operator"))
+    return "" if node.name == " " else _known(words_of(lang).operators, node.name, "operator")
 
 
 def _row(node: n.Row, lang: str) -> str:
@@ -166,7 +162,7 @@ def _ended(node: n.Node, following: n.Node | None, lang: str) -> str:
 
 
 def _frac(node: n.Frac, lang: str, length: str = "short") -> str:
-    words: Words = WORDS[lang]
+    words = words_of(lang)
     said = _say(node.top, lang), _say(node.bottom, lang)
     if node.inline or (length == "short" and simple(node.top) and simple(node.bottom)):
         return words.short["frac"].format(*said)
@@ -192,7 +188,7 @@ def _root(node: n.Root, lang: str) -> str:
 
 
 def _scripts(node: n.Scripts, lang: str) -> str:
-    short = WORDS[lang].short
+    short = words_of(lang).short
     said = _say(node.base, lang)
     for _ in range(node.primes):
         said = short["prime"].format(said)
@@ -202,7 +198,7 @@ def _scripts(node: n.Scripts, lang: str) -> str:
 
 
 def _raised(node: n.Scripts, base: str, lang: str) -> str:
-    words = WORDS[lang]
+    words = words_of(lang)
     if isinstance(node.sup, n.Number) and node.sup.text in words.powers:
         grouped = isinstance(node.base, n.Fence) and node.base.kind == "()"
         return words.powers[node.sup.text + "…" * grouped].format(base)
@@ -213,22 +209,22 @@ def _raised(node: n.Scripts, base: str, lang: str) -> str:
 
 
 def _accent(node: n.Accent, lang: str) -> str:
-    return str(_known(WORDS[lang].accents, node.kind, "accent")).format(_say(node.base, lang))
+    return _known(words_of(lang).accents, node.kind, "accent").format(_say(node.base, lang))
 
 
 def _fence(node: n.Fence, lang: str) -> str:
-    words = WORDS[lang]
+    words = words_of(lang)
     if node.kind in words.intervals and isinstance(node.body, n.Row):
         bounds = [_say(item, lang) for item in node.body.items if item != n.Op(",")]
         if len(bounds) == 2 and len(node.body.items) == 3:
             return words.intervals[node.kind].format(*bounds)
     long = node.kind + "…"
     key = long if long in words.brackets and not simple(node.body) else node.kind
-    return str(_known(words.brackets, key, "brackets")).format(_say(node.body, lang))
+    return _known(words.brackets, key, "brackets").format(_say(node.body, lang))
 
 
 def _func(node: n.Func, lang: str) -> str:
-    words = WORDS[lang]
+    words = words_of(lang)
     said = [_say(arg, lang) for arg in node.args]
     if not all(map(simple, node.args)) or not _plain(node.head):
         return words.long["func"].format(_head(node.head, lang), ", ".join(said))
@@ -242,7 +238,7 @@ def _func(node: n.Func, lang: str) -> str:
     if isinstance(node.head, n.Scripts) and node.head.sub is not None:
         return words.short["base"].format(_say(node.head.sub, lang), listed)
     name = node.head.text if isinstance(node.head, n.Word) else ""
-    return str(_known(words.functions, name, "function")[0]).format(listed)
+    return _known(words.functions, name, "function")[0].format(listed)
 
 
 def _plain(head: n.Node) -> bool:
@@ -253,9 +249,9 @@ def _plain(head: n.Node) -> bool:
 
 
 def _head(node: n.Node, lang: str) -> str:
-    words = WORDS[lang]
+    words = words_of(lang)
     if isinstance(node, n.Word):
-        return str(_known(words.functions, node.text, "function")[1])
+        return _known(words.functions, node.text, "function")[1]
     if isinstance(node, n.Scripts) and node.sup is not None:
         bare = n.Scripts(node.base, node.sub) if node.sub else node.base
         return _raised(node, _head(bare, lang), lang)
@@ -267,7 +263,7 @@ def _head(node: n.Node, lang: str) -> str:
 
 
 def _big(node: n.Big, lang: str) -> str:
-    what, low, high, closing = _known(WORDS[lang].signs, node.sign, "sign")
+    what, low, high, closing = _known(words_of(lang).signs, node.sign, "sign")
     said = [what]
     said += [low.format(_say(node.lower, lang))] if node.lower else []
     said += [high.format(_say(node.upper, lang))] if node.upper else []
@@ -275,11 +271,11 @@ def _big(node: n.Big, lang: str) -> str:
 
 
 def _under(node: n.Under, lang: str) -> str:
-    return WORDS[lang].short["below"].format(_head(node.base, lang), _say(node.below, lang))
+    return words_of(lang).short["below"].format(_head(node.base, lang), _say(node.below, lang))
 
 
 def _cases(node: n.Cases, lang: str) -> str:
-    short = WORDS[lang].short
+    short = words_of(lang).short
     rows = []
     for value, condition in node.rows:
         if condition is None:
@@ -290,7 +286,7 @@ def _cases(node: n.Cases, lang: str) -> str:
 
 
 def _matrix(node: n.Matrix, lang: str) -> str:
-    words = WORDS[lang]
+    words = words_of(lang)
     rows = [", ".join([_say(cell, lang) for cell in row]) for row in node.rows]
     said = [words.short["row"].format(f"{i}: {row}") for i, row in enumerate(rows, 1)]
     return words.long["matrix"].format("; ".join(said))

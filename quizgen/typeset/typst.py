@@ -12,7 +12,7 @@ from quizgen.typeset import nodes as n
 from quizgen.typeset.emit import known, printer
 from quizgen.typeset.names import KNOWN
 from quizgen.typeset.units import TIGHT, parts
-from quizgen.typeset.words import TEXTS
+from quizgen.typeset.words import words_of
 
 _known = known("Typst")
 
@@ -89,7 +89,7 @@ def _word(node: n.Word, _lang: str) -> str:
 
 
 def _text(node: n.Text, lang: str) -> str:
-    return quoted(f" {_known(TEXTS[lang], node.key, 'word')} ")
+    return quoted(f" {_known(words_of(lang).printed, node.key, 'word')} ")
 
 
 @lru_cache(maxsize=512)
@@ -192,7 +192,7 @@ def _under(node: n.Under, lang: str) -> str:
 def _cases(node: n.Cases, lang: str) -> str:
     rows = []
     for value, condition in node.rows:
-        when = quoted(TEXTS[lang]["otherwise"])
+        when = quoted(words_of(lang).printed["otherwise"])
         if condition is not None:
             when = _case(_emit(condition, lang), lang)
         rows.append(f"{_emit(value, lang)} quad & {when}")
@@ -200,7 +200,7 @@ def _cases(node: n.Cases, lang: str) -> str:
 
 
 def _case(condition: str, lang: str) -> str:
-    before, after = (half.strip() for half in TEXTS[lang]["if"].split("{}"))
+    before, after = (half.strip() for half in words_of(lang).printed["if"].split("{}"))
     left = quoted(f"{before} ") if before else ""
     return left + condition + (quoted(f" {after}") if after else "")
 

@@ -1,32 +1,22 @@
-"""The words in and around formulas; each language fills one ``Words`` table to be read aloud."""
+"""The words in and around formulas: ``speech.toml`` of a language, checked."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from functools import cache
 
-TEXTS = {
-    "en": {
-        "if": "if {}",
-        "otherwise": "otherwise",
-        "and": "and",
-        "or": "or",
-        "not": "not",
-    },
-    "bn": {
-        "if": "যদি {} হয়",
-        "otherwise": "অন্যথায়",
-        "and": "এবং",
-        "or": "অথবা",
-        "not": "সত্য নয়:",
-    },
-}
-"""Words printed inside formulas."""
+import msgspec
+
+from quizgen.errors import QuizgenError
+from quizgen.locale import table
 
 
-@dataclass(frozen=True)
-class Words:
-    """How one language reads a formula aloud. Braces mark where the parts go."""
+class Words(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """How one language prints words in a formula and reads it aloud.
 
+    Braces mark where the parts go, so the order of words is the language's own.
+    """
+
+    printed: dict[str, str]
     letters: dict[str, str]
     capital: str
     greek: dict[str, str]
@@ -43,3 +33,18 @@ class Words:
     prefixes: dict[str, str]
     units: dict[str, tuple[str, str]]
     unit_joints: dict[str, str]
+
+
+@cache
+def words_of(lang: str) -> Words:
+    """Read the words of a language, once.
+
+    Raises
+    ------
+    QuizgenError
+        If there is no such language, or a table is missing in its file.
+    """
+    try:
+        return msgspec.convert(table(lang, "speech"), Words)
+    except msgspec.ValidationError as error:
+        raise QuizgenError(f"{lang}/speech.toml: {error}") from error
