@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from quizgen.figures._parameters import Parameter, Values
+from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -214,52 +215,7 @@ def _street(side: float) -> tuple[Thing, ...]:
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words; in a quiz, say what is seen, not what it is called."""
-    words = _ALT[lang]
-    seen, name = words[KINDS[int(values["kind"])]]
-    told = f"{words['figure'][0]} {seen}"
-    return told if quiz else f"{told} {words['figure'][1]} {name}{words['stop'][0]}"
-
-
-_ALT: Mapping[str, Mapping[str, tuple[str, ...]]] = {
-    "en": {
-        "figure": ("On the left a scene, on the right a photo of it.", "This is"),
-        "stop": (".",),
-        "blooming": ("The lamp has run over into a bright bar above and below it.", "blooming"),
-        "streak": ("A faint bright band through the lamp fills the whole column.", "a CCD streak"),
-        "rolling shutter": (
-            "The moving box leans; what stands is upright.",
-            "rolling shutter skew",
-        ),
-        "vignetting": ("The even area is darker towards the corners.", "vignetting"),
-        "lateral colour": (
-            "Lines have coloured edges, wider towards the corners.",
-            "lateral chromatic aberration",
-        ),
-        "barrel": ("The lines of the grid bulge outward.", "barrel distortion"),
-        "pincushion": ("The lines of the grid bend inward.", "pincushion distortion"),
-        "motion blur": ("The moving box is smeared sideways; what stands is sharp.", "motion blur"),
-        "defocus": ("Everything is equally soft in all directions.", "defocus"),
-        "false colour": ("Fine grey lines show broad coloured bands.", "moiré with false colour"),
-        "clipping": ("Bright areas are evenly white, without detail.", "clipping"),
-        "hot pixels": ("Single bright dots lie all over the picture.", "hot pixels"),
-    },
-    "bn": {
-        "figure": ("বাঁয়ে একটি দৃশ্য, ডানে তার ছবি।", "এটি"),
-        "stop": ("।",),
-        "blooming": ("বাতির আলো উপরে-নিচে উপচে উজ্জ্বল একটা দাগ হয়ে গেছে।", "ব্লুমিং"),
-        "streak": ("বাতির ভেতর দিয়ে হালকা উজ্জ্বল একটা ফালি পুরো কলাম জুড়ে।", "CCD streak"),
-        "rolling shutter": ("চলন্ত বাক্সটি হেলে আছে; যা স্থির তা সোজা।", "রোলিং শাটারের হেলে যাওয়া"),
-        "vignetting": ("সমান রঙের এলাকা কোণার দিকে অন্ধকার।", "ভিগনেটিং"),
-        "lateral colour": (
-            "রেখাগুলোর কিনারা রঙিন, কোণার দিকে আরও চওড়া।",
-            "পার্শ্বিক ক্রোম্যাটিক অ্যাবারেশন",
-        ),
-        "barrel": ("গ্রিডের রেখাগুলো বাইরের দিকে ফুলে আছে।", "ব্যারেল ডিস্টর্শন"),
-        "pincushion": ("গ্রিডের রেখাগুলো ভেতরের দিকে বেঁকে আছে।", "পিনকুশন ডিস্টর্শন"),
-        "motion blur": ("চলন্ত বাক্সটি পাশাপাশি লেপ্টে গেছে; যা স্থির তা স্পষ্ট।", "motion blur"),
-        "defocus": ("সবকিছু সব দিকে সমান ঝাপসা।", "ডিফোকাস"),
-        "false colour": ("সূক্ষ্ম ধূসর রেখায় চওড়া রঙিন ডোরা দেখা যায়।", "ভুয়া রঙের মোয়ারে (moiré)"),
-        "clipping": ("উজ্জ্বল এলাকাগুলো একদম সাদা, ভেতরে কিছু দেখা যায় না।", "ক্লিপিং"),
-        "hot pixels": ("পুরো ছবিতে ছিটানো একক উজ্জ্বল বিন্দু।", "হট পিক্সেল"),
-    },
-}
+    words = words_of("artefacts", lang)
+    kind = KINDS[int(values["kind"])]
+    told = f"{words['figure']} {words[f'{kind} seen']}"
+    return told if quiz else f"{told} {words['called']} {words[kind]}{words['stop']}"

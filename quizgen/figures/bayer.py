@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from quizgen.figures._numbers import derived, given, relation
 from quizgen.figures._parameters import ABSENT, Parameter, Values, require
+from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -238,7 +239,7 @@ def _arrows(pen: Pen, values: Values, cell: float) -> None:
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words; in a quiz, leave out which sites are used and the results."""
-    words, x, y = _ALT[lang], int(values["x"]), int(values["y"])
+    words, x, y = words_of("bayer", lang), int(values["x"]), int(values["y"])
     text = words["figure"].format(
         pattern=PATTERNS[int(values["phase"])],
         size=int(values["size"]),
@@ -265,25 +266,3 @@ def _rows(values: Values) -> list[tuple[int, str]]:
             known = (c if value is None else f"{c} {given(value)}" for c, value in sites)
             rows.append((y, ", ".join(known)))
     return rows
-
-
-_ALT = {
-    "en": {
-        "figure": (
-            "Bayer mosaic with pattern {pattern}, {size} by {size} sites, columns and rows counted "
-            "from 0. The site in column {x}, row {y} ({letter}) is marked."
-        ),
-        "row": " Row {y}: {sites}.",
-        "use": " For {channel} at this site, arrows come from (column, row) {sites}.",
-        "stop": ".",
-    },
-    "bn": {
-        "figure": (
-            "{pattern} প্যাটার্নের Bayer মোজাইক, {size} × {size} ঘর; কলাম ও সারি 0 থেকে গোনা। "
-            "কলাম {x}, সারি {y}-এর ঘরটি ({letter}) চিহ্নিত।"
-        ),
-        "row": " সারি {y}: {sites}।",
-        "use": " এই ঘরে {channel}-এর জন্য তীর এসেছে (কলাম, সারি) {sites} থেকে।",
-        "stop": "।",
-    },
-}

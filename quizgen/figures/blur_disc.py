@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from quizgen.figures._numbers import equation, given, spoken, statement
 from quizgen.figures._parameters import Parameter, Values
+from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -155,32 +156,10 @@ def _labels(values: Values, *, quiz: bool) -> dict[str, str]:
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words; in a quiz, leave the diameter of the blur disc out."""
-    words = _ALT[lang]
+    words = words_of("blur_disc", lang)
     text = words["figure"].format(
         D=given(values["D"]), z_p=given(values["z_p"]), z_s=given(values["z_s"])
     )
     if quiz:
         return text + words["quiz"]
     return text + words["answer"].format(c=spoken(_labels(values, quiz=False)["c"]))
-
-
-_ALT = {
-    "en": {
-        "figure": (
-            "Light from one point passes a lens of diameter D = {D} mm and meets again at "
-            "z'_p = {z_p} mm behind it. The sensor stands at z'_s = {z_s} mm and cuts the cone of "
-            "light in a blur disc of diameter c."
-        ),
-        "quiz": " The diameter c is asked for.",
-        "answer": " Its diameter is {c}.",
-    },
-    "bn": {
-        "figure": (
-            "একটি বিন্দুর আলো D = {D} mm ব্যাসের লেন্স পেরিয়ে তার পেছনে z'_p = {z_p} mm দূরে আবার "
-            "মেলে। সেন্সর আছে z'_s = {z_s} mm দূরে, সেখানে আলোর শঙ্কু কেটে c ব্যাসের "
-            "ঝাপসা বৃত্ত তৈরি হয়।"
-        ),
-        "quiz": " c ব্যাসটি বের করতে হবে।",
-        "answer": " এর ব্যাস {c}।",
-    },
-}

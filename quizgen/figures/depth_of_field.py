@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from quizgen.figures._numbers import derived, given
 from quizgen.figures._parameters import Parameter, Values, require
+from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -121,7 +122,7 @@ def alt(values: Values, lang: str, *, quiz: bool) -> str:
 
     In a quiz, say how sharp the objects are instead of the f-numbers.
     """
-    words = _ALT[lang]
+    words = words_of("depth_of_field", lang)
     depths = [given(values[f"z_{place}"]) for place in (1, 2, 3)]
     told = [words["figure"].format(*depths)]
     for letter, number in zip(_LETTERS, f_numbers(values), strict=True):
@@ -133,19 +134,3 @@ def alt(values: Values, lang: str, *, quiz: bool) -> str:
             blur = [derived(size) for size in discs(values, number)]
             told.append(words["number"].format(letter, given(number), *blur))
     return " ".join(told)
-
-
-_ALT = {
-    "en": {
-        "figure": "Two photos A and B of three objects at {} m, {} m and {} m.",
-        "wide": "In {} objects away from the plane of focus and the background are more blurred.",
-        "small": "In {} objects at all distances are closer to sharp.",
-        "number": "{}: f/{}, blur discs on the sensor {} mm, {} mm and {} mm.",
-    },
-    "bn": {
-        "figure": "{} m, {} m ও {} m দূরের তিনটি বস্তুর দুটি ছবি, A ও B।",
-        "wide": "{}-তে ফোকাস তল থেকে দূরের বস্তু আর পেছনটা বেশি ঝাপসা।",
-        "small": "{}-তে সব দূরত্বের বস্তুই স্পষ্টের কাছাকাছি।",
-        "number": "{}: f/{}, সেন্সরে ঝাপসা বৃত্ত {} mm, {} mm ও {} mm।",
-    },
-}

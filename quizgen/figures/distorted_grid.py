@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from quizgen.figures._numbers import given
 from quizgen.figures._parameters import ABSENT, Parameter, Values, require
+from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
     import numpy as np
@@ -164,7 +165,7 @@ def alt(values: Values, lang: str, *, quiz: bool) -> str:
 
     In a quiz, leave the coefficients and the kind of distortion out.
     """
-    words = _ALT[lang]
+    words = words_of("distorted_grid", lang)
     text = words["figure"].format(step=given(_step(values)), extent=given(shown_extent(values)))
     if quiz:
         return text
@@ -177,29 +178,3 @@ def _kind(values: Values) -> str:
     if sign == 0:
         return "none"
     return "barrel" if sign < 0 else "pincushion"
-
-
-_ALT = {
-    "en": {
-        "figure": (
-            "A square grid from −{extent} to {extent} with lines {step} apart, before (grey) and "
-            "after (black) radial distortion. A red cross marks the principal point; the lines "
-            "through it are straight in both grids."
-        ),
-        "answer": " The coefficients are k1 = {k1} and k2 = {k2}.",
-        "barrel": " The other lines bow outward and the corners are pulled in: barrel.",
-        "pincushion": " The other lines bow inward and the corners are pulled out: pincushion.",
-        "none": " Both grids are the same.",
-    },
-    "bn": {
-        "figure": (
-            "−{extent} থেকে {extent} পর্যন্ত একটি বর্গাকার গ্রিড, রেখার ব্যবধান {step}: রেডিয়াল "
-            "ডিস্টর্শনের আগে (ধূসর) ও পরে (কালো)। লাল ক্রস মুখ্য বিন্দু দেখায়; "
-            "এর মধ্য দিয়ে যাওয়া রেখাগুলো দুই গ্রিডেই সোজা।"
-        ),
-        "answer": " সহগ k1 = {k1} এবং k2 = {k2}।",
-        "barrel": " অন্য রেখাগুলো বাইরের দিকে ফোলা, কোণাগুলো ভেতরে টানা: ব্যারেল।",
-        "pincushion": " অন্য রেখাগুলো ভেতরের দিকে বাঁকা, কোণাগুলো বাইরে ঠেলা: পিনকুশন।",
-        "none": " দুই গ্রিড একই।",
-    },
-}

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from quizgen.figures._numbers import derived, equation, given, relation, spoken
 from quizgen.figures._parameters import ABSENT, Parameter, Values, require
+from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -238,7 +239,7 @@ def alt(values: Values, lang: str, *, quiz: bool) -> str:
 
     In a quiz, leave the density at the mean and the probability out.
     """
-    words = _ALT[lang]
+    words = words_of("gaussian", lang)
     text = words["figure"].format(
         mu=given(values["mu"]), sigmas=words["and"].join(given(s) for s in _sigmas(values))
     )
@@ -254,21 +255,3 @@ def alt(values: Values, lang: str, *, quiz: bool) -> str:
     if values["k"]:
         text += words["area"].format(area=spoken(_probability_text(values, quiz=False)))
     return text
-
-
-_ALT = {
-    "en": {
-        "figure": "Bell curve g(n) of a normal distribution with mean μ = {mu} and σ = {sigmas}.",
-        "and": " or ",
-        "marks": " Marks stand at μ ± {k}σ; the area where {event} is shaded.",
-        "peak": " For σ = {sigma} the peak is g(μ) {relation} {peak}.",
-        "area": " The shaded area is {area}.",
-    },
-    "bn": {
-        "figure": "স্বাভাবিক (normal) বণ্টনের ঘণ্টাকৃতি রেখা g(n), গড় μ = {mu} এবং σ = {sigmas}।",
-        "and": " বা ",
-        "marks": " μ ± {k}σ-এ দাগ দেওয়া; যেখানে {event}, সেই ক্ষেত্রফল ছায়া দিয়ে দেখানো।",
-        "peak": " σ = {sigma} হলে চূড়ার মান g(μ) {relation} {peak}।",
-        "area": " ছায়া দেওয়া ক্ষেত্রফল {area}।",
-    },
-}

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from quizgen.figures._numbers import given, spoken
 from quizgen.figures._parameters import Parameter, Values
+from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -124,7 +125,7 @@ def _png(scene: int, palette: tuple[Colour, ...]) -> bytes:
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words; in a quiz, leave out which edit made which picture."""
-    words = _ALT[lang]
+    words = words_of("hsv_edits", lang)
     if quiz:
         return words["figure"] + words["quiz"]
     captions = []
@@ -132,26 +133,3 @@ def alt(values: Values, lang: str, *, quiz: bool) -> str:
         what = words["original"] if edit == "original" else spoken(_symbols(values, edit))
         captions.append(f"{_LETTERS[place]}: {what}")
     return words["figure"] + " " + "; ".join(captions) + words["stop"]
-
-
-_ALT = {
-    "en": {
-        "figure": (
-            "Four versions A, B, C and D of one picture: blue sky with a yellow sun, a white cloud "
-            "and a magenta and yellow balloon, green hills, a grey road, orange flowers, and a "
-            "house with a red roof and near-white walls."
-        ),
-        "quiz": " One is the original; in each of the others one of H, S and V was edited.",
-        "original": "original",
-        "stop": ".",
-    },
-    "bn": {
-        "figure": (
-            "একই ছবির চারটি রূপ A, B, C ও D: নীল আকাশে হলুদ সূর্য, সাদা মেঘ আর ম্যাজেন্টা-হলুদ "
-            "বেলুন, সবুজ পাহাড়, ধূসর রাস্তা, কমলা ফুল, আর লাল চাল ও প্রায়-সাদা দেয়ালের একটি বাড়ি।"
-        ),
-        "quiz": " একটি মূল ছবি; বাকি প্রতিটিতে H, S ও V-এর যেকোনো একটি বদলানো হয়েছে।",
-        "original": "মূল ছবি",
-        "stop": "।",
-    },
-}

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from quizgen.figures._numbers import derived, given, spoken
 from quizgen.figures._parameters import ABSENT, Parameter, Values, require
+from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -159,27 +160,9 @@ def _reading(values: Values, place: int, wavelength: float) -> str:
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words; in a quiz, leave out the values at the marks."""
-    words = _ALT[lang]
+    words = words_of("luminosity", lang)
     told = [words["log" if values["log"] else "figure"] + words["seen" if quiz else "curves"]]
     for place, wavelength in enumerate(marks(values)):
         text = f"λ_{place + 1} = {given(wavelength)} nm"
         told.append(text if quiz else f"{text}, {spoken(_reading(values, place, wavelength))}")
     return told[0] + ("".join(f" {text}{words['stop']}" for text in told[1:]))
-
-
-_ALT = {
-    "en": {
-        "figure": "Two bell-shaped curves over 380 to 780 nm: ",
-        "log": "Two curves over 380 to 780 nm, logarithmic axis: ",
-        "seen": "V solid, V' dashed and at shorter wavelengths.",
-        "curves": "V for the eye by day (peak at 555 nm), V' for the eye at night (507 nm).",
-        "stop": ".",
-    },
-    "bn": {
-        "figure": "380 থেকে 780 nm জুড়ে ঘণ্টার মতো দুটি রেখা: ",
-        "log": "380 থেকে 780 nm জুড়ে দুটি রেখা, লগারিদমিক অক্ষে: ",
-        "seen": "V টানা রেখায়, V' কাটা রেখায় ও ছোট তরঙ্গদৈর্ঘ্যের দিকে।",
-        "curves": "দিনের চোখের V (চূড়া 555 nm-এ), রাতের চোখের V' (চূড়া 507 nm-এ)।",
-        "stop": "।",
-    },
-}

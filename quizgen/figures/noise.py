@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from quizgen.figures._numbers import given, spoken
 from quizgen.figures._parameters import Parameter, Values
+from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -112,41 +113,9 @@ def _symbols(values: Values, kind: str) -> str:
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words; in a quiz, say what is seen, not which noise it is."""
-    words = _ALT[lang]
+    words = words_of("noise", lang)
     told = []
     for place, kind in enumerate(noise_order(values["order"])):
         seen = words[f"{kind} seen"] if quiz else f"{words[kind]}, {spoken(_symbols(values, kind))}"
         told.append(f"{_LETTERS[place]}: {seen}")
     return words["figure"] + " " + "; ".join(told) + words["stop"]
-
-
-_ALT = {
-    "en": {
-        "figure": (
-            "One scene of four flat greys in three versions A, B and C, each with an enlarged "
-            "detail and a histogram from 0 to 255."
-        ),
-        "clean seen": "even areas, histogram of four narrow bars",
-        "gaussian seen": "areas uneven everywhere, the bars of the histogram widened into bells",
-        "impulse seen": (
-            "even areas with single black and white dots, four narrow bars and two more at the ends"
-        ),
-        "clean": "clean",
-        "gaussian": "Gaussian noise",
-        "impulse": "salt and pepper",
-        "stop": ".",
-    },
-    "bn": {
-        "figure": (
-            "চারটি সমান ধূসর রঙের একটি দৃশ্যের তিনটি রূপ A, B ও C; প্রতিটির নিচে বড় করা একটি অংশ আর "
-            "0 থেকে 255 পর্যন্ত হিস্টোগ্রাম।"
-        ),
-        "clean seen": "সমান এলাকা, হিস্টোগ্রামে চারটি সরু দাগ",
-        "gaussian seen": "সব জায়গা অমসৃণ, হিস্টোগ্রামের দাগগুলো ছড়িয়ে ঘণ্টার মতো",
-        "impulse seen": "সমান এলাকায় ছিটানো কালো ও সাদা বিন্দু, চারটি সরু দাগ আর দুই প্রান্তে আরও দুটি",
-        "clean": "নয়েজহীন",
-        "gaussian": "গাউসিয়ান নয়েজ",
-        "impulse": "সল্ট অ্যান্ড পেপার নয়েজ",
-        "stop": "।",
-    },
-}

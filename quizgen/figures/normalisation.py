@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from quizgen.figures._numbers import given, statement
 from quizgen.figures._parameters import Parameter, Values, require
+from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -99,7 +100,7 @@ def _limits(pen: Pen, values: Values) -> None:
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words; in a quiz, leave out I_min and I_max."""
-    words = _ALT[lang]
+    words = words_of("normalisation", lang)
     told = [words["before"].format(given(values["a"]), given(values["b"])), words[_after(values)]]
     if values["share"]:
         told.insert(1, words["outliers"])
@@ -116,27 +117,3 @@ def _after(values: Values) -> str:
     if low > 0 or high > 0:
         return "both" if low > 0 and high > 0 else "bottom" if low > 0 else "top"
     return "fits" if low == high == 0 else "gaps"
-
-
-_ALT = {
-    "en": {
-        "before": "Two histograms. Before, on an axis from 0 to 255, values fill {} to {}.",
-        "outliers": "A few outliers lie outside.",
-        "fits": "After, the same shape just fills the axis from 0 to 1.",
-        "gaps": "After, the same shape fills only a part of the axis from 0 to 1.",
-        "top": "After, on an axis from 0 to 1, a single tall bar stands at 1.",
-        "bottom": "After, on an axis from 0 to 1, a single tall bar stands at 0.",
-        "both": "After, on an axis from 0 to 1, a single bar stands at either end.",
-        "limits": "I_min = {}, I_max = {}.",
-    },
-    "bn": {
-        "before": "দুটি হিস্টোগ্রাম। আগেরটিতে 0 থেকে 255 অক্ষে মান {} থেকে {} পর্যন্ত ছড়ানো।",
-        "outliers": "অল্প কিছু মান এর বাইরে।",
-        "fits": "পরেরটিতে একই আকৃতি 0 থেকে 1 অক্ষের পুরোটা ঠিক ভরে আছে।",
-        "gaps": "পরেরটিতে একই আকৃতি 0 থেকে 1 অক্ষের একটা অংশেই আছে।",
-        "top": "পরেরটিতে 0 থেকে 1 অক্ষের একদম 1-এ একটি উঁচু দাগ।",
-        "bottom": "পরেরটিতে 0 থেকে 1 অক্ষের একদম 0-তে একটি উঁচু দাগ।",
-        "both": "পরেরটিতে 0 থেকে 1 অক্ষের দুই প্রান্তেই একটি করে দাগ।",
-        "limits": "I_min = {}, I_max = {}।",
-    },
-}

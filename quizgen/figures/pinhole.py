@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from quizgen.figures._numbers import derived, equation, relation, spoken, statement
 from quizgen.figures._parameters import Parameter, Values, require
+from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -221,37 +222,12 @@ def _points(pen: Pen, place: _Layout, *, physical: bool) -> None:
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words; in a quiz, leave the height of the image point out."""
-    words = {name: spoken(label) for name, label in _labels(values, quiz=quiz).items()}
-    text = _ALT[lang]["figure"].format(**words)
+    words = words_of("pinhole", lang)
+    labels = {name: spoken(label) for name, label in _labels(values, quiz=quiz).items()}
+    told = words["figure"].format(**labels)
     if values["physical"]:
-        text += _ALT[lang]["physical"]
-    height = _image_height(values)
-    return text + _ALT[lang]["quiz" if quiz else "answer"].format(
-        relation=relation(height), height=derived(height), unit=_UNITS[int(values["metric"])][0]
-    ).replace(" .", ".").replace(" ।", "।")
-
-
-_ALT = {
-    "en": {
-        "figure": (
-            "Pinhole model in the y-z plane: centre O at the origin, optical axis z, image plane "
-            "at distance {f}. Scene point p at depth {p_z} and height {p_y}. A straight ray joins "
-            "p and O and meets the image plane at p'. Two similar right triangles are shaded: "
-            "legs p_z and p_y, legs f and p'_y."
-        ),
-        "physical": (" The physical image plane at −f is dashed; the image there is upside down."),
-        "quiz": " The height p'_y is asked for.",
-        "answer": " The height is p'_y {relation} {height} {unit}.",
-    },
-    "bn": {
-        "figure": (
-            "y-z তলে পিনহোল মডেল: মূলবিন্দুতে কেন্দ্র O, আলোক-অক্ষ z, ছবির তল {f} দূরত্বে। "
-            "দৃশ্যের বিন্দু p-এর গভীরতা {p_z}, উচ্চতা {p_y}। p ও O-কে যোগ করা সরল রশ্মি "
-            "ছবির তলকে p' বিন্দুতে ছেদ করে। দুটি সদৃশ সমকোণী ত্রিভুজ ছায়া দিয়ে দেখানো: "
-            "একটির বাহু p_z ও p_y, অন্যটির f ও p'_y।"
-        ),
-        "physical": " বাস্তব (physical) ছবির তল −f-এ, ভাঙা রেখায় আঁকা; সেখানে ছবি উল্টো।",
-        "quiz": " p'_y উচ্চতাটি বের করতে হবে।",
-        "answer": " উচ্চতা p'_y {relation} {height} {unit}।",
-    },
-}
+        told += words["physical"]
+    height, unit = _image_height(values), _UNITS[int(values["metric"])][0]
+    return told + words["quiz" if quiz else "answer"].format(
+        relation=relation(height), height=derived(height), unit=f" {unit}" if unit else ""
+    )

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from quizgen.figures._numbers import equation, given, spoken, statement
 from quizgen.figures._parameters import Parameter, Values
+from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -203,7 +204,7 @@ def _labels(values: Values, *, quiz: bool) -> dict[str, str]:
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words; in a quiz, leave the image distance out."""
-    image, words = _image_distance(values), _ALT[lang]
+    image, words = _image_distance(values), words_of("thin_lens", lang)
     text = words["figure"].format(f=given(values["f"]), z=given(values["z"]))
     if quiz:
         return text + words["quiz"]
@@ -211,35 +212,3 @@ def alt(values: Values, lang: str, *, quiz: bool) -> str:
         return text + words["parallel"]
     answer = spoken(_labels(values, quiz=False)["image"])
     return text + words["real" if image > 0 else "virtual"].format(answer=answer)
-
-
-_ALT = {
-    "en": {
-        "figure": (
-            "Ray diagram of a thin lens with focal length f = {f} mm. The object stands z = {z} mm "
-            "in front of the lens. From its tip the rays parallel to the axis, through the "
-            "centre of the lens and through the focal point F are drawn."
-        ),
-        "quiz": " The image distance z' is asked for.",
-        "real": " Behind the lens they meet in the upside-down real image at {answer}.",
-        "virtual": (
-            " Behind the lens they diverge; extended backwards they meet in the upright virtual "
-            "image in front of the lens, {answer}."
-        ),
-        "parallel": " Behind the lens they stay parallel: there is no image at a finite distance.",
-    },
-    "bn": {
-        "figure": (
-            "পাতলা লেন্সের রশ্মিচিত্র, ফোকাস দূরত্ব f = {f} mm। বস্তু লেন্সের সামনে z = {z} mm দূরে। "
-            "বস্তুর শীর্ষ থেকে অক্ষের সমান্তরাল রশ্মি, লেন্সের কেন্দ্রগামী রশ্মি ও "
-            "ফোকাস F-গামী রশ্মি আঁকা।"
-        ),
-        "quiz": " প্রতিবিম্বের দূরত্ব z' বের করতে হবে।",
-        "real": " লেন্সের পেছনে রশ্মিগুলো {answer} দূরে মিলে উল্টো বাস্তব প্রতিবিম্ব গড়ে।",
-        "virtual": (
-            " লেন্সের পেছনে রশ্মিগুলো ছড়িয়ে যায়; পেছন দিকে বাড়ালে লেন্সের সামনে মিলে সোজা "
-            "অবাস্তব (virtual) প্রতিবিম্ব গড়ে, {answer}।"
-        ),
-        "parallel": " লেন্সের পেছনে রশ্মিগুলো সমান্তরাল থাকে: সসীম দূরত্বে কোনো প্রতিবিম্ব নেই।",
-    },
-}
