@@ -58,7 +58,8 @@ def made(seed: int, *, figures: bool = True):  # noqa: ANN201
 
 def paper_bytes(seed: int) -> int:
     """Everything that ``quizgen exam`` writes, as a number of bytes."""
-    from quizgen.paper.paper import form_bytes, key_bytes
+    from quizgen.paper.form import form_bytes
+    from quizgen.paper.key import key_bytes
     from quizgen.render import KINDS, RENDERERS, render
 
     paper = made(seed)

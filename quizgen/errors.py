@@ -11,10 +11,18 @@
     |-- FormulaError     mathematics typed by an author or a student cannot be read
     |-- CodeError        a paper's code cannot be rebuilt here
     |-- RenderError      an output could not be made or written
-    `-- KeyFileError     a key or an answer file cannot be read
+    |-- KeyFileError     a key or an answer file cannot be read
+    `-- ChoiceError      an argument is none of the values allowed (names them)
+
+Three more stand beside their subject: ``SceneError`` in ``camera.scene``, ``OraclesDisagree`` in
+``tradeoff.ladder``, and ``ReadError`` in ``maths.notation.lexer``, the ``FormulaError`` that knows
+what was found and what was expected. ``DomainError`` in ``arrays.domain`` is a plain
+``ValueError``: array functions know nothing of quizgen.
 
 What a student types never raises out of the checker: it becomes a verdict.
 """
+
+from collections.abc import Collection
 
 
 class QuizgenError(Exception):
@@ -67,3 +75,20 @@ class RenderError(QuizgenError):
 
 class KeyFileError(QuizgenError):
     """A key or an answer file cannot be read."""
+
+
+class ChoiceError(QuizgenError, ValueError):
+    """An argument is none of the values allowed."""
+
+
+def one_of(what: str, value: object, allowed: Collection[str]) -> str:
+    """Return a value that is one of those allowed.
+
+    Raises
+    ------
+    ChoiceError
+        Naming the argument, its value and what is allowed.
+    """
+    if isinstance(value, str) and value in allowed:
+        return value
+    raise ChoiceError(f"{what}: {value!r} (allowed: {', '.join(allowed)})")

@@ -1,14 +1,20 @@
-"""Writing files whole or not at all."""
+"""Writing files whole or not at all, and reading tables whose mistakes are one located line."""
 
 from __future__ import annotations
 
 import contextlib
+import json
 import os
 import secrets
+import tomllib
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
-from quizgen.errors import RenderError
+from quizgen.errors import KeyFileError, RenderError
+
+LARGEST_FILE = 20_000_000
+"""Bytes of the largest table that is read."""
 
 
 def write_all(folder: Path, contents: Mapping[str, bytes]) -> list[Path]:
@@ -53,3 +59,36 @@ def _write_synced(path: Path, data: bytes) -> None:
         stream.write(data)
         stream.flush()
         os.fsync(stream.fileno())
+
+
+def read_table(path: Path) -> Mapping[str, Any]:
+    """Read a TOML file (by its suffix) or a JSON file; numbers with a point stay text.
+
+    Raises
+    ------
+    KeyFileError
+        Naming the file and, if possible, the line.
+    """
+    text = _text(path)
+    try:
+        if path.suffix == ".toml":
+            return tomllib.loads(text, parse_float=str)
+        table = json.loads(text, parse_float=str)
+    except json.JSONDecodeError as error:
+        raise KeyFileError(f"{path}: line {error.lineno}: {error.msg}") from None
+    except (tomllib.TOMLDecodeError, RecursionError, ValueError) as error:
+        raise KeyFileError(f"{path}: {error}") from None
+    if not isinstance(table, dict):
+        raise KeyFileError(f"{path}: a table is expected, not {type(table).__name__}")
+    return table
+
+
+def _text(path: Path) -> str:
+    try:
+        if path.stat().st_size > LARGEST_FILE:
+            raise KeyFileError(f"{path}: larger than {LARGEST_FILE // 10**6} MB")
+        return path.read_text("utf-8")
+    except OSError as error:
+        raise KeyFileError(f"{path}: {error.strerror or error}") from None
+    except UnicodeDecodeError as error:
+        raise KeyFileError(f"{path}: not UTF-8 text (byte {error.start})") from None

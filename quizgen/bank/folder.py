@@ -9,6 +9,7 @@ from __future__ import annotations
 import difflib
 import importlib
 import importlib.util
+import re
 import sys
 from collections.abc import Iterator
 from functools import cache, cached_property
@@ -20,6 +21,9 @@ from quizgen.bank.template import Rules, Template, check_against_chain, digest_o
 from quizgen.errors import BankError, QuizgenError
 from quizgen.locale import languages
 from quizgen.maths.chain import Chain
+
+PROSE = re.compile(r"[a-z]{2,3}\.md")
+"""What a language's file is called."""
 
 
 def builtin_root() -> Path:
@@ -139,9 +143,10 @@ class Bank:
     def _load(self, name: str) -> Template:
         folder = self._folder(name)
         rules = self.rules(name)
-        files = [folder / "template.toml", *sorted(folder.glob("??.md"))]
+        prose = [path for path in sorted(folder.iterdir()) if PROSE.fullmatch(path.name)]
+        files = [folder / "template.toml", *prose]
         chain, source = self._chain(rules)
-        texts = {path.stem: read_text(path) for path in files[1:]}
+        texts = {path.stem: read_text(path) for path in prose}
         known = languages()
         order = [lang for lang in known if lang in texts] + sorted(set(texts) - set(known))
         digest = digest_of(*(path.read_bytes() for path in files), source)

@@ -12,8 +12,7 @@ from quizgen.cards.note import Note
 from quizgen.cards.versions import version_of
 from quizgen.cards.wish import SEED, Wish
 from quizgen.errors import BankError
-from quizgen.locale import table
-from quizgen.paper.paper import languages
+from quizgen.locale import chosen, table
 
 
 @dataclass(frozen=True)
@@ -60,7 +59,7 @@ def build(
     Parameters
     ----------
     lang : str
-        ``en``, ``bn`` or ``both``.
+        A language, or ``both`` for all of them.
     topics, kinds : tuple of str
         Only these; all if empty.
     seed : int
@@ -75,7 +74,7 @@ def build(
     """
     _check(topics, known_topics(), "topic")
     _check(kinds, tuple(KINDS), "kind")
-    wish = Wish(languages(lang), topics, seed, builtin() if bank is None else bank)
+    wish = Wish(chosen(lang), topics, seed, builtin() if bank is None else bank)
     return Deck(tuple(_notes(wish, kinds or tuple(KINDS))), wish.langs, seed)
 
 

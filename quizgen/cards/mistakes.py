@@ -23,8 +23,10 @@ from quizgen.cards.note import Blocks, Note
 from quizgen.cards.prose import Label
 from quizgen.cards.versions import template_version
 from quizgen.errors import KeyFileError
+from quizgen.locale import chosen
 from quizgen.paper.blueprint import load
-from quizgen.paper.paper import REFERENCE, Item, Paper, languages, parse_code, rebuild
+from quizgen.paper.code import parse_code
+from quizgen.paper.paper import Item, Paper, rebuild
 from quizgen.question.compose import Key, put_into_words
 
 LOOKED_AT = frozenset({"wrong", "partial", "blank"})
@@ -77,7 +79,7 @@ def from_marks(path: Path, lang: str, *, bank: Bank, blueprint: str | None = Non
     path : pathlib.Path
         The result of ``quizgen check --json``.
     lang : str
-        ``en``, ``bn`` or ``both``.
+        A language, or ``both`` for all of them.
     bank : Bank
         The bank that the paper was made from.
     blueprint : str, optional
@@ -90,12 +92,12 @@ def from_marks(path: Path, lang: str, *, bank: Bank, blueprint: str | None = Non
     CodeError
         If the paper cannot be made again with this installation.
     """
-    langs = languages(lang)
+    langs = chosen(lang)
     notes: dict[str, Note] = {}
     seed = 0
     for marked in read_marks(path):
-        drawn = parse_code(marked.code)[1]
-        seed = max(seed, 0 if drawn == REFERENCE else int(drawn))
+        code = parse_code(marked.code)
+        seed = max(seed, 0 if code.is_reference else int(code.seed))
         paper = rebuild(bank, marked.code, load(blueprint) if blueprint else None)
         for found in _notes(marked, paper, langs, path):
             notes.setdefault(found.key, found)

@@ -27,8 +27,9 @@ def check(key: Path, answers: tuple[Path, ...], lang: str | None, **flags: bool)
     One form prints a table with the mistake found in each part; several forms print CSV: marks and
     notes per part, one line per student.
     """
-    from quizgen.paper.key import read_answers, read_key
-    from quizgen.paper.marking import check_paper
+    from quizgen.paper.form import read_answers
+    from quizgen.paper.key import read_key
+    from quizgen.paper.marking import mark_paper
 
     paper = read_key(key)
     results = []
@@ -36,7 +37,7 @@ def check(key: Path, answers: tuple[Path, ...], lang: str | None, **flags: bool)
         form = read_answers(path)
         _same_paper(path, form.code, paper.code)
         chosen = lang or _known(form.student.lang) or _known(paper.langs[0] if paper.langs else "")
-        result = check_paper(
+        result = mark_paper(
             paper,
             form.typed(),
             chosen or "en",

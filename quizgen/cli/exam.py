@@ -37,14 +37,15 @@ KEY, FORM = "key.json", "answers.toml"
 def exam(**options: Any) -> None:
     """Make a mock exam with worked solutions, answer key and a blank answer form."""
     from quizgen.files import write_all
-    from quizgen.paper.paper import form_bytes, key_bytes
+    from quizgen.paper.form import form_bytes, holds_answers
+    from quizgen.paper.key import key_bytes
 
     formats = _formats(options["formats"])
     paper = _paper(options)
     contents = dict(_rendered(paper, formats))
     contents[KEY] = key_bytes(paper)
     folder: Path = options["out"]
-    kept = _filled_in(folder / FORM)
+    kept = holds_answers(folder / FORM)
     if not kept:
         contents[FORM] = form_bytes(paper)
     write_all(folder, contents)
@@ -106,20 +107,6 @@ def _rendered(paper: Paper, formats: list[str]) -> Iterator[tuple[str, bytes]]:
             click.echo(f" {name}", nl=False, err=True)
             yield name, render(paper, kind, output)
     click.echo("", err=True)
-
-
-def _filled_in(form: Path) -> bool:
-    """Whether a form holds anything a student typed (or cannot be read, so might)."""
-    if not form.exists():
-        return False
-    import tomllib
-
-    try:
-        table = tomllib.loads(form.read_text(encoding="utf-8"))
-        answers = table.get("answers", {}).values()
-        return any(str(value).strip() for value in answers) or bool(table["student"]["name"])
-    except (OSError, ValueError, KeyError, AttributeError):
-        return True
 
 
 def _report(folder: Path, paper: Paper, contents: dict[str, bytes], *, kept: bool) -> None:

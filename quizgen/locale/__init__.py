@@ -26,10 +26,13 @@ from typing import Any
 
 import msgspec
 
-from quizgen.errors import QuizgenError
+from quizgen.errors import QuizgenError, one_of
 
 FIRST = "en"
 """The language that every other one falls back to, and the first in every list."""
+
+BOTH = "both"
+"""The choice of every language at once."""
 
 PLACES: list[Traversable] = [files(__name__)]
 """Folders that hold languages; one from outside is made known by adding its folder."""
@@ -45,7 +48,29 @@ class Language(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 
 def languages() -> tuple[str, ...]:
     """Every language there is, English first, then by ``order``."""
-    found = {entry.name for place in PLACES for entry in place.iterdir()
+    return _found(tuple(PLACES))
+
+
+def choices() -> tuple[str, ...]:
+    """What can be chosen as the language of a paper: one, or all of them."""
+    return (*languages(), BOTH)
+
+
+def chosen(choice: str) -> tuple[str, ...]:
+    """Languages of a choice, the leading one first.
+
+    Raises
+    ------
+    ChoiceError
+        Naming the languages there are.
+    """
+    one_of("language", choice, choices())
+    return languages() if choice == BOTH else (choice,)
+
+
+@cache
+def _found(places: tuple[Traversable, ...]) -> tuple[str, ...]:
+    found = {entry.name for place in places for entry in place.iterdir()
              if (entry / "language.toml").is_file()}  # fmt: skip
     return tuple(sorted(found, key=lambda lang: (lang != FIRST, language(lang).order, lang)))
 

@@ -1,24 +1,27 @@
-"""Reading ``key.json`` and filled-in answer forms; whatever is wrong is one located line."""
+"""``key.json``: everything that marking needs, written and read by the same structs."""
 
 from __future__ import annotations
 
 import json
-import tomllib
 from collections.abc import Mapping
 from fractions import Fraction
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import msgspec
+from flint import fmpq
 
 from quizgen.errors import KeyFileError
-from quizgen.marking.options import DECIMALS, Context
+from quizgen.files import read_table
+from quizgen.marking.options import Context
 from quizgen.marking.reading.scalars import exact_value
 from quizgen.maths.chain import Chain, ChainStep
 
+if TYPE_CHECKING:
+    from quizgen.paper.paper import Item, Paper
+
 FORMAT = "quizgen-key/1"
-LARGEST_FILE = 20_000_000
 
 
 class KeyGiven(msgspec.Struct):
@@ -38,7 +41,7 @@ class KeyChain(msgspec.Struct):
         """Step name to the unit it is shown in."""
         return {name: unit for name, _, unit in self.steps}
 
-    def context(self, earlier: Mapping[str, Any]) -> Context:
+    def context(self, earlier: Mapping[str, fmpq]) -> Context:
         """Return the question around a part, with the student's earlier values.
 
         Raises
@@ -78,7 +81,9 @@ class KeyQuestion(msgspec.Struct):
 
     number: str
     parts: list[KeyPart]
+    points: str = ""
     template: str = ""
+    identity: str = ""
     topic: str = ""
     tier: str = ""
     title: dict[str, str] = {}
@@ -95,27 +100,38 @@ class Key(msgspec.Struct):
     langs: tuple[str, ...] = ("en",)
 
 
-class Student(msgspec.Struct):
-    """Who filled in the form, and how they write."""
+def key_of(paper: Paper) -> Key:
+    """The answer key of a paper."""
+    title = {lang: paper.title(lang) for lang in paper.langs}
+    questions = [key_question(item) for item in paper.items]
+    return Key(FORMAT, questions, paper.code, title, paper.langs)
 
-    name: str = ""
-    lang: str = ""
-    decimal: str = "auto"
+
+def key_question(item: Item) -> KeyQuestion:
+    """The key of one question."""
+    question, key = item.questions[0], item.keys[0]
+    parts = [
+        KeyPart(part.field.id, str(part.points), spec)
+        for part, spec in zip(question.parts, key.specs, strict=True)
+    ]
+    return KeyQuestion(
+        number=item.number,
+        parts=parts,
+        points=str(question.points),
+        template=key.template,
+        identity=key.identity,
+        topic=question.topic,
+        tier=question.tier,
+        title={q.lang: q.title for q in item.questions},
+        chain=msgspec.convert(key.chain, KeyChain | None),
+    )
 
 
-class Answers(msgspec.Struct):
-    """A filled-in form: part to typed text."""
-
-    answers: dict[str, str | int | float | bool | None] = {}
-    student: Student = msgspec.field(default_factory=Student)
-    code: str = ""
-
-    def typed(self) -> dict[str, str]:
-        """Texts as typed; a number written without quotes counts as its text."""
-        return {
-            part: "" if text is None else str(text).lower() if isinstance(text, bool) else str(text)
-            for part, text in self.answers.items()
-        }
+def key_bytes(paper: Paper) -> bytes:
+    """``key.json``."""
+    table = msgspec.to_builtins(key_of(paper))
+    text = json.dumps(table, ensure_ascii=False, indent=1, sort_keys=True)
+    return (text + "\n").encode()
 
 
 def load_key(table: Mapping[str, Any], place: str = "key") -> Key:
@@ -142,32 +158,6 @@ def load_key(table: Mapping[str, Any], place: str = "key") -> Key:
     return key
 
 
-def _text(path: Path) -> str:
-    try:
-        if path.stat().st_size > LARGEST_FILE:
-            raise KeyFileError(f"{path}: larger than {LARGEST_FILE // 10**6} MB")
-        return path.read_text("utf-8")
-    except OSError as error:
-        raise KeyFileError(f"{path}: {error.strerror or error}") from None
-    except UnicodeDecodeError as error:
-        raise KeyFileError(f"{path}: not UTF-8 text (byte {error.start})") from None
-
-
-def _table(path: Path) -> Mapping[str, Any]:
-    text = _text(path)
-    try:
-        if path.suffix == ".toml":
-            return tomllib.loads(text, parse_float=str)
-        table = json.loads(text, parse_float=str)
-    except json.JSONDecodeError as error:
-        raise KeyFileError(f"{path}: line {error.lineno}: {error.msg}") from None
-    except (tomllib.TOMLDecodeError, RecursionError, ValueError) as error:
-        raise KeyFileError(f"{path}: {error}") from None
-    if not isinstance(table, dict):
-        raise KeyFileError(f"{path}: a table is expected, not {type(table).__name__}")
-    return table
-
-
 def read_key(path: Path) -> Key:
     """Read ``key.json``.
 
@@ -176,25 +166,4 @@ def read_key(path: Path) -> Key:
     KeyFileError
         Naming file and field or line.
     """
-    return load_key(_table(path), str(path))
-
-
-def read_answers(path: Path) -> Answers:
-    """Read ``answers.toml`` or ``answers.json``.
-
-    Raises
-    ------
-    KeyFileError
-        Naming file and field or line.
-    """
-    table = _table(path)
-    if "answers" not in table:
-        raise KeyFileError(f"{path}: has no table [answers]")
-    try:
-        found = msgspec.convert(table, Answers)
-    except msgspec.ValidationError as error:
-        raise KeyFileError(f"{path}: {error}") from None
-    if found.student.decimal not in DECIMALS:
-        wrong = found.student.decimal
-        raise KeyFileError(f"{path}: student.decimal {wrong!r} is not {', '.join(DECIMALS)}")
-    return found
+    return load_key(read_table(path), str(path))

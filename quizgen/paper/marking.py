@@ -8,11 +8,12 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
-from quizgen.errors import FormulaError, KeyFileError
+from quizgen.errors import FormulaError, KeyFileError, one_of
+from quizgen.locale import languages
 from quizgen.marking.diagnosis.context import base_factor
 from quizgen.marking.kinds import table as table_kind
 from quizgen.marking.mark import explained, judge, load_spec
-from quizgen.marking.options import Context, Options
+from quizgen.marking.options import DECIMALS, Context, Options
 from quizgen.marking.specs import Spec
 from quizgen.marking.verdict import Verdict
 from quizgen.paper.key import Key, KeyPart, KeyQuestion, load_key
@@ -106,8 +107,8 @@ class PaperResult:
         }
 
 
-def check_paper(
-    key: Mapping[str, Any] | Key,
+def mark_paper(
+    key: Key | Mapping[str, Any],
     answers: Mapping[str, str],
     lang: str = "en",
     *,
@@ -118,7 +119,7 @@ def check_paper(
 
     Parameters
     ----------
-    key : mapping
+    key : Key or mapping
         The contents of ``key.json``.
     answers : mapping of str to str
         Part to typed text.
@@ -131,11 +132,15 @@ def check_paper(
 
     Raises
     ------
+    ChoiceError
+        If there is no such language or decimal sign.
     KeyFileError
         If the key is wrong (never because of what was typed).
     """
     found = key if isinstance(key, Key) else load_key(key)
-    options = Options(lang, decimal, settle=settle)
+    options = Options(
+        one_of("language", lang, languages()), one_of("decimal", decimal, DECIMALS), settle=settle
+    )
     parts = [part for question in found.questions for part in _question(question, answers, options)]
     known = {part.id for part in parts}
     unknown = tuple(name for name, text in answers.items() if name not in known and text.strip())

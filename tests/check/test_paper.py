@@ -14,8 +14,9 @@ from quizgen.cli.check import check as check_command
 from quizgen.cli.check import mark as mark_command
 from quizgen.errors import KeyFileError
 from quizgen.marking.batch import marked
-from quizgen.paper.key import read_answers, read_key
-from quizgen.paper.marking import check_paper, in_quarters
+from quizgen.paper.form import read_answers
+from quizgen.paper.key import read_key
+from quizgen.paper.marking import in_quarters, mark_paper
 
 CHAIN = {
     "given": {
@@ -81,7 +82,7 @@ KEY = {
 
 
 def marks(answers, **options):
-    result = check_paper(KEY, answers, **options)
+    result = mark_paper(KEY, answers, **options)
     return {part.id: part.marks for part in result.parts}, result
 
 
@@ -89,7 +90,7 @@ def test_right_wrong_blank_and_text():
     found, result = marks({"1a": "2,5 mm", "1b": "499", "2a": "a grid", "2b": "A1 B3 C2"})
     assert found == {"1a": 3, "1b": 0, "2a": None, "2b": Fraction(3, 4)}  # a third of 2 is 0.67
     assert (result.marks, result.points, result.to_decide) == (Fraction(15, 4), 8, 1)
-    blank = check_paper(KEY, {})
+    blank = mark_paper(KEY, {})
     assert {part.status for part in blank.parts} == {"blank"}
     assert (blank.marks, blank.asked_back) == (0, 0)
 
@@ -100,7 +101,7 @@ def test_the_students_own_value_is_carried_to_the_next_part():
     assert found["1b"] == 2
     assert [part.verdict.note for part in result.parts[:2]] == ["trap:no-f", "carried-forward"]
     assert result.parts[0].verdict.message == "You left out f."
-    bangla = check_paper(KEY, {"1a": "50 mm"}, "bn")
+    bangla = mark_paper(KEY, {"1a": "50 mm"}, "bn")
     assert bangla.parts[0].verdict.message == "f বাদ।"
 
 
@@ -117,7 +118,7 @@ def test_quarters_of_a_point():
 
 
 def test_answers_to_unknown_parts_are_named():
-    assert check_paper(KEY, {"9z": "1", "8": ""}).unknown == ("9z",)
+    assert mark_paper(KEY, {"9z": "1", "8": ""}).unknown == ("9z",)
 
 
 @pytest.fixture
@@ -212,7 +213,7 @@ def test_missing_and_binary_files(tmp_path):
 )
 def test_a_wrong_spec_names_its_field(spec, message):
     with pytest.raises(KeyFileError) as caught:
-        check_paper(
+        mark_paper(
             {
                 **KEY,
                 "questions": [

@@ -16,7 +16,9 @@ from quizgen.bank.folder import builtin
 from quizgen.cards import build as build_deck
 from quizgen.cards.tables import tsv
 from quizgen.paper.blueprint import load
-from quizgen.paper.paper import Paper, build, form_bytes, key_bytes
+from quizgen.paper.form import form_bytes
+from quizgen.paper.key import key_bytes
+from quizgen.paper.paper import Paper, build
 from quizgen.question.compose import compose
 from quizgen.render import KINDS, RENDERERS, render
 

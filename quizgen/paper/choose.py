@@ -1,0 +1,122 @@
+"""Which templates a paper holds: filling slots, filling a time, and how many papers there are."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Iterator
+from itertools import repeat
+
+from quizgen.bank.folder import Bank
+from quizgen.bank.template import minutes_of
+from quizgen.errors import BlueprintError
+from quizgen.paper.blueprint import EVERYTHING, Blueprint, SlotRule
+
+
+def choose(bank: Bank, blueprint: Blueprint, seed: int) -> list[str]:
+    """Names of the templates, in order of the paper.
+
+    Raises
+    ------
+    BlueprintError
+        If no template fits a slot, or the time.
+    """
+    return _timed(bank, blueprint, seed) if blueprint.topic else _slotted(bank, blueprint, seed)
+
+
+def weights(blueprint: Blueprint) -> Iterator[float | None]:
+    """Marks that the blueprint gives to each question; no end where it gives none."""
+    for slot in blueprint.slot:
+        yield from repeat(slot.points, slot.count)
+    yield from repeat(None)
+
+
+def _slotted(bank: Bank, blueprint: Blueprint, seed: int) -> list[str]:
+    """Fill the slots: each template is used once before any is used again."""
+    uses: dict[str, int] = {}
+    chosen: list[str] = []
+    for index, slot in enumerate(blueprint.slot, 1):
+        fitting = _fitting(bank, slot, index)
+        for place in range(slot.count):
+            best = min(
+                fitting,
+                key=lambda name: (
+                    _gives_away(bank, name, chosen),
+                    uses.get(name, 0),
+                    _rank(seed, index, place, bank.origin(name)),
+                ),
+            )
+            uses[best] = uses.get(best, 0) + 1
+            chosen.append(best)
+    return chosen
+
+
+def _gives_away(bank: Bank, name: str, chosen: list[str]) -> bool:
+    """Whether a question and one already in the paper tell each other's answer."""
+    return any(
+        name in bank.rules(other).apart or other in bank.rules(name).apart for other in chosen
+    )
+
+
+def _timed(bank: Bank, blueprint: Blueprint, seed: int) -> list[str]:
+    """Questions of a topic, tiers in turn, as many as the minutes allow; then sorted by tier."""
+    rules = {name: bank.rules(name) for name in bank.paths}
+    open_names = [n for n in rules if blueprint.topic in (EVERYTHING, rules[n].topic)]
+    left = blueprint.budget or sum(minutes_of(rules[n]) for n in open_names)
+    chosen: list[str] = []
+    tiers = sorted({rules[n].tier for n in open_names})
+    while True:
+        before = len(chosen)
+        for turn, tier in enumerate(tiers):
+            fitting = [
+                n for n in open_names
+                if n not in chosen and rules[n].tier == tier and minutes_of(rules[n]) <= left
+                and not _gives_away(bank, n, chosen)
+            ]  # fmt: skip
+            if fitting:
+                best = min(fitting, key=lambda n: _rank(seed, turn, len(chosen), bank.origin(n)))
+                chosen.append(best)
+                left -= minutes_of(rules[best])
+        if len(chosen) == before:
+            break
+    if not chosen:
+        raise BlueprintError(f"no question of topic {blueprint.topic!r} fits the time")
+    return sorted(chosen, key=lambda n: rules[n].tier)
+
+
+def variety(bank: Bank, blueprint: Blueprint) -> int:
+    """How many different papers a blueprint of slots can make (0 for a topic without slots).
+
+    Questions count as a set; a template without numbers counts as one question.
+    """
+    total = 1 if blueprint.slot else 0
+    for index, slot in enumerate(blueprint.slot, 1):
+        pools = [bank.rules(name).pool or 1 for name in _fitting(bank, slot, index)]
+        rounds, rest = divmod(slot.count, len(pools))
+        ways = [1] + [0] * rest
+        for pool in pools:
+            even, more = math.comb(pool, rounds), math.comb(pool, rounds + 1)
+            ways = [ways[k] * even + (ways[k - 1] * more if k else 0) for k in range(rest + 1)]
+        total *= ways[rest]
+    return total
+
+
+def _rank(seed: int, index: int, place: int, origin: str) -> bytes:
+    return hashlib.sha256(f"choose/{seed}/{index}/{place}/{origin}".encode()).digest()
+
+
+def _fitting(bank: Bank, slot: SlotRule, index: int) -> list[str]:
+    names = list(slot.templates) or list(bank.paths)
+    for name in slot.templates:
+        bank.rules(name)
+    fitting = [
+        name for name in names
+        if (slot.tier is None or bank.rules(name).tier == slot.tier)
+        and (slot.topic is None or bank.rules(name).topic == slot.topic)
+    ]  # fmt: skip
+    if not fitting:
+        raise BlueprintError(
+            f"slot {index}: no template has tier {slot.tier or 'any'} and topic "
+            f"{slot.topic or 'any'}"
+        )
+    return fitting

@@ -1,0 +1,95 @@
+"""A paper's code: blueprint, seed, languages and a digest of the files behind it.
+
+``mock-1234-both-0a1b2c`` is all that is needed to make the same bytes again; the digest tells
+whether templates, solvers, blueprint or engine are still those that the paper was made with.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from quizgen.bank.template import Template
+from quizgen.errors import ChoiceError, CodeError
+from quizgen.locale import choices
+
+ENGINE = "1"
+"""Rises when the same code would give another paper; part of every digest."""
+REFERENCE = "reference"
+"""Stands for the seed in the code of a paper with the numbers of the notes."""
+LARGEST_SEED = 10**9
+DIGEST_LENGTH = 6
+
+_CODE = re.compile(rf"(.+)-(\d{{1,10}}|{REFERENCE})-([a-z]+)-([0-9a-f]{{{DIGEST_LENGTH}}})")
+
+
+@dataclass(frozen=True)
+class Code:
+    """A code taken apart; its text is what is printed.
+
+    Parameters
+    ----------
+    blueprint : str
+        Name of the blueprint.
+    seed : str
+        Digits, or ``reference``.
+    choice : str
+        A language, or ``both``.
+    digest : str
+        Of the files behind the paper.
+    """
+
+    blueprint: str
+    seed: str
+    choice: str
+    digest: str
+
+    def __str__(self) -> str:
+        return f"{self.blueprint}-{self.seed}-{self.choice}-{self.digest}"
+
+    @property
+    def is_reference(self) -> bool:
+        """Whether the paper has the numbers printed in the notes."""
+        return self.seed == REFERENCE
+
+
+def parse_code(text: str) -> Code:
+    """Take a paper's code apart.
+
+    Raises
+    ------
+    CodeError
+        If it is not a code, or of a language that is not installed.
+    """
+    match = _CODE.fullmatch(text.strip())
+    if match is None:
+        raise CodeError(f"{text!r} is not a paper's code (like mock-1234-en-0a1b2c)")
+    if match[3] not in choices():
+        allowed = ", ".join(choices())
+        raise CodeError(
+            f"{text!r} is not a paper's code: language {match[3]!r} (there are {allowed})"
+        )
+    return Code(*match.groups())
+
+
+def checked_seed(seed: int) -> int:
+    """Return a seed that a code can hold.
+
+    Raises
+    ------
+    ChoiceError
+        If it is no whole number, or too small or too large.
+    """
+    if isinstance(seed, int) and not isinstance(seed, bool) and 0 <= seed <= LARGEST_SEED:
+        return seed
+    raise ChoiceError(f"seed: {seed!r} (allowed: whole numbers from 0 to {LARGEST_SEED})")
+
+
+def digest_of(source: str, templates: Iterable[Template]) -> str:
+    """Digest of the engine, a blueprint's text and the files of the templates in a paper."""
+    total = hashlib.sha256(f"{ENGINE}\n{source}".encode())
+    for template in templates:
+        total.update(f"{template.id}:{template.digest}\n".encode())
+    return total.hexdigest()[:DIGEST_LENGTH]
