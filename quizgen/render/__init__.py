@@ -1,22 +1,47 @@
-"""Outputs: one module per format, one table of formats."""
+"""Outputs of papers: one module per format, each with ``render(paper, kind)``.
+
+In: a ``Paper``. Out: the bytes of a file. Must never know: how a paper was chosen, drawn or marked.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from importlib import import_module
+from typing import Protocol
 
+from quizgen.errors import one_of
 from quizgen.paper.paper import Paper
 
 KINDS = ("exam", "solutions")
+"""What a file shows: the questions alone, or with worked solutions."""
 
-RENDERERS: Mapping[str, str] = {"html": "quizgen.render.html", "pdf": "quizgen.render.pdf"}
-"""Format name to the module whose ``render(paper, kind)`` makes it."""
+RENDERERS = ("html", "pdf")
+"""The formats there are."""
 
 
-def renderer(name: str) -> Callable[[Paper, str], bytes]:
-    """The function that renders a paper in one format."""
-    function: Callable[[Paper, str], bytes] = import_module(RENDERERS[name]).render
-    return function
+class Renderer(Protocol):
+    """What a format's module is to offer."""
+
+    def __call__(self, paper: Paper, kind: str) -> bytes:
+        """Bytes of a whole file; the same paper gives the same bytes on any day and machine."""
+        ...
+
+
+def renderer(output: str) -> Renderer:
+    """The function that renders a paper in one format, loaded when it is asked for.
+
+    Raises
+    ------
+    ChoiceError
+        Naming the formats there are.
+    """
+    match one_of("format", output, RENDERERS):
+        case "pdf":
+            from quizgen.render import pdf
+
+            return pdf.render
+        case _:
+            from quizgen.render import html
+
+            return html.render
 
 
 def render(paper: Paper, kind: str, output: str) -> bytes:
@@ -28,6 +53,13 @@ def render(paper: Paper, kind: str, output: str) -> bytes:
     kind : str
         ``exam`` (questions only) or ``solutions``.
     output : str
-        A format of ``RENDERERS``.
+        One of ``RENDERERS``.
+
+    Raises
+    ------
+    ChoiceError
+        If there is no such kind or format.
+    RenderError
+        If the output cannot be made.
     """
-    return renderer(output)(paper, kind)
+    return renderer(output)(paper, one_of("kind", kind, KINDS))
