@@ -39,14 +39,12 @@ LAYERS = {
 MAY_IMPORT_BY_NAME = {
     "__init__.py", "cli/main.py", "bank/folder.py",
     "figures/__init__.py", "marking/kinds/__init__.py",
-    "tradeoff/families.py",
 }  # fmt: skip
 """The lazy public names, the lazy commands, and a bank's own solvers."""
 
 STILL_CIRCULAR = {
     ("quizgen.marking.kinds.number", "quizgen.marking.kinds.quantity"),
     ("quizgen.question.solution", "quizgen.question.specs"),
-    ("quizgen.tradeoff.special", "quizgen.tradeoff.ladder"),
 }
 """Imports that close a circle today; none may be added, and each goes with its circle."""
 

@@ -11,12 +11,34 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from importlib import import_module
 from typing import Any
 
+import numpy as np
+import numpy.typing as npt
+
+from quizgen.arrays import (
+    blur,
+    depth_of_field,
+    distortion,
+    gamma,
+    gaussian,
+    hsv,
+    normalise,
+    poisson,
+    projection,
+    snr,
+    stops,
+    thin_lens,
+    vignetting,
+    weak_perspective,
+)
+from quizgen.arrays.domain import Result
 from quizgen.maths.tree import Call, Expr, Num, substitute
 
-Inputs = Callable[[Any, int], list[Any]]
+Random = np.random.Generator
+Column = npt.NDArray[np.floating[Any]]
+Columns = list[Column]
+Inputs = Callable[[Random, int], Columns]
 """Random generator and count to columns of doubles."""
 
 
@@ -32,8 +54,8 @@ class Family:
         Quantities in the order of the array function's arguments.
     source : str or tuple
         Formula text, or solver and quantity of its chain.
-    function : tuple of str
-        Module of array functions and name of the stable function.
+    stable : callable
+        The array function.
     exam, hard : callable
         Inputs.
     tolerance : float
@@ -51,7 +73,7 @@ class Family:
     name: str
     names: tuple[str, ...]
     source: str | tuple[str, str]
-    function: tuple[str, str]
+    stable: Callable[..., Result]
     exam: Inputs
     hard: Inputs
     tolerance: float = 0.005
@@ -72,13 +94,6 @@ class Family:
         replaced: dict[str, Expr] = {name: parse(text) for name, text in self.given.items()}
         return _without_ones(substitute(_flat(*self.source), replaced))
 
-    @cached_property
-    def stable(self) -> Callable[..., Any]:
-        """The array function."""
-        module, name = self.function
-        function: Callable[..., Any] = getattr(import_module(f"quizgen.arrays.{module}"), name)
-        return function
-
 
 def _flat(solver: str, quantity: str) -> Expr:
     """One formula from given quantities to a quantity of a solver's chain."""
@@ -98,15 +113,14 @@ def _without_ones(expr: Expr) -> Expr:
     return args[0] if expr.op == "div" and args[1] == Num(Fraction(1)) else Call(expr.op, args)
 
 
-def _near(rng: Any, x: Any, nearest: float = -14, farthest: float = -2) -> Any:
+def _near(rng: Random, x: Column, nearest: float = -14, farthest: float = -2) -> Column:
     """Values at log-uniform relative distance from x, on both sides."""
     size = 10 ** rng.uniform(nearest, farthest, x.size)
-    return x * (1 + rng.choice([-1, 1], x.size) * size)
+    near: Column = x * (1 + rng.choice([-1, 1], x.size) * size)
+    return near
 
 
-def _pick(rng: Any, values: tuple[float, ...], count: int) -> Any:
-    import numpy as np
-
+def _pick(rng: Random, values: tuple[float, ...], count: int) -> Column:
     return rng.choice(np.array(values, dtype=np.float64), count)
 
 
@@ -114,198 +128,180 @@ _FOCAL = (24.0, 28.0, 35.0, 50.0, 85.0, 100.0)
 _STOPS = (1.4, 2.0, 2.8, 4.0, 5.6, 8.0, 11.0, 16.0)
 
 
-def _lens_exam(rng: Any, n: int) -> list[Any]:
+def _lens_exam(rng: Random, n: int) -> Columns:
     f = _pick(rng, _FOCAL, n)
     return [f, f * rng.integers(3, 40, n) / 2]
 
 
-def _lens_hard(rng: Any, n: int) -> list[Any]:
+def _lens_hard(rng: Random, n: int) -> Columns:
     f = _pick(rng, _FOCAL, n)
     return [f, f * (1 + 10 ** rng.uniform(-14, -3, n))]
 
 
-def _blur_exam(rng: Any, n: int) -> list[Any]:
+def _blur_exam(rng: Random, n: int) -> Columns:
     f, s = _pick(rng, _FOCAL, n), 100.0 * rng.integers(10, 60, n)
     return [f, _pick(rng, _STOPS, n), s, s * rng.integers(3, 19, n) / 10 + 50]
 
 
-def _blur_hard(rng: Any, n: int) -> list[Any]:
+def _blur_hard(rng: Random, n: int) -> Columns:
     f, N, s, _ = _blur_exam(rng, n)
     return [f, N, s, _near(rng, s)]
 
 
-def _field_exam(rng: Any, n: int) -> list[Any]:
-    import numpy as np
-
+def _field_exam(rng: Random, n: int) -> Columns:
     f = _pick(rng, _FOCAL, n)
     return [f, _pick(rng, _STOPS, n), np.full(n, 0.03), f * rng.integers(10, 40, n) / 2]
 
 
-def _field_hard(rng: Any, n: int) -> list[Any]:
+def _field_hard(rng: Random, n: int) -> Columns:
     f, N, c, _ = _field_exam(rng, n)
     H = f + f * f / (N * c)
     return [f, N, c, H * (1 - 10 ** rng.uniform(-14, -2, n))]
 
 
-def _stops_hard(rng: Any, n: int) -> list[Any]:
+def _stops_hard(rng: Random, n: int) -> Columns:
     a = _pick(rng, _STOPS, n)
     return [a, _near(rng, a)]
 
 
-def _inverse_exam(rng: Any, n: int) -> list[Any]:
-    import numpy as np
-
+def _inverse_exam(rng: Random, n: int) -> Columns:
     fold = 2 / (3 * math.sqrt(0.6))
     return [fold * rng.uniform(0.05, 0.5, n), np.full(n, -0.2), np.zeros(n)]
 
 
-def _inverse_hard(rng: Any, n: int) -> list[Any]:
-    import numpy as np
-
+def _inverse_hard(rng: Random, n: int) -> Columns:
     fold = 2 / (3 * math.sqrt(0.6))
     return [fold * (1 - 10 ** rng.uniform(-6, -0.5, n)), np.full(n, -0.2), np.zeros(n)]
 
 
-def _colour_exam(rng: Any, n: int) -> list[Any]:
-    import numpy as np
-
+def _colour_exam(rng: Random, n: int) -> Columns:
     levels = np.array([rng.permutation(11)[:3] for _ in range(n)]) / 10
     return list(levels.T.copy())
 
 
-def _colour_hard(rng: Any, n: int) -> list[Any]:
+def _colour_hard(rng: Random, n: int) -> Columns:
     base = rng.uniform(0.1, 0.9, n)
     return [base, _near(rng, base, -14, -3), _near(rng, base, -14, -3)]
 
 
-def _range_exam(rng: Any, n: int) -> list[Any]:
-    import numpy as np
-
+def _range_exam(rng: Random, n: int) -> Columns:
     low, high = 10.0 * rng.integers(0, 6, n), 10.0 * rng.integers(15, 26, n)
     return [low + rng.integers(5, 95, n), low, high, np.full(n, -1.0), np.full(n, 1.0)]
 
 
-def _range_hard(rng: Any, n: int) -> list[Any]:
+def _range_hard(rng: Random, n: int) -> Columns:
     _, low, high, a, b = _range_exam(rng, n)
     return [_near(rng, (low + high) / 2), low, high, a, b]
 
 
-def _pixel_exam(rng: Any, n: int) -> list[Any]:
-    import numpy as np
-
+def _pixel_exam(rng: Random, n: int) -> Columns:
     x, z = rng.integers(-20, 21, n) / 20, rng.integers(10, 60, n) / 10
     return [np.full(n, 0.004), np.full(n, 5e-6), x, z, np.full(n, 320.0)]
 
 
-def _pixel_hard(rng: Any, n: int) -> list[Any]:
+def _pixel_hard(rng: Random, n: int) -> Columns:
     """Points whose pixel is next to 0: -o p z/f in short decimals."""
-    import numpy as np
-
     f, pitch, _, z, o = _pixel_exam(rng, n)
     x = np.round(-o * pitch * z / f + 10.0 ** rng.integers(-9, -4, n), 9)
     return [f, pitch, x, z, o]
 
 
-def _tail_exam(rng: Any, n: int) -> list[Any]:
+def _tail_exam(rng: Random, n: int) -> Columns:
     return [rng.integers(2, 13, n) / 4]
 
 
-def _tail_hard(rng: Any, n: int) -> list[Any]:
+def _tail_hard(rng: Random, n: int) -> Columns:
     return [rng.uniform(5, 37, n)]
 
 
-def _poisson_exam(rng: Any, n: int) -> list[Any]:
-    import numpy as np
-
+def _poisson_exam(rng: Random, n: int) -> Columns:
     lam = rng.integers(1, 21, n) * 5.0
     return [rng.poisson(lam).astype(np.float64), lam]
 
 
-def _poisson_hard(rng: Any, n: int) -> list[Any]:
-    import numpy as np
-
+def _poisson_hard(rng: Random, n: int) -> Columns:
     lam = np.round(10 ** rng.uniform(3, 12, n))
     return [np.floor(lam + rng.uniform(-3, 3, n) * np.sqrt(lam)), lam]
 
 
-def _depths_hard(rng: Any, n: int) -> list[Any]:
+def _depths_hard(rng: Random, n: int) -> Columns:
     zbar = rng.integers(5, 60, n) * 1.0
     return [_near(rng, zbar), zbar]
 
 
-def _gap_exam(rng: Any, n: int) -> list[Any]:
+def _gap_exam(rng: Random, n: int) -> Columns:
     return [rng.integers(1, 5, n) / 10, rng.integers(5, 10, n) / 10]
 
 
-def _gap_hard(rng: Any, n: int) -> list[Any]:
+def _gap_hard(rng: Random, n: int) -> Columns:
     a = rng.uniform(0.05, 0.95, n)
     return [a, _near(rng, a, -8, -1)]
 
 
 FAMILIES = (
     Family(
-        "gaussian-tail", ("k",), ("noise/gaussian_tails", "P_1"), ("gaussian", "two_sided_tail"),
+        "gaussian-tail", ("k",), ("noise/gaussian_tails", "P_1"), gaussian.two_sided_tail,
         _tail_exam, _tail_hard, given={"t_1": "k", "sigma": "1"}, rational=False,
     ),
     Family(
-        "thin-lens", ("f", "z"), ("optics/thin_lens", "z'"), ("thin_lens", "image_distance"),
+        "thin-lens", ("f", "z"), ("optics/thin_lens", "z'"), thin_lens.image_distance,
         _lens_exam, _lens_hard,
     ),
     Family(
-        "blur-disc", ("f", "N_1", "s", "z"), ("optics/blur_disc", "c"), ("blur", "blur_disc"),
+        "blur-disc", ("f", "N_1", "s", "z"), ("optics/blur_disc", "c"), blur.blur_disc,
         _blur_exam, _blur_hard,
         given={"z'_s": "1/(1/f - 1/s)", "z'_p": "1/(1/f - 1/z)"},
     ),
     Family(
         "far-limit", ("f", "N", "c", "s"),
         "s*((f^2/(N*c) + f) - f)/((f^2/(N*c) + f) - s)",
-        ("depth_of_field", "far_limit"), _field_exam, _field_hard,
+        depth_of_field.far_limit, _field_exam, _field_hard,
     ),
     Family(
-        "stops", ("a", "b"), "2*(log2(b) - log2(a))", ("stops", "stops"),
+        "stops", ("a", "b"), "2*(log2(b) - log2(a))", stops.stops,
         lambda rng, n: [_pick(rng, _STOPS[:4], n), _pick(rng, _STOPS[4:], n)],
         _stops_hard, rational=False,
     ),
     Family(
-        "inverse-distortion", ("r_d", "k_1", "k_2"), "", ("distortion", "inverse_radius"),
+        "inverse-distortion", ("r_d", "k_1", "k_2"), "", distortion.inverse_radius,
         _inverse_exam, _inverse_hard, rational=False,
     ),
     Family(
-        "hue", ("R", "G", "B"), ("colour/rgb_to_hsv", "H"), ("hsv", "hue"),
+        "hue", ("R", "G", "B"), ("colour/rgb_to_hsv", "H"), hsv.hue,
         _colour_exam, _colour_hard, whole_turn=360.0,
     ),
     Family(
         "normalisation", ("I", "I_min", "I_max", "N_min", "N_max"),
-        ("normalisation/linear_normalisation", "N_b"), ("normalise", "normalise"),
+        ("normalisation/linear_normalisation", "N_b"), normalise.normalise,
         _range_exam, _range_hard,
     ),
     Family(
         "pixel", ("f", "s", "p_x", "p_z", "o_x"), ("projection/pixel_coordinates", "u"),
-        ("projection", "pixel"), _pixel_exam, _pixel_hard, decimal=True,
+        projection.pixel, _pixel_exam, _pixel_hard, decimal=True,
     ),
     Family(
         "weak-perspective", ("z", "zbar"), "(1/z - 1/zbar)/(1/z)",
-        ("weak_perspective", "scale_error"),
+        weak_perspective.scale_error,
         lambda rng, n: [rng.integers(90, 99, n) / 10, rng.integers(100, 111, n) / 10],
         _depths_hard,
     ),
     Family(
-        "snr-loss", ("N", "s"), "1 - (N/sqrt(N + s^2))/sqrt(N)", ("snr", "snr_loss"),
+        "snr-loss", ("N", "s"), "1 - (N/sqrt(N + s^2))/sqrt(N)", snr.snr_loss,
         lambda rng, n: [100.0 * rng.integers(1, 50, n), rng.integers(2, 12, n) * 1.0],
         lambda rng, n: [10 ** rng.uniform(6, 18, n), rng.uniform(1, 10, n)],
         rational=False,
     ),
     Family(
-        "poisson", ("k", "lam"), "", ("poisson", "pmf"), _poisson_exam, _poisson_hard,
+        "poisson", ("k", "lam"), "", poisson.pmf, _poisson_exam, _poisson_hard,
         rational=False,
     ),
     Family(
         "gamma-gap", ("a", "b"),
-        "((a + b)/2)^(5/11) - (a^(5/11) + b^(5/11))/2", ("gamma", "gap"),
+        "((a + b)/2)^(5/11) - (a^(5/11) + b^(5/11))/2", gamma.gap,
         _gap_exam, _gap_hard, tolerance=0.02, rational=False,
     ),
     Family(
-        "vignetting", ("r", "f"), "1 - (1/(1 + (r/f)^2))^2", ("vignetting", "falloff"),
+        "vignetting", ("r", "f"), "1 - (1/(1 + (r/f)^2))^2", vignetting.falloff,
         lambda rng, n: [rng.integers(5, 22, n) * 1.0, _pick(rng, _FOCAL, n)],
         lambda rng, n: [10 ** rng.uniform(-7, -1, n), _pick(rng, _FOCAL, n)],
     ),
