@@ -68,6 +68,21 @@ def test_block_across_the_limits(function, textbook, columns):
             assert ulps(float(value), mp.mpf(truth.numerator) / truth.denominator) <= 4
 
 
+@pytest.mark.parametrize(("k1", "k2"), [(-0.3, 0.0), (-0.3, 0.02)])
+@pytest.mark.parametrize("shrunk", [(0.3, 0.5), (0.5, 0.7), (0.7, 0.8), (0.8, 0.86)])
+def test_distortion_that_shrinks_a_picture(k1, k2, shrunk):
+    """The fewer digits of 1 + k1 r**2 + k2 r**4 remain, the less may the short way be trusted."""
+    rng = np.random.default_rng(26)
+    change = -rng.uniform(*shrunk, 1000)
+    r = np.sqrt(2 * change / (k1 - np.sqrt(k1 * k1 + 4 * k2 * change)))
+    angle = rng.uniform(0, 1.5, 1000)
+    x, y = r * np.cos(angle), r * np.sin(angle)
+    with mp.workdps(45):
+        for value, *point in zip(distortion.distort(x, y, k1, k2)[0], x, y, strict=True):
+            truth = distorted(*map(mp.mpf, (*point, k1, k2)))
+            assert ulps(float(value), truth) <= 2
+
+
 @pytest.mark.parametrize(("x", "mu"), [(spread(-2, 3), 0.5), (spread(-9, 9), 0.1)])
 def test_density_across_the_limit(x, mu):
     with mp.workdps(45):
