@@ -1,5 +1,20 @@
-"""Stable array functions: NumPy in, NumPy out, Python numbers too; no prose, no SymPy.
+"""Stable array functions: the formulas of the chapter, right to the last digits for every input.
 
-One module per family. Every function follows the policy of ``domain``: a pole is an infinity,
-no answer is a ``DomainError`` on scalars and a masked element on arrays, a NaN is never silent.
+In come Python numbers, lists and NumPy arrays that broadcast together; out go floats for scalar
+arguments, else arrays. One module per family of formulas, and below them:
+
+* ``aliases``: the types that pass between the functions
+* ``domain``: where there is an answer, and what happens where there is none
+* ``kernel``: how a formula is run over blocks, by the shortest way that keeps the digits
+* ``double_double``, ``rational``, ``decimals``, ``tables``, ...: more digits where they are needed
+
+The policy is the same everywhere, so the functions do not repeat it:
+
+* A scalar argument outside the range that ``Parameters`` states raises ``DomainError`` with the
+  reason ``not-positive``, ``negative`` or ``negative-intensity``; one that is not finite has the
+  reason ``not-finite``. ``Raises`` names only the further reasons.
+* In arrays nothing is raised: the elements without an answer are masked.
+* A pole is an infinity, and a NaN is never silent.
+
+Nothing here knows a question, a language, SymPy or a picture.
 """

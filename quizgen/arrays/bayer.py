@@ -7,18 +7,17 @@ choice, because libraries differ.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import numpy.typing as npt
 
+from quizgen.arrays.aliases import Counts, Result
 from quizgen.arrays.domain import DomainError
 
 RULES = ("exact", "half-up", "half-even", "down")
 """Keep the fraction; round ties up (OpenCV); round ties to even (NumPy); drop the fraction."""
 
 
-def neighbour_mean(*sites: npt.ArrayLike, rule: str = "exact") -> Any:
+def neighbour_mean(*sites: npt.ArrayLike, rule: str = "exact") -> Result:
     """Mean of the values at two to four neighbouring sites.
 
     Parameters
@@ -40,6 +39,7 @@ def neighbour_mean(*sites: npt.ArrayLike, rule: str = "exact") -> Any:
     """
     if rule not in RULES:
         raise DomainError("unknown-rule")
+    result: Result
     total, count = _sum(sites), len(sites)
     if rule == "exact":
         result = total / count
@@ -52,7 +52,7 @@ def neighbour_mean(*sites: npt.ArrayLike, rule: str = "exact") -> Any:
     return result.item() if np.ndim(result) == 0 else result
 
 
-def _sum(sites: tuple[npt.ArrayLike, ...]) -> Any:
+def _sum(sites: tuple[npt.ArrayLike, ...]) -> Counts:
     if not sites:
         raise DomainError("no-sites")
     arrays = [np.asarray(site) for site in sites]
@@ -61,7 +61,7 @@ def _sum(sites: tuple[npt.ArrayLike, ...]) -> Any:
     return np.sum(np.stack([array.astype(np.int64) for array in arrays]), axis=0)
 
 
-def _half_even(total: Any, count: int) -> Any:
+def _half_even(total: Counts, count: int) -> npt.NDArray[np.int64]:
     down, rest = np.divmod(total, count)
     up = (2 * rest > count) | ((2 * rest == count) & (down % 2 == 1))
     return down + up

@@ -7,29 +7,31 @@ removes the cancellation near the plane of focus.
 from __future__ import annotations
 
 import math
-from typing import Any
+from fractions import Fraction
 
 import numpy as np
 
-from quizgen.arrays.domain import POSITIVE, Kernel, Numbers, Result, Rule, filled
-from quizgen.arrays.double_double import pairs
+from quizgen.arrays.aliases import Array, Flags, Numbers, Result
+from quizgen.arrays.domain import POSITIVE, Rule
+from quizgen.arrays.double_double import Number, pairs
+from quizgen.arrays.kernel import Exactly, Kernel, Short, filled
 
 
-def _formula(f: Any, N: Any, s: Any, z: Any) -> Any:
+def _formula(f: Number, N: Number, s: Number, z: Number) -> Number:
     return f * f * abs(z - s) / (N * (s - f) * z)
 
 
-def _compute(f: Any, N: Any, s: Any, z: Any) -> Any:
+def _compute(f: Array, N: Array, s: Array, z: Array) -> tuple[Array, Flags]:
     return _formula(*pairs(f, N, s, z)).rounded(), s == f
 
 
-def _short(f: Any, N: Any, s: Any, z: Any) -> Any:
+def _short(f: Array, N: Array, s: Array, z: Array) -> Array:
     """Seven roundings and no cancellation; s = f is left to infinity."""
     value = (f / N) * (f / (s - f)) * (np.abs(z - s) / z)
     return np.where(np.isnan(value), 0.0, value) if np.isnan(value.max()) else value
 
 
-def _exact(f: Any, N: Any, s: Any, z: Any) -> Any:
+def _exact(f: Fraction, N: Fraction, s: Fraction, z: Fraction) -> Fraction | float:
     if s == f:
         return 0.0 if z == s else math.inf
     return _formula(f, N, s, z)
@@ -45,8 +47,8 @@ _BLUR = Kernel(
             lambda f, _N, s, _z: s[0] < f[1],
         ),
     ),
-    exact=_exact,
-    fast=filled(_short),
+    exact=Exactly(_exact),
+    short=Short(filled(_short)),
 )
 
 
@@ -72,6 +74,6 @@ def blur_disc(f: Numbers, N: Numbers, s: Numbers, z: Numbers) -> Result:
     Raises
     ------
     DomainError
-        ``no-real-image`` (s < f), ``not-positive``, ``not-finite`` (arrays: masked).
+        ``no-real-image`` (s < f).
     """
     return _BLUR(f, N, s, z)

@@ -17,8 +17,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quizgen.arrays.domain import Array, nearest
+from quizgen.arrays.aliases import Array
 from quizgen.arrays.double_double import Pair, two_product
+from quizgen.arrays.rational import nearest
 
 _DIGITS = 15
 _LARGEST = 10.0**_DIGITS

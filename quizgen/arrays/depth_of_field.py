@@ -7,47 +7,53 @@ A = f**2 and B = N c (s - f); no image distance occurs, so nothing cancels but A
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from fractions import Fraction
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 
-from quizgen.arrays.domain import POSITIVE, Kernel, Numbers, Result, Rule, exactly, filled, nearest
-from quizgen.arrays.double_double import Pair, pairs, two_product, two_sum
+from quizgen.arrays.aliases import Array, Blocks, Flags, Numbers, Result
+from quizgen.arrays.domain import POSITIVE, Rule
+from quizgen.arrays.double_double import Double, Number, Pair, pairs, two_product, two_sum
+from quizgen.arrays.kernel import Exactly, Kernel, Short, filled
+from quizgen.arrays.rational import nearest
+
+Ratios = tuple[Double, Double, Double]
+"""A/(2 N c) and what rounding it lost, and N c/A, for one camera or for many."""
 
 _CLOSE = 2.0**-40
 """Relative distance from the hyperfocal distance below which A - B is settled exactly."""
 
 
-def _hyperfocal(f: Any, N: Any, c: Any) -> Any:
+def _hyperfocal(f: Number, N: Number, c: Number) -> Number:
     return f * f / (N * c) + f
 
 
-def _near(f: Any, N: Any, c: Any, s: Any) -> Any:
+def _near(f: Number, N: Number, c: Number, s: Number) -> Number:
     A = f * f
     return A * s / (A + N * c * (s - f))
 
 
-def _far(f: Any, N: Any, c: Any, s: Any) -> Any:
+def _far(f: Number, N: Number, c: Number, s: Number) -> Number:
     A = f * f
     return A * s / (A - N * c * (s - f))
 
 
-def _total(f: Any, N: Any, c: Any, s: Any) -> Any:
+def _total(f: Number, N: Number, c: Number, s: Number) -> Number:
     A, B = f * f, N * c * (s - f)
     return 2 * s * A * B / ((A - B) * (A + B))
 
 
-def _gap(f: Any, N: Any, c: Any, s: Any) -> Any:
+def _gap(f: Array, N: Array, c: Array, s: Array) -> Array:
     """(A - B)/A: positive below the hyperfocal distance."""
     return 1 - N * (s - f) * c / (f * f)
 
 
-def _limited(formula: Any) -> Any:
+def _limited(formula: Callable[..., Pair]) -> Callable[..., tuple[Array, Flags]]:
     """Infinity at or beyond the hyperfocal distance; doubtful next to it."""
 
-    def compute(f: Any, N: Any, c: Any, s: Any) -> Any:
+    def compute(f: Array, N: Array, c: Array, s: Array) -> tuple[Array, Flags]:
         gap = _gap(f, N, c, s)
         value = formula(*pairs(f, N, c, s)).rounded()
         return np.where(gap > 0, value, math.inf), np.abs(gap) < _CLOSE
@@ -55,17 +61,17 @@ def _limited(formula: Any) -> Any:
     return compute
 
 
-def _share(f: Any, N: Any, c: Any, s: Any) -> Any:
+def _share(f: Array, N: Array, c: Array, s: Array) -> Array:
     """Distance in focus in hyperfocal distances, q = N c (s - f)/f**2."""
     return (N * c / (f * f)) * (s - f)
 
 
-def _far_short(f: Any, N: Any, c: Any, s: Any) -> Any:
+def _far_short(f: Array, N: Array, c: Array, s: Array) -> Array:
     q = _share(f, N, c, s)
     return _or_long(s / (1 - q), q, 0.3, _FAR, (f, N, c, s))
 
 
-def _near_short(f: Any, N: Any, c: Any, s: Any, out: Any) -> None:
+def _near_short(f: Array, N: Array, c: Array, s: Array, out: Array) -> None:
     q = _share(f, N, c, s)
     if q.max() < 0.7:
         np.add(q, 1, out=out)
@@ -77,7 +83,7 @@ def _near_short(f: Any, N: Any, c: Any, s: Any, out: Any) -> None:
 _LEAST = 2.0**-900
 
 
-def _total_short(f: Any, N: Any, c: Any, s: Any, out: Any) -> None:
+def _total_short(f: Array, N: Array, c: Array, s: Array, out: Array) -> None:
     """By the shortest way that keeps its digits."""
     way = s - f
     lost = s - way
@@ -95,10 +101,12 @@ def _total_short(f: Any, N: Any, c: Any, s: Any, out: Any) -> None:
         q = way * share
         out[q > _BEYOND] = math.inf
         where = np.flatnonzero((q > _PLAIN) & (q <= _BEYOND))
-        some = [arg.take(where) if np.size(arg) > 1 else arg for arg in (s, way, *ratios)]
-        out[where], doubtful = _total_close(*some)
-        for i in where[doubtful]:
-            out[i] = _settled(_TOTAL, (f, N, c, s), i)
+        close = [np.take(arg, where) if np.size(arg) > 1 else arg for arg in ratios]
+        out[where], doubtful = _total_close(s.take(where), way.take(where), *close)
+        rest = where[doubtful]
+        if rest.size:
+            args = [arg.take(rest) if arg.size > 1 else arg for arg in (f, N, c, s)]
+            out[rest] = _TOTAL.carefully(args)
 
 
 _BEYOND = 1.001
@@ -106,7 +114,7 @@ _PLAIN = 0.45
 """Share of the hyperfocal distance up to which 1 - q**2 adds at most one unit of error."""
 
 
-def _total_plain(s: Any, way: Any, ratios: tuple[Any, Any, Any], out: Any) -> None:
+def _total_plain(s: Array, way: Array, ratios: Ratios, out: Array) -> None:
     """Quotient s w/(A/(2 N c) - N c w**2/(2 A)), w = s - f: three roundings that count."""
     ratio, rest, share = ratios
     below = way * way
@@ -117,7 +125,9 @@ def _total_plain(s: Any, way: Any, ratios: tuple[Any, Any, Any], out: Any) -> No
     out /= below
 
 
-def _total_close(s: Any, way: Any, ratio: Any, rest: Any, share: Any) -> tuple[Any, Any]:
+def _total_close(
+    s: Array, way: Array, ratio: Double, rest: Double, share: Double
+) -> tuple[Array, Flags]:
     """Quotient s w/((2 r - w)(1 + q)/2), r = A/(2 N c): the difference keeps its digits."""
     gap = (2 * ratio - way) + 2 * rest
     below = gap * (0.5 + 0.5 * (way * share))
@@ -128,14 +138,14 @@ def _total_close(s: Any, way: Any, ratio: Any, rest: Any, share: Any) -> tuple[A
 
 @lru_cache(maxsize=64)
 def _ratios(f: float, N: float, c: float) -> tuple[float, float, float]:
-    """A/(2 N c) and what rounding it lost, and N c/A."""
+    """The ratios of one camera."""
     half = Fraction(f) ** 2 / (2 * Fraction(N) * Fraction(c))
     ratio = nearest(half)
     return ratio, nearest(half - Fraction(ratio)), nearest(1 / (2 * half))
 
 
-def _all_ratios(f: Any, N: Any, c: Any) -> tuple[Any, Any, Any]:
-    """The same for many cameras."""
+def _all_ratios(f: Array, N: Array, c: Array) -> Ratios:
+    """The ratios of many cameras."""
     below = Pair(*two_product(N, c))
     top = Pair(f * f) if _squares_are_exact(f) else pairs(f)[0] * f
     half = top / below
@@ -144,11 +154,11 @@ def _all_ratios(f: Any, N: Any, c: Any) -> tuple[Any, Any, Any]:
     return half.high, half.low, 0.5 / half.high
 
 
-def _squares_are_exact(f: Any) -> bool:
+def _squares_are_exact(f: Array) -> bool:
     return float(f.max()) < 2.0**26 and bool((np.rint(f) == f).all())
 
 
-def _total_balanced(f: Any, N: Any, c: Any, s: Any) -> Any:
+def _total_balanced(f: Array, N: Array, c: Array, s: Array) -> Array:
     """2 s q/(1 - q**2), with what rounding N c/f**2 lost put back."""
     f_pair, N_pair, c_pair = pairs(f, N, c)
     rate = N_pair * c_pair / (f_pair * f_pair)
@@ -161,33 +171,24 @@ def _total_balanced(f: Any, N: Any, c: Any, s: Any) -> Any:
     return _or_long(value, q, 0.6, _TOTAL, (f, N, c, s))
 
 
-def _or_long(value: Any, q: Any, limit: float, kernel: Kernel, args: Any) -> Any:
+def _or_long(value: Array, q: Array, limit: float, kernel: Kernel, args: Blocks) -> Array:
     """Replace elements closer to the hyperfocal distance by the careful way."""
     if q.max() < limit:
         return value
     where = np.flatnonzero(q >= limit)
     some = [arg.take(where) if arg.size > 1 else arg for arg in args]
-    careful, doubtful = kernel.compute(*some)
-    value[where] = careful
-    if doubtful is not None and doubtful.any():
-        rest = where[doubtful]
-        value[rest] = [_settled(kernel, args, i) for i in rest]
+    value[where] = kernel.carefully(some)
     return value
 
 
-def _settled(kernel: Kernel, args: Any, i: int) -> float:
-    exact: Any = kernel.exact
-    return nearest(exact(*exactly(args, i)))
-
-
-def _limited_exact(formula: Any) -> Any:
-    def exact(f: Any, N: Any, c: Any, s: Any) -> Any:
+def _limited_exact(formula: Callable[..., Fraction]) -> Callable[..., Fraction | float]:
+    def exact(f: Fraction, N: Fraction, c: Fraction, s: Fraction) -> Fraction | float:
         return formula(f, N, c, s) if N * c * (s - f) < f * f else math.inf
 
     return exact
 
 
-def _plain(formula: Any) -> Any:
+def _plain(formula: Callable[..., Pair]) -> Callable[..., tuple[Array, None]]:
     return lambda *args: (formula(*pairs(*args)).rounded(), None)
 
 
@@ -195,23 +196,25 @@ _RULES = (Rule("no-real-image", lambda f, _N, _c, s: s < f, lambda f, _N, _c, s:
 _HYPERFOCAL = Kernel(
     _plain(_hyperfocal),
     (POSITIVE,) * 3,
-    exact=_hyperfocal,
-    fast=filled(lambda f, N, c: f * (f / (N * c)) + f),
+    exact=Exactly(_hyperfocal),
+    short=Short(filled(lambda f, N, c: f * (f / (N * c)) + f)),
 )
-_NEAR = Kernel(_plain(_near), (POSITIVE,) * 4, _RULES, exact=_near, fast=_near_short)
+_NEAR = Kernel(
+    _plain(_near), (POSITIVE,) * 4, _RULES, exact=Exactly(_near), short=Short(_near_short)
+)
 _FAR = Kernel(
     _limited(_far),
     (POSITIVE,) * 4,
     _RULES,
-    exact=_limited_exact(_far),
-    fast=filled(_far_short),
+    exact=Exactly(_limited_exact(_far)),
+    short=Short(filled(_far_short)),
 )
 _TOTAL = Kernel(
     _limited(_total),
     (POSITIVE,) * 4,
     _RULES,
-    exact=_limited_exact(_total),
-    fast=_total_short,
+    exact=Exactly(_limited_exact(_total)),
+    short=Short(_total_short),
 )
 
 
@@ -228,11 +231,6 @@ def hyperfocal(f: Numbers, N: Numbers, c: Numbers) -> Result:
     -------
     float or array
         Unit of f.
-
-    Raises
-    ------
-    DomainError
-        ``not-positive``, ``not-finite`` (arrays: masked).
     """
     return _HYPERFOCAL(f, N, c)
 
@@ -253,7 +251,7 @@ def near_limit(f: Numbers, N: Numbers, c: Numbers, s: Numbers) -> Result:
     Raises
     ------
     DomainError
-        ``no-real-image`` (s < f), ``not-positive``, ``not-finite`` (arrays: masked).
+        ``no-real-image`` (s < f).
     """
     return _NEAR(f, N, c, s)
 
@@ -274,7 +272,7 @@ def far_limit(f: Numbers, N: Numbers, c: Numbers, s: Numbers) -> Result:
     Raises
     ------
     DomainError
-        ``no-real-image`` (s < f), ``not-positive``, ``not-finite`` (arrays: masked).
+        ``no-real-image`` (s < f).
     """
     return _FAR(f, N, c, s)
 
@@ -295,6 +293,6 @@ def total_depth(f: Numbers, N: Numbers, c: Numbers, s: Numbers) -> Result:
     Raises
     ------
     DomainError
-        ``no-real-image`` (s < f), ``not-positive``, ``not-finite`` (arrays: masked).
+        ``no-real-image`` (s < f).
     """
     return _TOTAL(f, N, c, s)

@@ -9,26 +9,15 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 
+from quizgen.arrays.aliases import Array, Flags, Indices, Limits, Numbers, Result
 from quizgen.arrays.distortion_exact import beyond_exactly, fold_exactly, invert_exactly
-from quizgen.arrays.domain import (
-    NONNEGATIVE,
-    REAL,
-    Array,
-    Flags,
-    Kernel,
-    Limits,
-    Numbers,
-    Result,
-    Rule,
-    exactly,
-    extreme,
-    nearest,
-)
-from quizgen.arrays.double_double import Pair, pair, pairs
+from quizgen.arrays.domain import NONNEGATIVE, REAL, Rule
+from quizgen.arrays.double_double import Number, Pair, pair, pairs
+from quizgen.arrays.kernel import Exactly, Kernel, Short, extreme
+from quizgen.arrays.rational import exactly, nearest
 
 _REACH = 2.0**60
 _FLAT = 2.0**-24
@@ -38,16 +27,16 @@ _STEPS = 80
 _REFINEMENTS = 8
 
 
-def _factor(r2: Any, k1: Any, k2: Any) -> Any:
+def _factor(r2: Number, k1: Number, k2: Number) -> Number:
     return r2 * (k1 + k2 * r2)
 
 
-def _forward(x: Any, y: Any, k1: Any, k2: Any) -> Any:
+def _forward(x: Number, y: Number, k1: Number, k2: Number) -> tuple[Number, Number]:
     scale = 1 + _factor(x * x + y * y, k1, k2)
     return x * scale, y * scale
 
 
-def _distort(x: Array, y: Array, k1: Array, k2: Array) -> Any:
+def _distort(x: Array, y: Array, k1: Array, k2: Array) -> tuple[tuple[Array, Array], Flags]:
     x_pair, y_pair, k1_pair, k2_pair = pairs(x, y, k1, k2)
     r2 = x_pair * x_pair + y_pair * y_pair
     slope = k1_pair + k2_pair * r2 if k2.any() else k1_pair
@@ -78,7 +67,7 @@ def _distort_short(x: Array, y: Array, k1: Array, k2: Array, x_d: Array, y_d: Ar
     _by_pairs(where, (x, y, k1, k2), (x_d, y_d))
 
 
-def _by_pairs(where: Any, args: tuple[Array, ...], results: tuple[Array, Array]) -> None:
+def _by_pairs(where: Indices, args: tuple[Array, ...], results: tuple[Array, Array]) -> None:
     some = [arg.take(where) if arg.size > 1 else arg for arg in args]
     values, doubtful = _distort(*some)
     for result, value in zip(results, values, strict=True):
@@ -90,14 +79,14 @@ def _by_pairs(where: Any, args: tuple[Array, ...], results: tuple[Array, Array])
 _ALLOWED = 3.0
 
 
-def _displacement(r: Array, k1: Array, k2: Array) -> Any:
+def _displacement(r: Array, k1: Array, k2: Array) -> tuple[Array, Flags]:
     k1_pair, k2_pair, r_pair = pairs(k1, k2, r)
     r2 = r_pair * r_pair
     slope = k1_pair + k2_pair * r2
     return -(r_pair * r2 * slope).rounded(), np.abs(slope.high) < 2.0**-40 * np.abs(k1)
 
 
-def _displacement_exact(r: Any, k1: Any, k2: Any) -> Any:
+def _displacement_exact(r: Fraction, k1: Fraction, k2: Fraction) -> Fraction:
     return -r * _factor(r * r, k1, k2)
 
 
@@ -127,7 +116,7 @@ def _fold_of_barrel(k1: Array, _k2: Array, out: Array) -> None:
     np.divide(1, out, out=out)
 
 
-def _fold(k1: Array, k2: Array) -> Any:
+def _fold(k1: Array, k2: Array) -> tuple[Array, Flags | None]:
     """Smallest positive root u = r**2 of 1 + 3 k1 u + 5 k2 u**2, without cancellation."""
     if not k2.any():
         return np.where(k1 < 0, 1 / np.sqrt(-3 * np.minimum(k1, 0.0)), math.inf), None
@@ -205,7 +194,7 @@ def _upper_end(a: Array, b: Array) -> Array:
     return np.where(np.isfinite(fold), fold, free)
 
 
-def _inverse_pair(r_d: Array, k1: Array, k2: Array) -> tuple[Pair, Any]:
+def _inverse_pair(r_d: Array, k1: Array, k2: Array) -> tuple[Pair, Flags]:
     if not k2.any():
         return _refined(_cubic(r_d, k1), r_d, k1, k2)
     result, flat = _refined(_quintic(r_d, k1, k2), r_d, k1, k2)
@@ -217,12 +206,12 @@ def _inverse_pair(r_d: Array, k1: Array, k2: Array) -> tuple[Pair, Any]:
     return result, flat | moved
 
 
-def _inverse(r_d: Array, k1: Array, k2: Array) -> Any:
+def _inverse(r_d: Array, k1: Array, k2: Array) -> tuple[Array, Flags]:
     result, flat = _inverse_pair(r_d, k1, k2)
     return result.rounded(), flat
 
 
-def _correction(r_d: Array, k1: Array, k2: Array) -> Any:
+def _correction(r_d: Array, k1: Array, k2: Array) -> tuple[Array, Flags]:
     """R - r_d = -r**3 (k1 + k2 r**2) at the refined r."""
     r, flat = _inverse_pair(r_d, k1, k2)
     r2 = r * r
@@ -230,12 +219,12 @@ def _correction(r_d: Array, k1: Array, k2: Array) -> Any:
     return -(r * r2 * slope).rounded(), flat | (np.abs(slope.high) < 2.0**-40 * np.abs(k1))
 
 
-def _correction_exact(r_d: Fraction, k1: Fraction, k2: Fraction) -> Any:
+def _correction_exact(r_d: Fraction, k1: Fraction, k2: Fraction) -> Fraction:
     r = invert_exactly(r_d, k1, k2)
     return r - r_d
 
 
-def _beyond(r_d: Array, k1: Array, k2: Array) -> Any:
+def _beyond(r_d: Array, k1: Array, k2: Array) -> Flags:
     """Whether r_d exceeds every distorted radius, decided exactly next to the fold."""
     if not k2.any():
         if k1.min() >= 0:
@@ -257,23 +246,27 @@ _BEYOND = (Rule("beyond-fold", _beyond),)
 _DISTORT = Kernel(
     _distort,
     (REAL,) * 4,
-    exact=_forward,
-    reach=2.0**100,
+    exact=Exactly(_forward, 2.0**100),
+    short=Short(_distort_short, 2.0**100, tiny=True),
     outputs=2,
-    fast=_distort_short,
-    tiny=True,
 )
 _DISPLACEMENT = Kernel(
     _displacement,
     (NONNEGATIVE, REAL, REAL),
-    exact=_displacement_exact,
-    fast=_displacement_short,
-    fits=_no_cancellation,
+    exact=Exactly(_displacement_exact),
+    short=Short(_displacement_short, fits=_no_cancellation),
 )
-_FOLD = Kernel(_fold, (REAL, REAL), exact=fold_exactly, fast=_fold_of_barrel, fits=_is_plain_barrel)
-_INVERSE = Kernel(_inverse, (NONNEGATIVE, REAL, REAL), _BEYOND, exact=invert_exactly, reach=_REACH)
+_FOLD = Kernel(
+    _fold,
+    (REAL, REAL),
+    exact=Exactly(fold_exactly),
+    short=Short(_fold_of_barrel, fits=_is_plain_barrel),
+)
+_INVERSE = Kernel(
+    _inverse, (NONNEGATIVE, REAL, REAL), _BEYOND, exact=Exactly(invert_exactly, _REACH)
+)
 _CORRECTION = Kernel(
-    _correction, (NONNEGATIVE, REAL, REAL), _BEYOND, exact=_correction_exact, reach=_REACH
+    _correction, (NONNEGATIVE, REAL, REAL), _BEYOND, exact=Exactly(_correction_exact, _REACH)
 )
 
 
@@ -291,11 +284,6 @@ def distort(x: Numbers, y: Numbers, k1: Numbers, k2: Numbers = 0.0) -> tuple[Res
     -------
     tuple of float or array
         x_d and y_d. Points beyond the fold radius are mapped as the formula says.
-
-    Raises
-    ------
-    DomainError
-        ``not-finite`` (arrays: masked).
     """
     result: tuple[Result, Result] = _DISTORT(x, y, k1, k2)
     return result
@@ -315,11 +303,6 @@ def displacement(r: Numbers, k1: Numbers, k2: Numbers = 0.0) -> Result:
     -------
     float or array
         Unit of r; negative for pincushion distortion.
-
-    Raises
-    ------
-    DomainError
-        ``negative``, ``not-finite`` (arrays: masked).
     """
     return _DISPLACEMENT(r, k1, k2)
 
@@ -336,11 +319,6 @@ def fold_radius(k1: Numbers, k2: Numbers = 0.0) -> Result:
     -------
     float or array
         1/sqrt(-3 k1) for k2 = 0; infinity when there is no fold.
-
-    Raises
-    ------
-    DomainError
-        ``not-finite`` (arrays: masked).
     """
     return _FOLD(k1, k2)
 
@@ -363,8 +341,7 @@ def inverse_radius(r_d: Numbers, k1: Numbers, k2: Numbers = 0.0) -> Result:
     Raises
     ------
     DomainError
-        ``beyond-fold``: no undistorted point lands there (decided exactly); ``negative``,
-        ``not-finite`` (arrays: masked).
+        ``beyond-fold``: no undistorted point lands there (decided exactly).
     """
     return _INVERSE(r_d, k1, k2)
 

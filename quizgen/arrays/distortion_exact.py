@@ -11,7 +11,8 @@ from fractions import Fraction
 
 import numpy as np
 
-from quizgen.arrays.domain import Array, Flags, exactly, nearest
+from quizgen.arrays.aliases import Array, Flags
+from quizgen.arrays.rational import exactly, nearest
 
 _BITS = 400
 

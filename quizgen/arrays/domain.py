@@ -1,4 +1,4 @@
-"""What happens when there is no answer, and how kernels are run over arrays.
+"""What happens when there is no answer.
 
 Policy, the same for every function of this package:
 
@@ -8,38 +8,20 @@ Policy, the same for every function of this package:
   arguments are scalars. With arrays the result is a ``numpy.ma.MaskedArray``, masked exactly
   where there is no answer (NaN lies under the mask). When every element has an answer, the
   result is a plain array. ``answered(result)`` is the mask to ask for in both cases.
-* Arguments that are not finite have no answer (reason ``not-finite``).
-
-Kernels see one-dimensional blocks that fit the cache and only elements that have an answer.
+* Arguments that are not finite have no answer (reason ``not-finite``), nor have those outside
+  the range that a function states.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
-Array = npt.NDArray[np.float64]
-Flags = npt.NDArray[np.bool_]
-Numbers = npt.ArrayLike
-Result = Any
-"""A float for scalar arguments, else an array (masked where there is no answer)."""
-
-BLOCK = 32768
-"""Elements per block: temporaries stay near the processor, and calls are few."""
-
-# The C library gives temporaries from 128 KiB on back to the system one by one, which can cost
-# twice the computation, until it has seen a larger array come and go. This one is never written
-# to and takes no memory.
-np.empty(16 * BLOCK)
-
-Limits = tuple[float, float]
-"""Least and largest value of a block (NaN when there is one)."""
+from quizgen.arrays.aliases import Array, Result
 
 
 class DomainError(ValueError):
@@ -65,7 +47,7 @@ class Span:
     reason: str = "not-finite"
     closed: bool = False
 
-    def holds(self, low: Any, high: Any) -> Any:
+    def holds(self, low: float | Array, high: float | Array) -> Any:
         """Whether values from ``low`` to ``high`` all lie inside (false for NaN)."""
         finite = (low > -math.inf) & (high < math.inf)
         if self.closed:
@@ -95,283 +77,6 @@ class Rule:
     possible: Callable[..., bool] = lambda *_limits: True
 
 
-Exact = Callable[..., Any]
-
-
-@dataclass(frozen=True, slots=True)
-class Kernel:
-    """How to compute a family member on one block.
-
-    Parameters
-    ----------
-    compute : callable
-        Takes blocks, returns an array or a tuple of arrays. With ``exact`` set it returns
-        ``(values, doubtful)``: ``doubtful`` flags elements to be recomputed exactly, or is None.
-    spans : sequence of Span
-        One per argument.
-    rules : sequence of Rule
-        Further relations without an answer.
-    exact : callable, optional
-        The same quantity for ``fractions.Fraction`` arguments; returns what ``nearest`` takes.
-    reach : float
-        ``compute`` is trusted for zero and magnitudes from ``1/reach`` to ``reach``.
-    outputs : int
-        Number of result arrays.
-    fast : callable, optional
-        Shorter way for blocks whose arguments are all zero or within ``reach``. Takes the blocks
-        and then the arrays to be filled, one per output (see ``filled``).
-    watched : sequence of int, optional
-        The arguments for which that matters (all of them by default).
-    tiny : bool
-        Whether ``fast`` also takes magnitudes below ``1/reach``.
-    fits : callable, optional
-        Further condition of ``fast``, on the limits of the arguments.
-    """
-
-    compute: Callable[..., Any]
-    spans: Sequence[Span]
-    rules: Sequence[Rule] = ()
-    exact: Exact | None = None
-    reach: float = 2.0**120
-    outputs: int = 1
-    fast: Callable[..., Any] | None = None
-    watched: Sequence[int] | None = None
-    tiny: bool = False
-    fits: Callable[..., bool] = lambda *_limits: True
-
-    def __call__(self, *args: Numbers) -> Result:
-        """Run the kernel on scalars or arrays that broadcast together."""
-        shape, columns = flattened(*args)
-        with np.errstate(all="ignore"):
-            return self._array(columns, shape) if shape else self._scalar(columns)
-
-    def _scalar(self, args: list[Array]) -> Result:
-        reason = self._why_not(args)
-        if reason is not None:
-            raise DomainError(reason)
-        values = self._checked(args)
-        if isinstance(values, tuple):
-            return tuple(value[0].item() for value in values)
-        return values[0].item()
-
-    def _why_not(self, args: list[Array]) -> str | None:
-        for span, arg in zip(self.spans, args, strict=True):
-            if not span.holds(arg[0], arg[0]):
-                return span.reason_for(float(arg[0]))
-        for rule in self.rules:
-            if np.any(rule.broken(*args)):
-                return rule.reason
-        return None
-
-    def _array(self, args: list[Array], shape: tuple[int, ...]) -> Result:
-        columns = [np.empty(math.prod(shape)) for _ in range(self.outputs)]
-        masks: list[tuple[int, Flags]] = []
-        fixed = [_limits(arg) if arg.size == 1 else None for arg in args]
-        checks = [self._check(i) for i in range(len(args))]
-        for start, block in _blocks(args, columns[0].size):
-            limits = [
-                known or check(arg) for known, check, arg in zip(fixed, checks, block, strict=True)
-            ]
-            parts = [column[start : start + BLOCK] for column in columns]
-            bad = self._fill(parts, block, limits)
-            if bad is not None:
-                masks.append((start, bad))
-        results = tuple(_with_mask(column, masks).reshape(shape) for column in columns)
-        return results if self.outputs > 1 else results[0]
-
-    def _check(self, i: int) -> Callable[[Array], Limits]:
-        """How an argument is looked at: only finite, or with its limits."""
-        watched = self.fast is None or self.watched is None or i in self.watched
-        return _limits if watched or self.spans[i] != REAL else _finite_limits
-
-    def _fill(self, parts: list[Array], args: list[Array], limits: list[Limits]) -> Flags | None:
-        """Fill a block of the results and flag the elements without an answer."""
-        bad = self._bad(args, limits)
-        if bad is None and self.fast is not None and self._moderate(args, limits):
-            self.fast(*args, *parts)
-            return None
-        good = slice(None) if bad is None else ~bad
-        if bad is not None:
-            for part in parts:
-                part[bad] = np.nan  # masked later
-            if bad.all():
-                return bad
-            args = [arg[good] if arg.size > 1 else arg for arg in args]
-        values = self._checked(args)
-        for part, value in zip(
-            parts, values if isinstance(values, tuple) else (values,), strict=True
-        ):
-            part[good] = value
-        return bad
-
-    def _moderate(self, args: list[Array], limits: list[Limits]) -> bool:
-        chosen = range(len(args)) if self.watched is None else self.watched
-        least = 0.0 if self.tiny else 1 / self.reach
-        odd = any(_may_be_odd(args[i], limits[i], least, self.reach) for i in chosen)
-        return not odd and self.fits(*limits)
-
-    def _bad(self, args: list[Array], limits: list[Limits]) -> Flags | None:
-        spans = list(zip(self.spans, args, strict=True))
-        if all(
-            span.holds(*limit) for span, limit in zip(self.spans, limits, strict=True)
-        ) and not any(rule.possible(*limits) and np.any(rule.broken(*args)) for rule in self.rules):
-            return None
-        bad = np.zeros(max(arg.size for arg in args), dtype=bool)
-        for span, arg in spans:
-            bad |= ~span.holds(arg, arg)
-        good = ~bad
-        if good.any():
-            some = [arg[good] if arg.size > 1 else arg for arg in args]
-            for rule in self.rules:
-                bad[good] |= rule.broken(*some)
-        return bad
-
-    def _checked(self, args: list[Array]) -> Any:
-        if self.exact is None:
-            return self.compute(*args)
-        far = extreme(args, self.reach)
-        values, doubtful = self.compute(*args)
-        flags = far if doubtful is None else doubtful if far is None else far | doubtful
-        if flags is not None and flags.any():
-            return _settled(values, flags, self.exact, args)
-        return values
-
-
-def in_short_blocks(fill: Callable[..., bool], kernel: Kernel, *args: Numbers) -> Result:
-    """Run ``fill(*blocks, out)`` on arrays, and the kernel on the blocks that it refuses."""
-    shape, columns = flattened(*args)
-    result = np.empty(math.prod(shape))
-    masks: list[tuple[int, Flags]] = []
-    with np.errstate(all="ignore"):
-        for start, block in _blocks(columns, result.size):
-            part = result[start : start + BLOCK]
-            if not fill(*block, part):
-                careful = kernel(*block)
-                part[...] = np.ma.getdata(careful)
-                if isinstance(careful, np.ma.MaskedArray):
-                    masks.append((start, np.ma.getmaskarray(careful)))
-    return _with_mask(result, masks).reshape(shape)
-
-
 def answered(result: Result) -> Any:
     """Tell which elements of an array result have an answer (True for a scalar)."""
     return ~np.ma.getmaskarray(result) if isinstance(result, np.ndarray) else True
-
-
-def extreme(args: Sequence[Array], reach: float) -> Flags | None:
-    """Flag elements with an argument that is not zero and not within ``1/reach .. reach``."""
-    flags: Flags | None = None
-    for arg in args:
-        low, high = arg.min(), arg.max()
-        if high <= reach and low >= 1 / reach:
-            continue
-        size = np.abs(arg)
-        odd = (size > reach) | ((size < 1 / reach) & (size > 0))
-        if odd.any():
-            flags = odd if flags is None else flags | odd
-    return flags
-
-
-def _limits(arg: Array) -> Limits:
-    return float(arg.min()), float(arg.max())
-
-
-def _finite_limits(arg: Array) -> Limits:
-    """Any limits will do for finite values, and a finite sum proves them finite."""
-    total = float(arg.sum())
-    return (0.0, 0.0) if math.isfinite(total) else _limits(arg)
-
-
-def _may_be_odd(arg: Array, limits: Limits, least: float, reach: float) -> bool:
-    """Whether a block has a value that is neither zero nor within least .. reach."""
-    low, high = limits
-    if high > reach or low < -reach:
-        return True
-    if least == 0 or low >= least or high <= -least:
-        return False
-    size = np.abs(arg) if low < 0 else arg
-    return bool(((size < least) & (size > 0)).any())
-
-
-def filled(formula: Callable[..., Any]) -> Callable[..., None]:
-    """Make a formula with one result a ``fast`` way of a kernel."""
-
-    def fill(*blocks: Array) -> None:
-        blocks[-1][...] = formula(*blocks[:-1])
-
-    return fill
-
-
-def nearest(value: Any) -> float:
-    """Round a rational (or a float that stands for itself) to the nearest float."""
-    if isinstance(value, float):
-        return value
-    try:
-        return value.numerator / value.denominator
-    except OverflowError:
-        return math.inf if value > 0 else -math.inf
-
-
-def read_decimal(value: Any) -> Fraction:
-    """Read a number as it is written: 2.2 is eleven fifths, not the nearest binary fraction."""
-    return Fraction(repr(value)) if isinstance(value, float) else Fraction(value)
-
-
-def _settled(values: Any, flags: Flags, exact: Exact, args: Sequence[Array]) -> Any:
-    """The values, exact where they are flagged."""
-    columns = values if isinstance(values, tuple) else (values,)
-    shape = max(arg.size for arg in args)
-    columns = tuple(
-        column if column.size == shape else np.full(shape, column) for column in columns
-    )
-    for i in np.flatnonzero(np.broadcast_to(flags, shape)):
-        answer = exact(*exactly(args, i))
-        answers = answer if isinstance(values, tuple) else (answer,)
-        for column, value in zip(columns, answers, strict=True):
-            column[i] = nearest(value)
-    return columns if isinstance(values, tuple) else columns[0]
-
-
-def exactly(args: Sequence[Array], i: Any) -> list[Fraction]:
-    """Element i of every argument; a single number stands for all elements."""
-    return [Fraction(float(arg[i if arg.size > 1 else 0])) for arg in args]
-
-
-def flattened(*args: Numbers) -> tuple[tuple[int, ...], list[Array]]:
-    """Give the common shape of some arguments and their values in a row.
-
-    What is the same number throughout, like the one camera of a picture, becomes one value.
-    """
-    arrays = [np.asarray(arg, dtype=np.float64) for arg in args]
-    shape = np.broadcast_shapes(*[array.shape for array in arrays])
-    single = [_is_one_number(array) for array in arrays]
-    if all(single) and math.prod(shape) > 1:
-        return shape, [np.full(math.prod(shape), array.flat[0]) for array in arrays]
-    return shape, [
-        array.reshape(-1)[:1]
-        if one
-        else np.ascontiguousarray(np.broadcast_to(array, shape)).reshape(-1)
-        for array, one in zip(arrays, single, strict=True)
-    ]
-
-
-def _is_one_number(array: Array) -> bool:
-    if array.size < 2:
-        return array.size == 1
-    first = array.flat[0]
-    return bool(array.flat[-1] == first) and bool((array == first).all())
-
-
-def _blocks(args: list[Array], size: int) -> Iterator[tuple[int, list[Array]]]:
-    for start in range(0, size, BLOCK):
-        yield start, [arg if arg.size == 1 else arg[start : start + BLOCK] for arg in args]
-
-
-def _with_mask(column: Array, masks: list[tuple[int, Flags]]) -> Any:
-    """The column, masked where there is no answer."""
-    if not masks:
-        return column
-    mask = np.zeros(column.size, dtype=bool)
-    for start, bad in masks:
-        mask[start : start + bad.size] = bad
-    return np.ma.MaskedArray(column, mask=mask)

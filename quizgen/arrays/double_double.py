@@ -9,17 +9,21 @@ multiply-add, so products are split. Operands must stay within 1e-140 .. 1e140 o
 
 from __future__ import annotations
 
-from typing import Any
+from fractions import Fraction
+from typing import Any, TypeVar
 
 import numpy as np
 
-from quizgen.arrays.domain import Array
+from quizgen.arrays.aliases import Array
+
+Double = float | Array
+"""One double, or a block of them."""
 
 SPLITTER = 134217729.0
 """2**27 + 1 splits a double into two halves of 26 bits."""
 
 
-def two_sum(a: Any, b: Any) -> tuple[Any, Any]:
+def two_sum(a: Double, b: Double) -> tuple[Any, Any]:
     """Sum of two doubles and its rounding error, exactly."""
     s = a + b
     t = s - a
@@ -37,7 +41,7 @@ def two_difference(a: Array, b: Array) -> tuple[Array, Array]:
     return s, lost
 
 
-def split(a: Any) -> tuple[Any, Any]:
+def split(a: Double) -> tuple[Any, Any]:
     """Upper and lower half of a double, exactly."""
     c = a * SPLITTER
     high = c - a
@@ -45,12 +49,14 @@ def split(a: Any) -> tuple[Any, Any]:
     return high, a - high
 
 
-def two_product(a: Any, b: Any) -> tuple[Any, Any]:
+def two_product(a: Double, b: Double) -> tuple[Any, Any]:
     """Product of two doubles and its rounding error, exactly."""
     return _product(a, split(a), b, split(b))
 
 
-def _product(a: Any, a_halves: Any, b: Any, b_halves: Any) -> tuple[Any, Any]:
+def _product(
+    a: Double, a_halves: tuple[Double, Double], b: Double, b_halves: tuple[Double, Double]
+) -> tuple[Any, Any]:
     p = a * b
     a_high, a_low = a_halves
     b_high, b_low = b_halves
@@ -71,7 +77,10 @@ class Pair:
     __slots__ = ("_halves", "high", "low")
     __array_ufunc__ = None  # arrays leave mixed operations to this class
 
-    def __init__(self, high: Any, low: Any = None) -> None:
+    high: Any
+    low: Any
+
+    def __init__(self, high: Double, low: Double | None = None) -> None:
         self.high = high
         self.low = low
         self._halves: Any = None
@@ -88,7 +97,7 @@ class Pair:
         result = self.high if self.low is None else self.high + self.low
         return np.asarray(result, dtype=np.float64)
 
-    def __add__(self, other: Any) -> Pair:
+    def __add__(self, other: Operand) -> Pair:
         """Sum; the error is small against the larger operand, not against a cancelled result."""
         other = pair(other)
         s, e = two_sum(self.high, other.high)
@@ -105,15 +114,15 @@ class Pair:
         """Opposite number."""
         return Pair(-self.high, None if self.low is None else -self.low)
 
-    def __sub__(self, other: Any) -> Pair:
+    def __sub__(self, other: Operand) -> Pair:
         """Difference, as the sum."""
         return self + (-pair(other))
 
-    def __rsub__(self, other: Any) -> Pair:
+    def __rsub__(self, other: Operand) -> Pair:
         """Difference, as the sum."""
         return pair(other) + (-self)
 
-    def __mul__(self, other: Any) -> Pair:
+    def __mul__(self, other: Operand) -> Pair:
         """Product."""
         other = pair(other)
         p, e = _product(self.high, self.halves, other.high, other.halves)
@@ -125,7 +134,7 @@ class Pair:
 
     __rmul__ = __mul__
 
-    def __truediv__(self, other: Any) -> Pair:
+    def __truediv__(self, other: Operand) -> Pair:
         """Quotient: one division and one correction from the exact remainder."""
         other = pair(other)
         q = self.high / other.high
@@ -137,7 +146,7 @@ class Pair:
             rest = rest - q * other.low
         return Pair(q, rest / other.high)
 
-    def __rtruediv__(self, other: Any) -> Pair:
+    def __rtruediv__(self, other: Operand) -> Pair:
         """Quotient."""
         return pair(other) / self
 
@@ -147,16 +156,21 @@ class Pair:
         return Pair(self.high * sign, None if self.low is None else self.low * sign)
 
 
-def _normal(s: Any, e: Any) -> Pair:
+Operand = Pair | Double
+Number = TypeVar("Number", Array, Pair, Fraction)
+"""What a formula is computed in: blocks of doubles, pairs or exact fractions."""
+
+
+def _normal(s: Double, e: Double) -> Pair:
     high = s + e
     return Pair(high, e - (high - s))
 
 
-def pair(value: Any) -> Pair:
+def pair(value: Operand) -> Pair:
     """Wrap a number or an array."""
     return value if isinstance(value, Pair) else Pair(value)
 
 
-def pairs(*values: Any) -> tuple[Pair, ...]:
+def pairs(*values: Double) -> tuple[Pair, ...]:
     """Wrap several."""
     return tuple(Pair(value) for value in values)

@@ -7,26 +7,20 @@ exponent is multiplied by the logarithm of the intensity.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from fractions import Fraction
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 
-from quizgen.arrays.domain import (
-    Array,
-    DomainError,
-    Kernel,
-    Numbers,
-    Result,
-    Span,
-    filled,
-    read_decimal,
-)
+from quizgen.arrays.aliases import Array, Flags, Numbers, Result
+from quizgen.arrays.domain import DomainError, Span
 from quizgen.arrays.double_double import Pair, pairs, two_sum
 from quizgen.arrays.gamma_gap import REACH as GAP_REACH
 from quizgen.arrays.gamma_gap import Gap
+from quizgen.arrays.kernel import Kernel, Short, filled
 from quizgen.arrays.power import halves, raised
+from quizgen.arrays.rational import read_decimal
 
 _INTENSITY = Span(low=0.0, reason="negative-intensity", closed=True)
 
@@ -56,7 +50,7 @@ def encode(linear: Numbers, gamma: float = 2.2) -> Result:
     Raises
     ------
     DomainError
-        ``negative-intensity``, ``not-finite`` (arrays: masked); ``not-positive`` for gamma.
+        ``not-positive`` for gamma.
     """
     return _power_kernel(1 / _positive(gamma))(linear)
 
@@ -79,7 +73,7 @@ def decode(encoded: Numbers, gamma: float = 2.2) -> Result:
     Raises
     ------
     DomainError
-        ``negative-intensity``, ``not-finite`` (arrays: masked); ``not-positive`` for gamma.
+        ``not-positive`` for gamma.
     """
     return _power_kernel(_positive(gamma))(encoded)
 
@@ -121,7 +115,9 @@ def _srgb_decode(x: Array) -> Array:
     return _with_toe(bright, x, x <= _KNEE_ENCODED, lambda toe: toe / _SLOPE, 1 / 12.92)
 
 
-def _with_toe(bright: Array, x: Array, dark: Any, line: Any, slope: float) -> Array:
+def _with_toe(
+    bright: Array, x: Array, dark: Flags, line: Callable[[Pair], Pair], slope: float
+) -> Array:
     """Fill in the straight piece; products of pairs need room below for their errors."""
     where = np.flatnonzero(dark)
     if where.size:
@@ -148,11 +144,6 @@ def srgb_encode(linear: Numbers) -> Result:
     -------
     float or array
         12.92 x up to 0.0031308, then 1.055 x**(1/2.4) - 0.055.
-
-    Raises
-    ------
-    DomainError
-        ``negative-intensity``, ``not-finite`` (arrays: masked).
     """
     return _SRGB_ENCODE(linear)
 
@@ -169,11 +160,6 @@ def srgb_decode(encoded: Numbers) -> Result:
     -------
     float or array
         x/12.92 up to 0.04045, then ((x + 0.055)/1.055)**2.4.
-
-    Raises
-    ------
-    DomainError
-        ``negative-intensity``, ``not-finite`` (arrays: masked).
     """
     return _SRGB_DECODE(encoded)
 
@@ -183,7 +169,7 @@ def _gap_kernel(e: Fraction) -> Kernel:
     if e == 1:
         return Kernel(lambda a, b: np.zeros(max(a.size, b.size)), (_INTENSITY,) * 2)
     gap = Gap(e)
-    return Kernel(gap, (_INTENSITY,) * 2, fast=filled(gap.moderate), reach=GAP_REACH)
+    return Kernel(gap, (_INTENSITY,) * 2, short=Short(filled(gap.moderate), GAP_REACH))
 
 
 def gap(a: Numbers, b: Numbers, gamma: float = 2.2) -> Result:
@@ -204,7 +190,7 @@ def gap(a: Numbers, b: Numbers, gamma: float = 2.2) -> Result:
     Raises
     ------
     DomainError
-        ``negative-intensity``, ``not-finite`` (arrays: masked); ``not-positive`` for gamma < 1.
+        ``not-positive`` for gamma < 1.
     """
     exponent = 1 / _positive(gamma)
     if exponent > 1:

@@ -12,11 +12,10 @@ import math
 import operator
 from collections.abc import Callable
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 
-from quizgen.arrays.domain import Array
+from quizgen.arrays.aliases import Array, Counts
 from quizgen.arrays.double_double import SPLITTER, Pair, split, two_difference, two_sum
 from quizgen.arrays.logarithm import log_pair
 from quizgen.arrays.polynomial import horner
@@ -38,7 +37,9 @@ _DIGITS = decimal.Context(prec=60)
 Exactly = Callable[[decimal.Decimal], decimal.Decimal]
 
 
-def _interpolate(function: Exactly, low: float, high: float, centre: float, count: int) -> Any:
+def _interpolate(
+    function: Exactly, low: float, high: float, centre: float, count: int
+) -> list[Fraction]:
     """Coefficients, in powers of x - centre, of the polynomial through Chebyshev points."""
     middle, half = (low + high) / 2, (high - low) / 2
     angles = (math.pi * (i + 0.5) / count for i in range(count))
@@ -134,7 +135,7 @@ class Gap:
         shift = np.frexp(top)[1]
         return self.moderate(np.ldexp(a, -shift), np.ldexp(b, -shift)) * self.scale(shift)
 
-    def scale(self, shift: Any) -> Any:
+    def scale(self, shift: Counts) -> Array:
         """2**(e shift), split so that the exponent stays exact."""
         turns = [divmod(int(s) * self.fraction, 1) for s in shift]
         roots = [2.0 ** float(rest) for _, rest in turns]

@@ -7,16 +7,15 @@ values are computed stands in ``gaussian_kernels``.
 from __future__ import annotations
 
 from quizgen.arrays import gaussian_kernels as kernels
-from quizgen.arrays.domain import NONNEGATIVE, POSITIVE, REAL, Kernel, Numbers, Result, Rule, Span
+from quizgen.arrays.aliases import Numbers, Result
+from quizgen.arrays.domain import NONNEGATIVE, POSITIVE, REAL, Rule, Span
+from quizgen.arrays.kernel import Kernel, Short
 
 _CORRELATION = Span(low=-1.0, high=1.0, reason="not-a-correlation", closed=True)
 _PDF = Kernel(
     kernels.pdf,
     (REAL, REAL, POSITIVE),
-    fast=kernels.pdf_near_centre,
-    reach=2.0**300,
-    tiny=True,
-    fits=kernels.near_centre,
+    short=Short(kernels.pdf_near_centre, 2.0**300, tiny=True, fits=kernels.near_centre),
 )
 _UPPER = Kernel(kernels.upper_tail, (REAL,))
 _BOTH = Kernel(kernels.two_sided, (REAL,))
@@ -40,11 +39,6 @@ def pdf(x: Numbers, mu: Numbers = 0.0, sigma: Numbers = 1.0) -> Result:
     -------
     float or array
         Per unit of x.
-
-    Raises
-    ------
-    DomainError
-        ``not-positive`` (sigma), ``not-finite`` (arrays: masked).
     """
     return _PDF(x, mu, sigma)
 
@@ -61,11 +55,6 @@ def upper_tail(k: Numbers) -> Result:
     -------
     float or array
         Between 0 and 1; rounds to 0 above 38.57 (use ``log_tail``).
-
-    Raises
-    ------
-    DomainError
-        ``not-finite`` (arrays: masked).
     """
     return _UPPER(k)
 
@@ -82,11 +71,6 @@ def two_sided_tail(k: Numbers) -> Result:
     -------
     float or array
         Between 0 and 1.
-
-    Raises
-    ------
-    DomainError
-        ``not-finite`` (arrays: masked).
     """
     return _BOTH(k)
 
@@ -103,11 +87,6 @@ def log_tail(k: Numbers) -> Result:
     -------
     float or array
         At most 0; minus infinity where -k**2/2 exceeds the range.
-
-    Raises
-    ------
-    DomainError
-        ``not-finite`` (arrays: masked).
     """
     return _LOG(k)
 
@@ -128,7 +107,7 @@ def inverse_tail(p: Numbers) -> Result:
     Raises
     ------
     DomainError
-        ``not-a-probability``, ``not-finite`` (arrays: masked).
+        ``not-a-probability``.
     """
     return _INVERSE(p)
 
@@ -149,7 +128,7 @@ def interval(a: Numbers, b: Numbers) -> Result:
     Raises
     ------
     DomainError
-        ``reversed`` (b < a), ``not-finite`` (arrays: masked).
+        ``reversed`` (b < a).
     """
     return _INTERVAL(a, b)
 
@@ -168,11 +147,6 @@ def expected_beyond(pixels: Numbers, k: Numbers) -> Result:
     -------
     float or array
         Expected count, not rounded.
-
-    Raises
-    ------
-    DomainError
-        ``negative``, ``not-finite`` (arrays: masked).
     """
     return _EXPECTED(pixels, k)
 
@@ -195,7 +169,7 @@ def determinant(s1: Numbers, s2: Numbers, rho: Numbers) -> Result:
     Raises
     ------
     DomainError
-        ``not-positive``, ``not-a-correlation``, ``not-finite`` (arrays: masked).
+        ``not-a-correlation``.
     """
     return _DETERMINANT(s1, s2, rho)
 
@@ -216,6 +190,6 @@ def peak_2d(s1: Numbers, s2: Numbers, rho: Numbers = 0.0) -> Result:
     Raises
     ------
     DomainError
-        ``not-positive``, ``not-a-correlation``, ``not-finite`` (arrays: masked).
+        ``not-a-correlation``.
     """
     return _PEAK_2D(s1, s2, rho)

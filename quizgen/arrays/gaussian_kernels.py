@@ -8,11 +8,9 @@ rounding alone would cost 1400 units in the last place.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
-from quizgen.arrays.domain import Array
+from quizgen.arrays.aliases import Array, Counts, Flags, Formula, Limits
 from quizgen.arrays.double_double import split, two_difference, two_product, two_sum
 from quizgen.arrays.polynomial import horner
 from quizgen.arrays.tables import CENTRAL, MILLS, MILLS_SCALE, MILLS_SHIFT
@@ -121,7 +119,7 @@ def pdf(x: Array, mu: Array, sigma: Array) -> Array:
     return _bell(np.ldexp(distance, by), np.ldexp(lost, by), size, shift)
 
 
-def near_centre(x: tuple[float, float], mu: tuple[float, float], sigma: Any) -> bool:
+def near_centre(x: Limits, mu: Limits, sigma: Limits) -> bool:
     """Whether limits keep the density within _CLOSE standard deviations of one Gaussian."""
     return (
         mu[0] == mu[1]
@@ -188,7 +186,7 @@ def _pdf_short(x: Array, mu: Array, sigma: Array) -> Array | None:
 _SHORT = 36.0
 
 
-def _bell(distance: Array, lost: Array, sigma: Array, shift: Any) -> Array:
+def _bell(distance: Array, lost: Array, sigma: Array, shift: Counts | None) -> Array:
     """Density of sigma 2**shift at distance 2**shift."""
     z = distance / sigma
     product, error = two_product(z, sigma)
@@ -218,7 +216,7 @@ def interval(a: Array, b: Array) -> Array:
     return _either(one_sided, _one_sided, _around_centre, inner, outer)
 
 
-def _either(flags: Any, yes: Any, no: Any, *args: Array) -> Array:
+def _either(flags: Flags, yes: Formula, no: Formula, *args: Array) -> Array:
     """One function where the flags are set, another one elsewhere."""
     if flags.all():
         result: Array = yes(*args)

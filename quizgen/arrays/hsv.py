@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 
-from quizgen.arrays.domain import REAL, Array, Kernel, Numbers, Result, Rule
+from quizgen.arrays.aliases import Array, Flags, Numbers, Result
+from quizgen.arrays.domain import REAL, Rule
+from quizgen.arrays.kernel import Exactly, Kernel
 
 _HUGE = 2.0**1000
 
@@ -24,7 +25,7 @@ def _shrunk(*channels: Array) -> tuple[Array, ...]:
     return tuple(c * scale for c in channels)
 
 
-def _hue(R: Any, G: Any, B: Any) -> Any:
+def _hue(R: Array, G: Array, B: Array) -> Array:
     R, G, B = _shrunk(R, G, B)
     top = np.maximum(np.maximum(R, G), B)
     spread = top - np.minimum(np.minimum(R, G), B)
@@ -37,7 +38,7 @@ def _hue(R: Any, G: Any, B: Any) -> Any:
     return np.where(degrees >= 360, 0.0, degrees)
 
 
-def _saturation(R: Any, G: Any, B: Any) -> Any:
+def _saturation(R: Array, G: Array, B: Array) -> Array:
     R, G, B = _shrunk(R, G, B)
     top = np.maximum(np.maximum(R, G), B)
     spread = top - np.minimum(np.minimum(R, G), B)
@@ -45,7 +46,7 @@ def _saturation(R: Any, G: Any, B: Any) -> Any:
     return spread / size
 
 
-def _gray(R: Any, G: Any, B: Any) -> Any:
+def _gray(R: Array, G: Array, B: Array) -> Flags:
     return (R == G) & (G == B)
 
 
@@ -70,7 +71,7 @@ def hue(R: Numbers, G: Numbers, B: Numbers) -> Result:
     Raises
     ------
     DomainError
-        ``gray-hue`` (R = G = B), ``not-finite`` (arrays: masked).
+        ``gray-hue`` (R = G = B).
     """
     return _HUE(R, G, B)
 
@@ -88,11 +89,6 @@ def saturation(R: Numbers, G: Numbers, B: Numbers) -> Result:
     float or array
         0 for grays and black; above 1 or negative outside the gamut; infinity when the largest
         channel is 0 and another is negative (a pole).
-
-    Raises
-    ------
-    DomainError
-        ``not-finite`` (arrays: masked).
     """
     return _SATURATION(R, G, B)
 
@@ -109,11 +105,6 @@ def value(R: Numbers, G: Numbers, B: Numbers) -> Result:
     -------
     float or array
         Same scale as the channels.
-
-    Raises
-    ------
-    DomainError
-        ``not-finite`` (arrays: masked).
     """
     return _VALUE(R, G, B)
 
@@ -139,7 +130,7 @@ def to_hsv(R: Numbers, G: Numbers, B: Numbers) -> tuple[Result, Result, Result]:
     return hue(R, G, B), saturation(R, G, B), value(R, G, B)
 
 
-def _to_rgb(H: Array, S: Array, V: Array) -> Any:
+def _to_rgb(H: Array, S: Array, V: Array) -> tuple[tuple[Array, ...], Flags | None]:
     turned = np.fmod(H, 360.0)
     mirrored = turned < 0
     size = np.abs(turned)
@@ -170,7 +161,7 @@ def _to_rgb_exact(H: Fraction, S: Fraction, V: Fraction) -> tuple[Fraction, ...]
     return tuple(channel + V - C for channel in mixed)
 
 
-_TO_RGB = Kernel(_to_rgb, (REAL,) * 3, exact=_to_rgb_exact, reach=2.0**400, outputs=3)
+_TO_RGB = Kernel(_to_rgb, (REAL,) * 3, exact=Exactly(_to_rgb_exact, 2.0**400), outputs=3)
 
 
 def to_rgb(H: Numbers, S: Numbers, V: Numbers) -> tuple[Result, Result, Result]:
@@ -187,11 +178,6 @@ def to_rgb(H: Numbers, S: Numbers, V: Numbers) -> tuple[Result, Result, Result]:
     -------
     tuple of float or array
         R, G, B on the scale of V.
-
-    Raises
-    ------
-    DomainError
-        ``not-finite`` (arrays: masked).
     """
     result: tuple[Result, Result, Result] = _TO_RGB(H, S, V)
     return result

@@ -6,11 +6,9 @@ series are pairs, the rest is small enough for doubles. Relative error about 2**
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
-from quizgen.arrays.domain import Array
+from quizgen.arrays.aliases import Array
 from quizgen.arrays.double_double import Pair, pairs
 from quizgen.arrays.polynomial import horner
 
@@ -26,7 +24,7 @@ def atanh_series(s2: Pair) -> Pair:
     return s2 * (_THIRD + s2 * (_FIFTH + s2 * horner(_TAIL, s2.high)))
 
 
-def log_pair(x: Any) -> Pair:
+def log_pair(x: Array) -> Pair:
     """Natural logarithm of positive doubles as a pair."""
     m, e = np.frexp(x)
     low = m < _ROOT_HALF

@@ -13,20 +13,13 @@ from typing import Any
 
 import numpy as np
 
+from quizgen.arrays.aliases import Array, Indices, Limits, Numbers, Result
 from quizgen.arrays.cie1924 import FIRST_NM, STEP_NM, V
-from quizgen.arrays.domain import (
-    NONNEGATIVE,
-    POSITIVE,
-    Array,
-    Kernel,
-    Limits,
-    Numbers,
-    Result,
-    Rule,
-    nearest,
-)
+from quizgen.arrays.domain import NONNEGATIVE, POSITIVE, Rule
 from quizgen.arrays.double_double import Pair, split, two_product, two_sum
 from quizgen.arrays.gaussian import pdf
+from quizgen.arrays.kernel import Exactly, Kernel, Short
+from quizgen.arrays.rational import nearest
 
 KM = 683.0
 """Lumens per watt at the peak."""
@@ -48,7 +41,7 @@ _FALLS = _FALL * np.arange(12)
 """A piece counts until the line has fallen by exp(44)."""
 
 
-def _between(i: Any, t: Array) -> Array:
+def _between(i: int | Indices, t: Array) -> Array:
     """V at t nm beyond table point i: two positive terms, exact factors."""
     value: Array = (_TABLE[i] * (STEP_NM - t) + _TABLE[i + 1] * t) / STEP_NM
     return value
@@ -204,9 +197,7 @@ def _over_wavelength(constant: float) -> Kernel:
     return Kernel(
         lambda wavelength: constant / wavelength,
         (POSITIVE,),
-        fast=divide,
-        reach=math.inf,
-        tiny=True,
+        short=Short(divide, math.inf, tiny=True),
     )
 
 
@@ -214,9 +205,8 @@ _ENERGY, _ENERGY_EV = _over_wavelength(_HC), _over_wavelength(_HC_EV_NM)
 _PLANCK = Kernel(
     lambda *args: (_planck(*args), None),
     (POSITIVE, POSITIVE),
-    exact=_planck_far,
-    fast=_planck_short,
-    fits=_is_dark,
+    exact=Exactly(_planck_far),
+    short=Short(_planck_short, fits=_is_dark),
 )
 
 
@@ -232,11 +222,6 @@ def photopic(wavelength: Numbers) -> Result:
     -------
     float or array
         0 to 1; linear between table points 5 nm apart, 0 outside 360 to 830 nm.
-
-    Raises
-    ------
-    DomainError
-        ``negative``, ``not-finite`` (arrays: masked).
     """
     return _PHOTOPIC(wavelength)
 
@@ -259,7 +244,7 @@ def band_flux(power: Numbers, low: Numbers, high: Numbers) -> Result:
     Raises
     ------
     DomainError
-        ``reversed``, ``negative``, ``not-finite`` (arrays: masked).
+        ``reversed`` (high < low).
     """
     return _scaled(power, _BAND, low, high)
 
@@ -279,11 +264,6 @@ def line_flux(power: Numbers, centre: Numbers, fwhm: Numbers = 0.0) -> Result:
     float or array
         Lumens; every straight piece of V(lambda) is integrated from its end next to the centre, so
         no line falls between grid points. Shares of the power below 1e-300 lose digits.
-
-    Raises
-    ------
-    DomainError
-        ``negative``, ``not-finite`` (arrays: masked).
     """
     return _scaled(power, _LINE, centre, fwhm)
 
@@ -307,11 +287,6 @@ def photon_energy(wavelength: Numbers) -> Result:
     -------
     float or array
         Joules.
-
-    Raises
-    ------
-    DomainError
-        ``not-positive``, ``not-finite`` (arrays: masked).
     """
     return _ENERGY(wavelength)
 
@@ -328,11 +303,6 @@ def photon_energy_ev(wavelength: Numbers) -> Result:
     -------
     float or array
         Electron volts: 1239.84.../lambda.
-
-    Raises
-    ------
-    DomainError
-        ``not-positive``, ``not-finite`` (arrays: masked).
     """
     return _ENERGY_EV(wavelength)
 
@@ -351,10 +321,5 @@ def planck_factor(wavelength: Numbers, temperature: Numbers) -> Result:
     -------
     float or array
         Pure number; 0 where it is below the smallest double (lambda T < 19000 nm K).
-
-    Raises
-    ------
-    DomainError
-        ``not-positive``, ``not-finite`` (arrays: masked).
     """
     return _PLANCK(wavelength, temperature)

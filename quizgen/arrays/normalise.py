@@ -8,32 +8,29 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 
-from quizgen.arrays.domain import (
-    REAL,
-    Array,
-    Kernel,
-    Numbers,
-    Result,
-    Rule,
-    in_short_blocks,
-    nearest,
-)
+from quizgen.arrays.aliases import Array, Flags, Numbers, Result
+from quizgen.arrays.domain import REAL, Rule
 from quizgen.arrays.double_double import Pair, pairs
+from quizgen.arrays.kernel import Exactly, Kernel, in_short_blocks
+from quizgen.arrays.rational import nearest
 
 _CANCELLED = 2.0**-48
 _SHORT = 2.0**25
 _LARGEST = 2.0**52
 
 
-def _exact(I: Any, low: Any, high: Any, new_low: Any, new_high: Any) -> Any:
+def _exact(
+    I: Fraction, low: Fraction, high: Fraction, new_low: Fraction, new_high: Fraction
+) -> Fraction:
     return new_low + (I - low) * (new_high - new_low) / (high - low)
 
 
-def _compute(I: Array, low: Array, high: Array, new_low: Array, new_high: Array) -> Any:
+def _compute(
+    I: Array, low: Array, high: Array, new_low: Array, new_high: Array
+) -> tuple[Array, Flags | None]:
     if low.size == high.size == new_low.size == new_high.size == 1:
         return _along_line(I, low.item(), high.item(), new_low.item(), new_high.item())
     above, below = pairs(I)[0] - low, pairs(high)[0] - I
@@ -45,7 +42,7 @@ def _compute(I: Array, low: Array, high: Array, new_low: Array, new_high: Array)
     return value, cancelled & ~certain_zero
 
 
-def _along_line(I: Array, *ends: float) -> Any:
+def _along_line(I: Array, *ends: float) -> tuple[Array, Flags | None]:
     slope, start = _line(*ends)
     line = slope * I + start
     value = line.rounded()
@@ -118,7 +115,7 @@ _NORMALISE = Kernel(
     _compute,
     (REAL,) * 5,
     (Rule("empty-range", lambda _I, low, high, _c, _d: high <= low),),
-    exact=_exact,
+    exact=Exactly(_exact),
 )
 
 
@@ -152,7 +149,7 @@ def normalise(
     Raises
     ------
     DomainError
-        ``empty-range`` (high <= low), ``not-finite`` (arrays: masked).
+        ``empty-range`` (high <= low).
     """
     args = (I, low, high, new_low, new_high)
     if all(np.ndim(arg) == 0 for arg in args):

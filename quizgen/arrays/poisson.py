@@ -11,8 +11,10 @@ import math
 
 import numpy as np
 
-from quizgen.arrays.domain import NONNEGATIVE, Array, Kernel, Numbers, Result, Rule
+from quizgen.arrays.aliases import Array, Numbers, Result
+from quizgen.arrays.domain import NONNEGATIVE, Rule
 from quizgen.arrays.gaussian_kernels import mills
+from quizgen.arrays.kernel import Kernel
 from quizgen.arrays.logarithm import ratio_excess
 from quizgen.arrays.polynomial import horner
 from quizgen.arrays.tables import STIRLING, TEMME
@@ -180,7 +182,7 @@ def pmf(k: Numbers, lam: Numbers) -> Result:
     Raises
     ------
     DomainError
-        ``not-a-count``, ``negative``, ``not-finite`` (arrays: masked).
+        ``not-a-count``.
     """
     return _PMF(k, lam)
 

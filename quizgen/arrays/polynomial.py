@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from quizgen.arrays.domain import Array
+from quizgen.arrays.aliases import Array
 
 
 def horner(coefficients: Sequence[float], x: Array) -> Array:

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from quizgen.arrays.domain import Array
+from quizgen.arrays.aliases import Array
 
 Exponent = tuple[float, float]
 """An exponent and what rounding it lost."""

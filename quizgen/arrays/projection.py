@@ -10,21 +10,15 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from quizgen.arrays.aliases import Array, Flags, Numbers, Result
 from quizgen.arrays.decimals import Reader, Whole, as_pair, read
-from quizgen.arrays.domain import (
-    POSITIVE,
-    REAL,
-    Array,
-    Kernel,
-    Numbers,
-    Result,
-    Rule,
-    in_short_blocks,
-)
+from quizgen.arrays.domain import POSITIVE, REAL, Rule
+from quizgen.arrays.double_double import Number
+from quizgen.arrays.kernel import Exactly, Kernel, Short, in_short_blocks
 
 _LARGEST = 2.0**53
 _CANCELLED = 2.0**-40
@@ -35,14 +29,14 @@ class Projected(NamedTuple):
 
     x: Result
     y: Result
-    behind: Any
+    behind: bool | Flags
 
 
-def _project(f: Any, x: Any, y: Any, z: Any) -> Any:
+def _project(f: Number, x: Number, y: Number, z: Number) -> tuple[Number, Number]:
     return f * x / z, f * y / z
 
 
-def _project_short(f: Any, x: Any, y: Any, z: Any, x_i: Any, y_i: Any) -> None:
+def _project_short(f: Array, x: Array, y: Array, z: Array, x_i: Array, y_i: Array) -> None:
     """f/z first: it is neither huge nor tiny, so only the results round."""
     scale = f / z
     np.multiply(x, scale, out=x_i)
@@ -59,11 +53,9 @@ _PROJECT = Kernel(
             lambda _f, _x, _y, z: z[0] <= 0 <= z[1],
         ),
     ),
-    exact=_project,
-    reach=2.0**300,
+    exact=Exactly(_project, 2.0**300),
+    short=Short(_project_short, 2.0**300, watched=(0, 3)),
     outputs=2,
-    fast=_project_short,
-    watched=(0, 3),
 )
 
 
@@ -85,13 +77,13 @@ def project(f: Numbers, p_x: Numbers, p_y: Numbers, p_z: Numbers) -> Projected:
     Raises
     ------
     DomainError
-        ``on-camera-plane`` (p_z = 0), ``not-positive``, ``not-finite`` (arrays: masked).
+        ``on-camera-plane`` (p_z = 0).
     """
     x, y = _PROJECT(f, p_x, p_y, p_z)
     return Projected(x, y, behind(p_z))
 
 
-def behind(p_z: Numbers) -> Any:
+def behind(p_z: Numbers) -> bool | Flags:
     """Tell whether points lie behind the camera.
 
     Parameters
@@ -107,7 +99,7 @@ def behind(p_z: Numbers) -> Any:
     return bool(flags) if flags.shape == () else flags
 
 
-def _pixel(f: Any, pitch: Any, x: Any, z: Any, o: Any) -> Any:
+def _pixel(f: Number, pitch: Number, x: Number, z: Number, o: Number) -> Number:
     return o + f * x / (pitch * z)
 
 
@@ -116,7 +108,7 @@ def _exact_pixel(*args: Fraction) -> Fraction:
     return result
 
 
-def _pixels(*args: Array) -> Any:
+def _pixels(*args: Array) -> tuple[Array, Flags | None]:
     out = np.empty(max(arg.size for arg in args))
     if _by_integers([Reader() for _ in args], args, out):
         return out, None
@@ -180,7 +172,7 @@ _PIXEL = Kernel(
     _pixels,
     (POSITIVE, POSITIVE, REAL, REAL, REAL),
     (Rule("on-camera-plane", lambda _f, _pitch, _x, z, _o: z == 0),),
-    exact=_exact_pixel,
+    exact=Exactly(_exact_pixel),
 )
 
 
@@ -206,7 +198,7 @@ def pixel(f: Numbers, pitch: Numbers, x: Numbers, z: Numbers, o: Numbers) -> Res
     Raises
     ------
     DomainError
-        ``on-camera-plane`` (z = 0), ``not-positive``, ``not-finite`` (arrays: masked).
+        ``on-camera-plane`` (z = 0).
     """
     if all(np.ndim(arg) == 0 for arg in (f, pitch, x, z, o)):
         return _pixel_scalar(f, pitch, x, z, o)
@@ -220,10 +212,10 @@ _PIXEL_SCALAR = Kernel(
     lambda *_args: (np.zeros(1), np.ones(1, dtype=bool)),
     _PIXEL.spans,
     _PIXEL.rules,
-    exact=_exact_pixel,
+    exact=Exactly(_exact_pixel),
 )
 
 
-def _pixel_scalar(*args: Any) -> float:
+def _pixel_scalar(*args: Numbers) -> float:
     result: float = _PIXEL_SCALAR(*args)
     return result

@@ -5,17 +5,17 @@ Source: variance N of a Poisson count plus sigma**2 of the read-out; SNR = N/sqr
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
-from quizgen.arrays.domain import NONNEGATIVE, POSITIVE, Kernel, Numbers, Result, extreme, filled
+from quizgen.arrays.aliases import Array, Numbers, Result
+from quizgen.arrays.domain import NONNEGATIVE, POSITIVE
+from quizgen.arrays.kernel import Kernel, Short, extreme, filled
 
 _REACH = 2.0**300
 _LEAST = 5e-324
 
 
-def _snr(N: Any, sigma: Any) -> Any:
+def _snr(N: Array, sigma: Array) -> Array:
     value = _snr_short(N, sigma)
     odd = extreme((N, sigma), _REACH)
     if odd is not None:
@@ -23,16 +23,16 @@ def _snr(N: Any, sigma: Any) -> Any:
     return value
 
 
-def _snr_short(N: Any, sigma: Any) -> Any:
+def _snr_short(N: Array, sigma: Array) -> Array:
     value = N / np.sqrt(N + sigma * sigma)
     return np.where(N == 0, 0.0, value) if N.min() == 0 else value
 
 
-def _loss(N: Any, sigma: Any) -> Any:
+def _loss(N: Array, sigma: Array) -> Array:
     return -np.expm1(-0.5 * np.log1p(sigma * (sigma / N)))
 
 
-def _photons(snr: Any, sigma: Any) -> Any:
+def _photons(snr: Array, sigma: Array) -> Array:
     half = snr / 2
     root = np.sqrt(half * half + sigma * sigma)
     odd = extreme((snr, sigma), _REACH)
@@ -44,8 +44,7 @@ def _photons(snr: Any, sigma: Any) -> Any:
 _SNR = Kernel(
     _snr,
     (NONNEGATIVE, NONNEGATIVE),
-    reach=_REACH,
-    fast=filled(_snr_short),
+    short=Short(filled(_snr_short), _REACH),
 )
 _LOSS = Kernel(_loss, (POSITIVE, NONNEGATIVE))
 _PHOTONS = Kernel(_photons, (NONNEGATIVE, NONNEGATIVE))
@@ -65,11 +64,6 @@ def snr(N: Numbers, sigma: Numbers = 0.0) -> Result:
     -------
     float or array
         Pure number; 0 without photons.
-
-    Raises
-    ------
-    DomainError
-        ``negative``, ``not-finite`` (arrays: masked).
     """
     return _SNR(N, sigma)
 
@@ -88,11 +82,6 @@ def snr_loss(N: Numbers, sigma: Numbers) -> Result:
     -------
     float or array
         Between 0 and 1, accurate when it is tiny.
-
-    Raises
-    ------
-    DomainError
-        ``not-positive``, ``negative``, ``not-finite`` (arrays: masked).
     """
     return _LOSS(N, sigma)
 
@@ -111,10 +100,5 @@ def photons_for(snr: Numbers, sigma: Numbers = 0.0) -> Result:
     -------
     float or array
         Mean number of photons.
-
-    Raises
-    ------
-    DomainError
-        ``negative``, ``not-finite`` (arrays: masked).
     """
     return _PHOTONS(snr, sigma)

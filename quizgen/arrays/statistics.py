@@ -13,8 +13,10 @@ from collections.abc import Callable, Iterable, Iterator
 import numpy as np
 import numpy.typing as npt
 
-from quizgen.arrays.domain import BLOCK, Array, DomainError
+from quizgen.arrays.aliases import Array
+from quizgen.arrays.domain import DomainError
 from quizgen.arrays.double_double import two_sum
+from quizgen.arrays.kernel import BLOCK
 
 _LARGE = 2.0**480
 _SMALL = 2.0**-480

@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
-from quizgen.arrays.domain import POSITIVE, DomainError, Kernel, Numbers, Result
+from quizgen.arrays.aliases import Array, Numbers, Result
+from quizgen.arrays.domain import POSITIVE, DomainError
+from quizgen.arrays.kernel import Kernel, Short
 
 _PER_LN2 = 2.8853900817779268
 """2/ln 2."""
@@ -19,7 +20,7 @@ _PER_LN2 = 2.8853900817779268
 _MODERATE = 2.0**1000
 
 
-def _stops(N1: Any, N2: Any) -> Any:
+def _stops(N1: Array, N2: Array) -> Array:
     ratio = N2 / N1
     value = 2 * np.log2(ratio)
     # Near 1 log2 loses the digits of N2 - N1, which is exact there.
@@ -33,19 +34,19 @@ def _stops(N1: Any, N2: Any) -> Any:
     return np.where(far, 2 * (np.log2(N2) - np.log2(N1)), value)
 
 
-def _light(N1: Any, N2: Any) -> Any:
+def _light(N1: Array, N2: Array) -> Array:
     ratio = N2 / N1
     ratio *= ratio
     return ratio
 
 
-def _light_short(N1: Any, N2: Any, out: Any) -> None:
+def _light_short(N1: Array, N2: Array, out: Array) -> None:
     np.divide(N2, N1, out=out)
     out *= out
 
 
 _STOPS = Kernel(_stops, (POSITIVE, POSITIVE))
-_LIGHT = Kernel(_light, (POSITIVE, POSITIVE), fast=_light_short, reach=math.inf, tiny=True)
+_LIGHT = Kernel(_light, (POSITIVE, POSITIVE), short=Short(_light_short, math.inf, tiny=True))
 
 
 def stops(N1: Numbers, N2: Numbers) -> Result:
@@ -60,11 +61,6 @@ def stops(N1: Numbers, N2: Numbers) -> Result:
     -------
     float or array
         Stops; positive when N2 > N1.
-
-    Raises
-    ------
-    DomainError
-        ``not-positive``, ``not-finite`` (arrays: masked).
     """
     return _STOPS(N1, N2)
 
@@ -81,11 +77,6 @@ def light_ratio(N1: Numbers, N2: Numbers) -> Result:
     -------
     float or array
         Pure number.
-
-    Raises
-    ------
-    DomainError
-        ``not-positive``, ``not-finite`` (arrays: masked).
     """
     return _LIGHT(N1, N2)
 
@@ -120,7 +111,7 @@ def _table() -> Iterator[tuple[float, float]]:
 _MEANT = dict(_table())
 
 
-def _nominal(N: Any) -> Any:
+def _nominal(N: Array) -> Array:
     return np.array([_MEANT[float(value)] for value in N])
 
 
@@ -143,7 +134,7 @@ def nominal(N: Numbers) -> Result:
     Raises
     ------
     DomainError
-        ``not-nominal`` when no lens is engraved like that (arrays: masked).
+        ``not-nominal`` when no lens is engraved like that.
     """
     values = np.asarray(N, dtype=np.float64)
     known = np.array([float(value) in _MEANT for value in values.ravel()], dtype=bool)

@@ -5,38 +5,38 @@ Source: Gaussian lens formula 1/f = 1/z + 1/z', distances positive for real obje
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
-from quizgen.arrays.domain import POSITIVE, Kernel, Numbers, Result
+from quizgen.arrays.aliases import Array, Numbers, Result
+from quizgen.arrays.domain import POSITIVE
+from quizgen.arrays.kernel import Kernel, Short
 
 
-def _image_distance(f: Any, z: Any) -> Any:
+def _image_distance(f: Array, z: Array) -> Array:
     # z - f is exact near the focal plane, and larger/(z - f) neither overflows nor underflows.
     return np.minimum(f, z) * (np.maximum(f, z) / _from_focus(f, z))
 
 
-def _focus_shift(f: Any, z: Any) -> Any:
+def _focus_shift(f: Array, z: Array) -> Array:
     return f * (f / _from_focus(f, z))
 
 
-def _magnification(f: Any, z: Any) -> Any:
+def _magnification(f: Array, z: Array) -> Array:
     return f / _from_focus(f, z)
 
 
-def _from_focus(f: Any, z: Any) -> Any:
+def _from_focus(f: Array, z: Array) -> Array:
     """Distance z - f, where equal values give a positive zero: the pole is plus infinity."""
     return z - f
 
 
-def _image_distance_near(f: Any, z: Any, out: Any) -> None:
+def _image_distance_near(f: Array, z: Array, out: Array) -> None:
     np.divide(z, z - f, out=out)
     out *= f
 
 
 _IMAGE_DISTANCE = Kernel(
-    _image_distance, (POSITIVE, POSITIVE), reach=2.0**400, fast=_image_distance_near
+    _image_distance, (POSITIVE, POSITIVE), short=Short(_image_distance_near, 2.0**400)
 )
 _FOCUS_SHIFT = Kernel(_focus_shift, (POSITIVE, POSITIVE))
 _MAGNIFICATION = Kernel(_magnification, (POSITIVE, POSITIVE))
@@ -57,11 +57,6 @@ def image_distance(f: Numbers, z: Numbers) -> Result:
     float or array
         Same unit; negative for a virtual image (z < f), infinity at the pole z = f.
         At most 2 units in the last place from the true value.
-
-    Raises
-    ------
-    DomainError
-        ``not-positive``, ``not-finite`` (arrays: masked).
     """
     return _IMAGE_DISTANCE(f, z)
 
@@ -78,11 +73,6 @@ def focus_shift(f: Numbers, z: Numbers) -> Result:
     -------
     float or array
         Same unit; infinity at the pole z = f.
-
-    Raises
-    ------
-    DomainError
-        ``not-positive``, ``not-finite`` (arrays: masked).
     """
     return _FOCUS_SHIFT(f, z)
 
@@ -99,10 +89,5 @@ def magnification(f: Numbers, z: Numbers) -> Result:
     -------
     float or array
         Pure number; positive for a real (upside-down) image, infinity at the pole z = f.
-
-    Raises
-    ------
-    DomainError
-        ``not-positive``, ``not-finite`` (arrays: masked).
     """
     return _MAGNIFICATION(f, z)

@@ -5,31 +5,33 @@ Source: cos**4(atan(r/f)) = (f**2/(f**2 + r**2))**2, rational in r and f.
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
 
 import numpy as np
 
-from quizgen.arrays.domain import NONNEGATIVE, POSITIVE, Kernel, Numbers, Result
-from quizgen.arrays.double_double import pairs
+from quizgen.arrays.aliases import Array, Numbers, Result
+from quizgen.arrays.domain import NONNEGATIVE, POSITIVE
+from quizgen.arrays.double_double import Number, Pair, pairs
+from quizgen.arrays.kernel import Exactly, Kernel, Short
 
 
-def _cos4(r: Any, f: Any) -> Any:
+def _cos4(r: Number, f: Number) -> Number:
     A = f * f
     q = A / (r * r + A)
     return q * q
 
 
-def _falloff(r: Any, f: Any) -> Any:
+def _falloff(r: Number, f: Number) -> Number:
     A, B = f * f, r * r
     S = A + B
     return B * (A + S) / (S * S)
 
 
-def _on_pairs(formula: Any) -> Any:
+def _on_pairs(formula: Callable[..., Pair]) -> Callable[..., tuple[Array, None]]:
     return lambda r, f: (formula(*pairs(r, f)).rounded(), None)
 
 
-def _cos4_short(r: Any, f: Any, out: Any) -> None:
+def _cos4_short(r: Array, f: Array, out: Array) -> None:
     """In the middle 1 - p (2 - p), where the errors of p count little."""
     widest, shortest = r.max(), f.min()
     if 2 * widest <= shortest:
@@ -41,7 +43,7 @@ def _cos4_short(r: Any, f: Any, out: Any) -> None:
         out[...] = _cos4(*pairs(r, f)).rounded()
 
 
-def _cos4_outside(r: Any, f: Any) -> Any:
+def _cos4_outside(r: Array, f: Array) -> Array:
     """What rounding the sum loses is put back; it would count twice."""
     A = f * f
     B = r * r
@@ -56,7 +58,7 @@ def _cos4_outside(r: Any, f: Any) -> Any:
     return q
 
 
-def _falloff_short(r: Any, f: Any, out: Any) -> None:
+def _falloff_short(r: Array, f: Array, out: Array) -> None:
     """Product p (2 - p) with p = r**2/(r**2 + f**2): no difference of nearly equal values."""
     B = r * r
     p = B + f * f
@@ -66,14 +68,13 @@ def _falloff_short(r: Any, f: Any, out: Any) -> None:
 
 
 _COS4 = Kernel(
-    _on_pairs(_cos4), (NONNEGATIVE, POSITIVE), exact=_cos4, reach=2.0**120, fast=_cos4_short
+    _on_pairs(_cos4), (NONNEGATIVE, POSITIVE), exact=Exactly(_cos4), short=Short(_cos4_short)
 )
 _FALLOFF = Kernel(
     _on_pairs(_falloff),
     (NONNEGATIVE, POSITIVE),
-    exact=_falloff,
-    reach=2.0**120,
-    fast=_falloff_short,
+    exact=Exactly(_falloff),
+    short=Short(_falloff_short),
 )
 
 
@@ -91,11 +92,6 @@ def cos4(r: Numbers, f: Numbers) -> Result:
     -------
     float or array
         Between 0 and 1; the angle is atan(r/f).
-
-    Raises
-    ------
-    DomainError
-        ``negative``, ``not-positive``, ``not-finite`` (arrays: masked).
     """
     return _COS4(r, f)
 
@@ -112,10 +108,5 @@ def falloff(r: Numbers, f: Numbers) -> Result:
     -------
     float or array
         Between 0 and 1.
-
-    Raises
-    ------
-    DomainError
-        ``negative``, ``not-positive``, ``not-finite`` (arrays: masked).
     """
     return _FALLOFF(r, f)

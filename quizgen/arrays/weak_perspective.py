@@ -5,7 +5,9 @@ Source: (f/z - f/zbar)/(f/z) = (zbar - z)/zbar; the left side subtracts nearly e
 
 from __future__ import annotations
 
-from quizgen.arrays.domain import POSITIVE, Kernel, Numbers, Result
+from quizgen.arrays.aliases import Numbers, Result
+from quizgen.arrays.domain import POSITIVE
+from quizgen.arrays.kernel import Kernel
 
 _OF_TRUE = Kernel(lambda z, zbar: (zbar - z) / zbar, (POSITIVE, POSITIVE))
 _OF_WEAK = Kernel(lambda z, zbar: (zbar - z) / z, (POSITIVE, POSITIVE))
@@ -23,11 +25,6 @@ def scale_error(z: Numbers, zbar: Numbers) -> Result:
     -------
     float or array
         Pure number below 1; positive when the point is nearer than zbar.
-
-    Raises
-    ------
-    DomainError
-        ``not-positive``, ``not-finite`` (arrays: masked).
     """
     return _OF_TRUE(z, zbar)
 
@@ -44,10 +41,5 @@ def scale_error_of_weak(z: Numbers, zbar: Numbers) -> Result:
     -------
     float or array
         Pure number above -1.
-
-    Raises
-    ------
-    DomainError
-        ``not-positive``, ``not-finite`` (arrays: masked).
     """
     return _OF_WEAK(z, zbar)

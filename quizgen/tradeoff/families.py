@@ -32,7 +32,7 @@ from quizgen.arrays import (
     vignetting,
     weak_perspective,
 )
-from quizgen.arrays.domain import Result
+from quizgen.arrays.aliases import Result
 from quizgen.maths.tree import Call, Expr, Num, substitute
 
 Random = np.random.Generator

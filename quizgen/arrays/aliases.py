@@ -1,0 +1,35 @@
+"""Names of the types that pass between the functions of this package."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+Numbers = npt.ArrayLike
+"""What the public functions take: a number, a list, an array."""
+
+Result = Any
+"""What they return: a float for scalar arguments, else an array (masked without an answer)."""
+
+Array = npt.NDArray[np.float64]
+Flags = npt.NDArray[np.bool_]
+Indices = npt.NDArray[np.intp]
+Counts = npt.NDArray[np.int64]
+
+Blocks = Sequence[Array]
+"""One block of every argument; a block of one element stands for all elements."""
+
+Values = Array | tuple[Array, ...]
+"""A block of the result, or one block of every result."""
+
+Limits = tuple[float, float]
+"""Least and largest value of a block (NaN when there is one)."""
+
+Formula = Callable[..., Array]
+"""A formula on blocks."""
+
+Exact = Callable[..., Any]
+"""The same quantity for fractions; returns fractions, or floats that stand for themselves."""
