@@ -249,7 +249,7 @@ def admissible(
     approximate = {name: to_float(value) for name, value in values.items()}
     traps = []
     for part in plan.parts:
-        usable = part.check(approximate, lenient=lenient)
+        usable = part.check(approximate, shown, lenient=lenient)
         if isinstance(usable, str):
             return usable
         traps.append(usable)
