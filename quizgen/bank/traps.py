@@ -16,10 +16,11 @@ from flint import fmpq
 
 from quizgen.bank.template import Template
 from quizgen.errors import BankError
-from quizgen.maths.chain import ChainStep
+from quizgen.maths.chain import ChainStep, Plan
 from quizgen.maths.numbers import rational, to_float
+from quizgen.maths.systems import compile_expr, floats
 from quizgen.maths.tolerance import MARGIN, RULES, Tolerance, tolerance_of
-from quizgen.maths.tree import Compiled, compile_expr, floats, names
+from quizgen.maths.tree import names
 from quizgen.maths.units import unit
 
 TIE_MARGIN = 0.02
@@ -62,7 +63,7 @@ class PartPlan:
         whole = 0.01 if self.answer.get("percent") else 1.0
         self.factors = tuple(whole * to_float(factor(self.unit_of(template, n))) for n in self.of)
         self.traps = {
-            trap: _float_plan(template, wrong)
+            trap: template.chain.plan(wrong, floats())
             for trap, wrong in template.chain.traps.items()
             if trap not in rules.drop and self._concerns(template, wrong, needed)
         }
@@ -89,7 +90,7 @@ class PartPlan:
     def _concerns(
         self, template: Template, wrong: tuple[ChainStep, ...], needed: frozenset[str]
     ) -> bool:
-        changed = {name for name, _ in template.chain._plan(wrong)}  # noqa: SLF001 - same package
+        changed = {name for name, _ in template.chain.plan(wrong, floats())}
         return bool({s.name for s in wrong} & needed) and bool(changed & set(self.of))
 
     def unit_of(self, template: Template, name: str) -> str:
@@ -157,9 +158,7 @@ class PartPlan:
             if t.decimals is not None
         )
 
-    def _trapped(
-        self, plan: list[tuple[str, Compiled]], env: Mapping[str, float]
-    ) -> tuple[float, ...] | None:
+    def _trapped(self, plan: Plan, env: Mapping[str, float]) -> tuple[float, ...] | None:
         changed = dict(env)
         try:
             for name, compiled in plan:
@@ -167,16 +166,6 @@ class PartPlan:
         except (ZeroDivisionError, ValueError, OverflowError):
             return None
         return tuple(changed[n] / f for n, f in zip(self.of, self.factors, strict=True))
-
-
-def _float_plan(template: Template, wrong: tuple[ChainStep, ...]) -> list[tuple[str, Compiled]]:
-    swapped = {step.name: step.expr for step in wrong}
-    chain = template.chain
-    order = [name for name, _ in chain._plan(wrong)]  # noqa: SLF001 - same package
-    return [
-        (name, compile_expr(swapped.get(name, chain.by_name[name].expr), floats()))
-        for name in order
-    ]
 
 
 def _tolerances(answer: Mapping[str, Any], of: tuple[str, ...]) -> tuple[Tolerance, ...]:

@@ -12,7 +12,8 @@ from flint import fmpq
 from quizgen.errors import MathError
 from quizgen.maths.notation import ReadError, parse
 from quizgen.maths.precision import PRECISION, working_precision
-from quizgen.maths.tree import Expr, Field, compile_expr, exact
+from quizgen.maths.systems import NumberSystem, compile_expr, exact
+from quizgen.maths.tree import Expr
 from quizgen.maths.values import Value
 
 Scalar = str | int | float
@@ -49,7 +50,7 @@ def _guarded_exp(a: Value) -> Value:
 
 
 @cache
-def bounded() -> Field:
+def bounded() -> NumberSystem:
     """The exact field with bounds on size, for mathematics typed by learners."""
     ops: dict[str, Callable[..., Any]] = {**exact().ops, "pow": _guarded_power, "exp": _guarded_exp}
     return replace(exact(), name="bounded", ops=ops)

@@ -14,7 +14,8 @@ from quizgen.errors import MathError, Undecided
 from quizgen.marking.reading.scalars import ReadError
 from quizgen.maths.constants import Scalar, TooLargeError, bounded, exact_value
 from quizgen.maths.precision import working_precision
-from quizgen.maths.tree import Expr, compile_expr, names
+from quizgen.maths.systems import compile_expr
+from quizgen.maths.tree import Expr, names
 
 POINTS = 8
 """Points at which both formulas must have a value and agree."""
