@@ -140,10 +140,17 @@ class Bank:
         close = difflib.get_close_matches(name, self.paths, 3)
         return f"; did you mean {', '.join(close)}?" if close else f" (there are {len(self.paths)})"
 
+    def languages(self, name: str) -> tuple[str, ...]:
+        """Languages that a template is written in, without reading them."""
+        return tuple(path.stem for path in self._prose(name))
+
+    def _prose(self, name: str) -> list[Path]:
+        return [path for path in sorted(self._folder(name).iterdir()) if PROSE.fullmatch(path.name)]
+
     def _load(self, name: str) -> Template:
         folder = self._folder(name)
         rules = self.rules(name)
-        prose = [path for path in sorted(folder.iterdir()) if PROSE.fullmatch(path.name)]
+        prose = self._prose(name)
         files = [folder / "template.toml", *prose]
         chain, source = self._chain(rules)
         texts = {path.stem: read_text(path) for path in prose}

@@ -1,0 +1,29 @@
+"""What to ask next: every fitting template once, in an order of the seed, before one returns."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+
+from quizgen.bank.folder import Bank
+from quizgen.practice.state import Wish
+
+
+def fitting(bank: Bank, wish: Wish) -> tuple[str, ...]:
+    """Names of the templates that fit topic, tier and language."""
+    return tuple(
+        name for name in bank.paths
+        if wish.topic in (None, bank.rules(name).topic)
+        and wish.tier in (None, bank.rules(name).tier)
+        and wish.lang in bank.languages(name)
+    )  # fmt: skip
+
+
+def nth(bank: Bank, names: Sequence[str], seed: str, number: int) -> str:
+    """Template of a session's question, counted from 1."""
+    turn, place = divmod(number - 1, len(names))
+
+    def rank(name: str) -> bytes:
+        return hashlib.sha256(f"practice/{seed}/{turn}/{bank.origin(name)}".encode()).digest()
+
+    return sorted(names, key=rank)[place]

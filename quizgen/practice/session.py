@@ -1,0 +1,112 @@
+"""A session: which question comes next, what has been done, and the summary at its end."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from quizgen.bank.folder import Bank
+from quizgen.errors import one_of
+from quizgen.locale import languages
+from quizgen.marking.options import Options
+from quizgen.paper.key import key_question
+from quizgen.paper.marking import Marker
+from quizgen.paper.paper import Item
+from quizgen.practice.choosing import fitting, nth
+from quizgen.practice.state import Outcome, State
+from quizgen.practice.task import Task
+from quizgen.question.compose import Question, compose
+
+
+@dataclass(frozen=True)
+class Turn:
+    """One question of a session and its tasks, in order."""
+
+    number: int
+    question: Question
+    tasks: tuple[Task, ...]
+
+    @property
+    def outcomes(self) -> tuple[Outcome, ...]:
+        """Outcomes of the tasks that are done."""
+        return tuple(task.outcome for task in self.tasks if task.outcome is not None)
+
+    @property
+    def finished(self) -> bool:
+        """Whether every task is done."""
+        return len(self.outcomes) == len(self.tasks)
+
+
+@dataclass(frozen=True)
+class TopicResult:
+    """Parts of one topic: how many, how many right at once, how many after help or another try."""
+
+    topic: str
+    count: int
+    right: int
+    later: int
+
+
+class Session:
+    """Questions one after another, as a wish and a seed fix them.
+
+    Parameters
+    ----------
+    bank : Bank
+    state : State
+        A new one, or one that was kept.
+
+    Raises
+    ------
+    ChoiceError
+        If there is no such language.
+    """
+
+    def __init__(self, bank: Bank, state: State) -> None:
+        one_of("language", state.wish.lang, languages())
+        self.bank, self.state = bank, state
+        self.templates = fitting(bank, state.wish)
+        """Names of the templates that fit the wish; without any the session is finished."""
+
+    @property
+    def finished(self) -> bool:
+        """Whether there is nothing more to ask."""
+        return not self.templates or self.state.done >= self.state.wish.count
+
+    def turn(self) -> Turn:
+        """The question that is due; the same until it is finished.
+
+        Raises
+        ------
+        BankError, DrawError
+            If its template is wrong.
+        """
+        number = self.state.done + 1
+        name = nth(self.bank, self.templates, self.state.seed, number)
+        question, key = compose(
+            self.bank.template(name),
+            self.state.seed,
+            self.state.wish.lang,
+            slot=str(number),
+            number=str(number),
+        )
+        keyed = key_question(Item(str(number), (question,), (key,)))
+        marker = Marker(keyed, Options(self.state.wish.lang))
+        parts = zip(question.parts, key.solution.parts, keyed.parts, strict=True)
+        return Turn(number, question, tuple(Task(question.topic, *one, marker) for one in parts))
+
+    def finish(self, turn: Turn) -> None:
+        """Write down how a question went, and go on to the next."""
+        self.state.outcomes = [*self.state.outcomes, *turn.outcomes]
+        self.state.done = turn.number
+
+    def summary(self) -> tuple[TopicResult, ...]:
+        """Results by topic, in alphabetical order."""
+        outcomes = self.state.outcomes
+        topics = sorted({outcome.topic for outcome in outcomes})
+        return tuple(_result(topic, [o for o in outcomes if o.topic == topic]) for topic in topics)
+
+
+def _result(topic: str, outcomes: list[Outcome]) -> TopicResult:
+    right = sum(outcome.first for outcome in outcomes)
+    later = sum(outcome.right and not outcome.first for outcome in outcomes)
+    return TopicResult(topic, len(outcomes), right, later)

@@ -1,0 +1,114 @@
+"""One part being asked: tries, hints in rungs, feedback, and how it went."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from quizgen.bank.prose import Inline
+from quizgen.marking.verdict import Verdict
+from quizgen.paper.key import KeyPart
+from quizgen.paper.marking import SELF_MARKED, Marker
+from quizgen.practice.state import Outcome
+from quizgen.question.compose import Part
+from quizgen.question.solution import PartSolution
+
+TRIES = 3
+"""Wrong answers after which the solution is shown."""
+
+
+class Next(Enum):
+    """What is to happen after an answer."""
+
+    ASK_BACK = "ask back"
+    """It could not be read as meant; that cost no try."""
+    AGAIN = "again"
+    """Not right yet, and there are tries left."""
+    SELF_MARK = "self-mark"
+    """Show the solution and let the learner say whether the answer was right."""
+    RIGHT = "right"
+    OUT_OF_TRIES = "out of tries"
+
+
+@dataclass(frozen=True)
+class Feedback:
+    """What is said to an answer.
+
+    Parameters
+    ----------
+    verdict : Verdict
+        With its message in the session's language.
+    then : Next
+        What is to happen now.
+    left : int
+        Tries that are left.
+    """
+
+    verdict: Verdict
+    then: Next
+    left: int
+
+
+class Task:
+    """One part, asked until it is right, given up, or out of tries.
+
+    Parameters
+    ----------
+    topic : str
+    part : Part
+        What is shown.
+    solved : PartSolution
+        Its worked solution, to be shown when the task is done.
+    keyed : KeyPart
+        What it is marked by.
+    marker : Marker
+        Of the whole question: it carries errors forward to the parts that follow.
+    """
+
+    def __init__(
+        self, topic: str, part: Part, solved: PartSolution, keyed: KeyPart, marker: Marker
+    ) -> None:
+        self.topic, self.part, self.solved = topic, part, solved
+        self._keyed, self._marker = keyed, marker
+        self.tries = 0
+        self.hints = 0
+        self.outcome: Outcome | None = None
+        """How it went, once it is done."""
+
+    def hint(self) -> tuple[Inline, ...] | None:
+        """The next hint: why the next step of the solution is taken; None if there is no more."""
+        if self.hints >= len(self.solved.lines):
+            return None
+        self.hints += 1
+        return self.solved.lines[self.hints - 1].why
+
+    def give_up(self) -> None:
+        """End the task as not right."""
+        self._end(right=False)
+
+    def answer(self, typed: str) -> Feedback:
+        """Mark an answer; what cannot be read costs nothing."""
+        verdict = self._marker.mark(self._keyed, typed).verdict
+        then = self._next(verdict)
+        if then in {Next.RIGHT, Next.OUT_OF_TRIES}:
+            self._end(right=then is Next.RIGHT)
+        return Feedback(verdict, then, TRIES - self.tries)
+
+    def _next(self, verdict: Verdict) -> Next:
+        self_marked = verdict.note in SELF_MARKED
+        if not verdict.graded and not self_marked:
+            return Next.ASK_BACK
+        self.tries += 1
+        if self_marked:
+            return Next.SELF_MARK
+        if verdict.verdict == "correct":
+            return Next.RIGHT
+        return Next.AGAIN if self.tries < TRIES else Next.OUT_OF_TRIES
+
+    def mark_yourself(self, *, right: bool) -> None:
+        """End the task with the learner's own judgement."""
+        self._end(right=right)
+
+    def _end(self, *, right: bool) -> None:
+        first = right and self.tries == 1 and not self.hints
+        self.outcome = Outcome(self.topic, right, first)
