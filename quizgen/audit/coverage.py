@@ -69,6 +69,12 @@ def coverage(bank: Bank) -> list[Row]:
     return [_row(group, items, by_item) for group, items in INVENTORY.items()]
 
 
+def covering(bank: Bank, item: str) -> list[str]:
+    """Templates that cover an item, or a part of it: ``C12`` finds ``C12a``."""
+    wanted = re.compile(rf"{re.escape(item)}(?:-?[a-z].*)?")
+    return [name for name in bank.paths if any(map(wanted.fullmatch, _covered(bank, name)))]
+
+
 def unknown(bank: Bank) -> list[tuple[str, str]]:
     """Template and item wherever a template claims something the curriculum does not have.
 

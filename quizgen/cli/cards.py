@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Unpack
 
 import click
 
-from quizgen.cli.options import bank_options, open_bank
+from quizgen.cli.options import SEED, BankOptions, bank_options, checked, open_bank, split
+from quizgen.locale import FIRST, choices
 
 if TYPE_CHECKING:
     from quizgen.cards import Deck
@@ -17,12 +18,25 @@ FORMATS = ("apkg", "tsv", "csv")
 NAME = "quizgen"
 
 
+class Options(BankOptions):
+    """Which cards, and where to."""
+
+    lang: str
+    topics: str | None
+    kinds: str | None
+    seed: int
+    formats: str
+    marks: Path | None
+    blueprint: str | None
+    out: Path
+
+
 @click.command()
-@click.option("--lang", type=click.Choice(["en", "bn", "both"]), default="en", show_default=True)
+@click.option("--lang", type=click.Choice(choices()), default=FIRST, show_default=True)
 @click.option("--topic", "topics", help="Only these topics, by comma.")
 @click.option("--kind", "kinds", help="Only these kinds, by comma: vocab, formula, cheat, trap, "
               "figure, truth, choice, question.")  # fmt: skip
-@click.option("--seed", type=click.IntRange(0, 10**9), default=0, show_default=True,
+@click.option("--seed", type=SEED, default=0, show_default=True,
               help="Number that fixes the worked questions.")  # fmt: skip
 @click.option("--format", "formats", default="apkg", show_default=True,
               help="apkg (Anki), tsv, csv; by comma.")  # fmt: skip
@@ -32,35 +46,23 @@ NAME = "quizgen"
 @click.option("--out", type=click.Path(path_type=Path), default=Path("cards"), show_default=True,
               help="Folder to write to.")  # fmt: skip
 @bank_options
-def cards(**options: Any) -> None:
+def cards(**options: Unpack[Options]) -> None:
     """Make flashcards for Anki and other programs."""
     from quizgen.files import write_all
 
-    formats = _names(options["formats"])
-    _check_formats(formats)
+    formats = [checked("--format", name, FORMATS) for name in split(options["formats"])]
     deck = _deck(options)
     if not deck.notes:
         click.echo("Nothing to learn: no card fits.")
         return
-    folder: Path = options["out"]
+    folder = options["out"]
     written = write_all(folder, _contents(deck, formats))
     if deck.media and set(formats) & {"tsv"}:
         written += write_all(folder / "media", deck.media)[:1]
     _report(deck, written)
 
 
-def _names(text: str | None) -> tuple[str, ...]:
-    return tuple(name.strip() for name in (text or "").split(",") if name.strip())
-
-
-def _check_formats(formats: tuple[str, ...]) -> None:
-    for name in formats:
-        if name not in FORMATS:
-            allowed = ", ".join(FORMATS)
-            raise click.BadParameter(f"{name!r} (allowed: {allowed})", param_hint="--format")
-
-
-def _deck(options: dict[str, Any]) -> Deck:
+def _deck(options: Options) -> Deck:
     from quizgen.cards import build
 
     bank = open_bank(options)
@@ -72,14 +74,14 @@ def _deck(options: dict[str, Any]) -> Deck:
         )
     return build(
         options["lang"],
-        topics=_names(options["topics"]),
-        kinds=_names(options["kinds"]),
+        topics=split(options["topics"]),
+        kinds=split(options["kinds"]),
         seed=options["seed"],
         bank=bank,
     )
 
 
-def _contents(deck: Deck, formats: tuple[str, ...]) -> Mapping[str, bytes]:
+def _contents(deck: Deck, formats: list[str]) -> Mapping[str, bytes]:
     from quizgen.cards.apkg import package
     from quizgen.cards.tables import as_csv, tsv
 

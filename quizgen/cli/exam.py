@@ -3,30 +3,46 @@
 from __future__ import annotations
 
 import secrets
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Unpack
 
 import click
 
-from quizgen.cli.options import bank_options, open_bank
+from quizgen.cli.options import SEED, BankOptions, bank_options, checked, open_bank, split
 from quizgen.errors import CodeError
+from quizgen.locale import FIRST, choices
 
 if TYPE_CHECKING:
+    from quizgen.paper.blueprint import Blueprint
     from quizgen.paper.paper import Paper
 
 KEY, FORM = "key.json", "answers.toml"
 
 
+class Options(BankOptions):
+    """Which paper, and where to."""
+
+    seed: int | None
+    code: str | None
+    blueprint: str
+    topic: str | None
+    minutes: int | None
+    lang: str | None
+    formats: str
+    out: Path
+    reference: bool
+
+
 @click.command()
-@click.option("--seed", type=click.IntRange(0, 10**9), help="Number that fixes every draw.")
+@click.option("--seed", type=SEED, help="Number that fixes every draw.")
 @click.option("--code", help="Code of a paper: builds exactly that paper again.")
 @click.option("--blueprint", default="mock", show_default=True, help="mock, trial or a TOML file.")
 @click.option("--topic", help="Questions of one topic (or all), instead of a blueprint.")
 @click.option(
     "--minutes", type=click.IntRange(3, 9999), help="As many questions as this time allows."
 )
-@click.option("--lang", type=click.Choice(["en", "bn", "both"]), help="Language. [default: en]")
+@click.option("--lang", type=click.Choice(choices()), help=f"Language. [default: {FIRST}]")
 @click.option(
     "--format", "formats", default="html,pdf", show_default=True, help="Outputs, by comma."
 )
@@ -34,17 +50,18 @@ KEY, FORM = "key.json", "answers.toml"
               help="Folder to write to.")  # fmt: skip
 @click.option("--reference", is_flag=True, help="The questions with the numbers of the notes.")
 @bank_options
-def exam(**options: Any) -> None:
+def exam(**options: Unpack[Options]) -> None:
     """Make a mock exam with worked solutions, answer key and a blank answer form."""
     from quizgen.files import write_all
     from quizgen.paper.form import form_bytes, holds_answers
     from quizgen.paper.key import key_bytes
+    from quizgen.render import RENDERERS
 
-    formats = _formats(options["formats"])
+    formats = [checked("--format", name, RENDERERS) for name in split(options["formats"])]
     paper = _paper(options)
     contents = dict(_rendered(paper, formats))
     contents[KEY] = key_bytes(paper)
-    folder: Path = options["out"]
+    folder = options["out"]
     kept = holds_answers(folder / FORM)
     if not kept:
         contents[FORM] = form_bytes(paper)
@@ -52,18 +69,7 @@ def exam(**options: Any) -> None:
     _report(folder, paper, contents, kept=kept)
 
 
-def _formats(text: str) -> list[str]:
-    from quizgen.render import RENDERERS
-
-    names = [name.strip() for name in text.split(",") if name.strip()]
-    for name in names:
-        if name not in RENDERERS:
-            raise click.BadParameter(f"{name!r} (allowed: {', '.join(RENDERERS)})",
-                                     param_hint="--format")  # fmt: skip
-    return names
-
-
-def _paper(options: dict[str, Any]) -> Paper:
+def _paper(options: Options) -> Paper:
     from quizgen.paper.paper import build, rebuild, reference_paper
 
     bank = open_bank(options)
@@ -71,24 +77,23 @@ def _paper(options: dict[str, Any]) -> Paper:
     if options["code"]:
         if options["seed"] is not None or options["lang"]:
             raise CodeError("--code already fixes seed and language; leave --seed and --lang out")
-        named = blueprint if Path(options["blueprint"]).suffix else None
-        return rebuild(bank, options["code"], named, progress=_tell)
-    lang = options["lang"] or "en"
+        given = blueprint if Path(options["blueprint"]).suffix else None
+        return rebuild(bank, options["code"], given, progress=_tell)
+    lang = options["lang"] or FIRST
     if options["reference"]:
         return reference_paper(bank, blueprint, lang)
     seed = secrets.randbelow(10**6) if options["seed"] is None else options["seed"]
     return build(bank, blueprint, seed, lang, progress=_tell)
 
 
-def _blueprint(options: dict[str, Any]) -> Any:
+def _blueprint(options: Options) -> Blueprint:
     from quizgen.paper.blueprint import EVERYTHING, load, of_topic, topics
 
     topic, minutes = options["topic"], options["minutes"]
     if topic is None and minutes is None:
         return load(options["blueprint"])
-    if topic is not None and topic not in topics():
-        raise click.BadParameter(f"{topic!r} (allowed: {', '.join(topics())})",
-                                 param_hint="--topic")  # fmt: skip
+    if topic is not None:
+        checked("--topic", topic, topics())
     return of_topic(topic or EVERYTHING, minutes or 0)
 
 
@@ -104,13 +109,13 @@ def _rendered(paper: Paper, formats: list[str]) -> Iterator[tuple[str, bytes]]:
     for output in formats:
         for kind in KINDS:
             name = f"{kind}.{output}"
-            click.echo(f" {name}", nl=False, err=True)
+            _tell(name)
             yield name, render(paper, kind, output)
     click.echo("", err=True)
 
 
-def _report(folder: Path, paper: Paper, contents: dict[str, bytes], *, kept: bool) -> None:
-    for name in sorted(contents):
+def _report(folder: Path, paper: Paper, written: Collection[str], *, kept: bool) -> None:
+    for name in sorted(written):
         click.echo(f"  {folder / name}")
     if kept:
         click.echo(f"  {folder / FORM} holds answers and was left as it is")

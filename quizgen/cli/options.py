@@ -2,17 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, ParamSpec, TypedDict, TypeVar
 
 import click
+
+from quizgen.locale import FIRST, languages
+from quizgen.paper.code import LARGEST_SEED
 
 if TYPE_CHECKING:
     from quizgen.bank.folder import Bank
 
+P = ParamSpec("P")
+T = TypeVar("T")
 
-def bank_options(command: Callable[..., Any]) -> Callable[..., Any]:
+SEED = click.IntRange(0, LARGEST_SEED)
+"""Seeds of papers, decks and previews."""
+
+
+class BankOptions(TypedDict):
+    """The bank that a command works on."""
+
+    bank: Path | None
+    trust: bool
+
+
+def bank_options(command: Callable[P, T]) -> Callable[P, T]:
     """Add ``--bank`` and ``--trust``."""
     trust = click.option("--trust", is_flag=True, help="Run the Python solvers of --bank.")
     bank = click.option(
@@ -21,8 +37,32 @@ def bank_options(command: Callable[..., Any]) -> Callable[..., Any]:
     return bank(trust(command))
 
 
-def open_bank(options: dict[str, Any]) -> Bank:
+def open_bank(options: BankOptions) -> Bank:
     """The bank that the options name."""
     from quizgen.bank.folder import Bank, builtin
 
     return Bank(options["bank"], trusted=options["trust"]) if options["bank"] else builtin()
+
+
+def language_option(command: Callable[P, T]) -> Callable[P, T]:
+    """Add ``--lang``, one of the languages there are."""
+    kind = click.Choice(languages())
+    return click.option("--lang", type=kind, default=FIRST, show_default=True)(command)
+
+
+def checked(option: str, name: str, allowed: Collection[str]) -> str:
+    """Return a name that is one of those allowed.
+
+    Raises
+    ------
+    click.BadParameter
+        If it is not.
+    """
+    if name not in allowed:
+        raise click.BadParameter(f"{name!r} (allowed: {', '.join(allowed)})", param_hint=option)
+    return name
+
+
+def split(text: str | None) -> tuple[str, ...]:
+    """Names that stand between commas."""
+    return tuple(name.strip() for name in (text or "").split(",") if name.strip())

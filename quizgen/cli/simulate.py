@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypedDict, Unpack
 
 import click
 
@@ -12,6 +12,16 @@ if TYPE_CHECKING:
     from quizgen.camera.simulate import Photo
 
 SCENES = Path(__file__).parent.parent / "camera" / "scenes"
+
+
+class Options(TypedDict):
+    """What to run, and what to write."""
+
+    budget: str
+    question: tuple[str, ...]
+    compare: bool
+    out: Path | None
+    as_json: bool
 
 
 @click.command()
@@ -27,7 +37,7 @@ SCENES = Path(__file__).parent.parent / "camera" / "scenes"
 @click.option("--all", "compare", is_flag=True, help="Also run everything; show the difference.")
 @click.option("--out", type=click.Path(path_type=Path, dir_okay=False), help="Write a PNG here.")
 @click.option("--json", "as_json", is_flag=True, help="Print the plan as JSON.")
-def simulate(scene: str | None, **options: Any) -> None:
+def simulate(scene: str | None, **options: Unpack[Options]) -> None:
     """Photograph SCENE (a TOML file, or the name of a shipped scene).
 
     Only effects that can be seen or are asked about are run. Without SCENE, the shipped scenes are

@@ -10,10 +10,13 @@ import hashlib
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from quizgen.bank.template import Template
 from quizgen.errors import ChoiceError, CodeError
 from quizgen.locale import choices
+
+if TYPE_CHECKING:
+    from quizgen.bank.template import Template
 
 ENGINE = "1"
 """Rises when the same code would give another paper; part of every digest."""

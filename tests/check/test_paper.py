@@ -11,7 +11,7 @@ import pytest
 from click.testing import CliRunner
 
 from quizgen.cli.check import check as check_command
-from quizgen.cli.check import mark as mark_command
+from quizgen.cli.mark import mark as mark_command
 from quizgen.errors import KeyFileError
 from quizgen.marking.batch import marked
 from quizgen.paper.form import read_answers

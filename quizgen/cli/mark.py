@@ -1,0 +1,69 @@
+"""``quizgen mark``."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping
+from typing import TypedDict, Unpack
+
+import click
+
+from quizgen.cli.options import language_option
+from quizgen.errors import KeyFileError
+from quizgen.marking.options import DECIMALS
+
+
+class Options(TypedDict):
+    """How to read the answer."""
+
+    lang: str
+    decimal: str
+    settle: bool
+
+
+@click.command(short_help="Mark one answer, or JSON Lines of answers (for authors).")
+@click.argument("spec", required=False)
+@click.argument("typed", required=False)
+@click.option("--batch", is_flag=True, help="Read JSON Lines from standard input.")
+@language_option
+@click.option("--decimal", type=click.Choice(DECIMALS), default=DECIMALS[0], show_default=True)
+@click.option("--settle", is_flag=True, help="Allow SymPy to settle an undecided formula.")
+def mark(spec: str | None, typed: str | None, *, batch: bool, **options: Unpack[Options]) -> None:
+    """Mark TYPED against SPEC, an inline TOML table: '{kind="number", value="20/3", decimals=3}'.
+
+    With --batch each line of standard input is {"spec": {...}, "typed": "...", "lang": "en",
+    "decimal": "auto|point|comma"} and each line of output
+    {"verdict", "credit", "read_as", "note", "message"}.
+    """
+    if batch:
+        _batch()
+        return
+    if spec is None or typed is None:
+        raise click.UsageError("give SPEC and TYPED, or --batch")
+    import json
+
+    from quizgen.marking.mark import mark as mark_one
+
+    verdict = mark_one(_inline(spec), typed, **options)
+    click.echo(json.dumps(verdict.as_json(), ensure_ascii=False))
+
+
+def _inline(text: str) -> Mapping[str, object]:
+    import tomllib
+
+    try:
+        table = tomllib.loads(f"spec = {text}", parse_float=str)["spec"]
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        raise KeyFileError(f"spec: {error}") from None
+    if not isinstance(table, dict):
+        raise KeyFileError("spec: a table {...} is expected")
+    return table
+
+
+def _batch() -> None:
+    from quizgen.marking.batch import marked
+
+    out = sys.stdout.buffer
+    for line in marked(sys.stdin.buffer):
+        out.write(line + b"\n")
+        out.flush()

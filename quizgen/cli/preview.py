@@ -1,0 +1,46 @@
+"""``quizgen preview``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Unpack
+
+import click
+
+from quizgen.cli.options import SEED, BankOptions, bank_options, language_option, open_bank
+
+
+class Options(BankOptions):
+    """What to show, and where."""
+
+    seed: int
+    reference: bool
+    lang: str
+    html: Path | None
+
+
+@click.command()
+@click.argument("name")
+@click.option("--seed", type=SEED, default=0, show_default=True)
+@click.option("--reference", is_flag=True, help="The numbers printed in the notes.")
+@language_option
+@click.option("--html", type=click.Path(path_type=Path), help="Write a page to look at instead.")
+@bank_options
+def preview(name: str, **options: Unpack[Options]) -> None:
+    """Show one question with its key and worked solution."""
+    from quizgen.paper.code import REFERENCE
+    from quizgen.paper.paper import single
+    from quizgen.render.text import question_text
+
+    template = open_bank(options).template(name)
+    seed = REFERENCE if options["reference"] else options["seed"]
+    page = options["html"]
+    paper = single(template, seed, options["lang"], figures=page is not None)
+    if page is None:
+        click.echo(question_text(paper.items[0]))
+        return
+    from quizgen.files import write_all
+    from quizgen.render import render
+
+    write_all(page.parent, {page.name: render(paper, "solutions", "html")})
+    click.echo(str(page))
