@@ -23,7 +23,8 @@ from quizgen.bank.traps import PartPlan, factor
 from quizgen.errors import DrawError, MathError
 from quizgen.maths.numbers import places, rational, to_float
 from quizgen.maths.precision import working_precision
-from quizgen.maths.tree import Compiled, compile_expr, exact, names
+from quizgen.maths.systems import Compiled, compile_expr, exact
+from quizgen.maths.tree import names
 
 MAX_TRIES = 5000
 """Tries before a template is called impossible."""
@@ -249,7 +250,7 @@ def admissible(
     approximate = {name: to_float(value) for name, value in values.items()}
     traps = []
     for part in plan.parts:
-        usable = part.check(approximate, lenient=lenient)
+        usable = part.check(approximate, shown, lenient=lenient)
         if isinstance(usable, str):
             return usable
         traps.append(usable)

@@ -8,17 +8,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from fractions import Fraction
 from functools import cache
 from typing import Any
 
+import msgspec
 from flint import fmpq
 
 from quizgen.bank.template import Template
 from quizgen.errors import BankError
-from quizgen.maths.chain import ChainStep
+from quizgen.maths.chain import ChainStep, Plan
 from quizgen.maths.numbers import rational, to_float
-from quizgen.maths.tree import Compiled, compile_expr, floats
+from quizgen.maths.systems import compile_expr, floats
+from quizgen.maths.tolerance import MARGIN, RULES, Tolerance, tolerance_of
+from quizgen.maths.tree import names
 from quizgen.maths.units import unit
 
 TIE_MARGIN = 0.02
@@ -61,25 +63,34 @@ class PartPlan:
         whole = 0.01 if self.answer.get("percent") else 1.0
         self.factors = tuple(whole * to_float(factor(self.unit_of(template, n))) for n in self.of)
         self.traps = {
-            trap: _float_plan(template, wrong)
+            trap: template.chain.plan(wrong, floats())
             for trap, wrong in template.chain.traps.items()
             if trap not in rules.drop and self._concerns(template, wrong, needed)
         }
         self.may_vanish = frozenset(rules.may_vanish)
-        self.one_step = "decimals" in self.answer and "within" in self.answer
-        self.apart = 1.0 + 1e-9 if self.one_step else APART
+        try:
+            self.tolerances = _tolerances(self.answer, self.of)
+        except (msgspec.ValidationError, ValueError) as error:
+            place = f"{template.path / 'template.toml'}: part {index + 1}"
+            raise BankError(f"{place}: {error}") from None
+        bounds = self.answer.get("accept", ()) if self.of else ()
+        self.accept = [_Bound(template, str(text)) for text in bounds]
+        self.one_step = any(t.decimals is not None and t.within != 1 for t in self.tolerances)
+        self.apart = 1.0 if self.one_step else APART
 
     def _reported(self, values: tuple[float, ...]) -> tuple[float, ...]:
         """Round a wrong answer as it would be written down, if that is what is judged."""
         if not self.one_step:
             return values
-        scale = 10.0 ** int(self.answer["decimals"])
-        return tuple(math.copysign(math.floor(abs(v) * scale + 0.5) / scale, v) for v in values)
+        return tuple(
+            v if t.decimals is None else _rounded(v, t.decimals)
+            for v, t in zip(values, self.tolerances, strict=True)
+        )
 
     def _concerns(
         self, template: Template, wrong: tuple[ChainStep, ...], needed: frozenset[str]
     ) -> bool:
-        changed = {name for name, _ in template.chain._plan(wrong)}  # noqa: SLF001 - same package
+        changed = {name for name, _ in template.chain.plan(wrong, floats())}
         return bool({s.name for s in wrong} & needed) and bool(changed & set(self.of))
 
     def unit_of(self, template: Template, name: str) -> str:
@@ -87,26 +98,26 @@ class PartPlan:
         asked = self.answer.get("unit")
         return str(asked) if asked is not None else template.units.get(name, "")
 
-    def tolerance(self, key: float) -> float:
-        """Half-width of the accepted interval, seen from outside (never too small)."""
-        answer = self.answer
-        if "abs" in answer:
-            return float(Fraction(str(answer["abs"])))
-        if "rel" in answer:
-            return float(Fraction(str(answer["rel"]))) * abs(key)
-        within = float(Fraction(str(answer.get("within", 1))))
-        if "decimals" in answer:
-            return within * 10.0 ** -int(answer["decimals"])
-        if "sigfigs" in answer:
-            return within * abs(key) * 10.0 ** (1 - int(answer["sigfigs"]))
-        return min(0.005, 0.01 * abs(key))
+    def check(
+        self, env: Mapping[str, float], shown: Mapping[str, fmpq], *, lenient: bool
+    ) -> tuple[str, ...] | str:
+        """Names of the usable traps, or the reason to redraw.
 
-    def check(self, env: Mapping[str, float], *, lenient: bool) -> tuple[str, ...] | str:
-        """Names of the usable traps, or the reason to redraw."""
+        Parameters
+        ----------
+        env : mapping of str to float
+            Every quantity of the chain in base units.
+        shown : mapping of str to flint.fmpq
+            Drawn quantities in the units they are shown in.
+        lenient : bool
+            Leave out traps that cannot be told apart instead of asking for a redraw.
+        """
         if not self.of:
             return ()
         key = tuple(env[n] / f for n, f in zip(self.of, self.factors, strict=True))
-        widths = tuple(self.apart * self.tolerance(k) for k in key)
+        widths = tuple(
+            self.apart * t.outer_width(k) for t, k in zip(self.tolerances, key, strict=True)
+        )
         if not lenient and self._near_tie(key):
             return "rounding tie"
         exact_values, seen = {"the key": key}, {"the key": key}
@@ -116,11 +127,23 @@ class PartPlan:
                 continue
             written = self._reported(value)
             twin = next((n for n, v in seen.items() if _close(written, v, widths)), None)
+            if _close(value, key, widths) or self._accepted(value, env, shown):
+                twin = "the key"
             if twin is None:
                 exact_values[trap], seen[trap] = value, written
             elif not (lenient or self._may_vanish(trap, twin, value, exact_values[twin])):
                 return f"trap {trap!r} cannot be told from {twin!r}"
         return tuple(name for name in seen if name != "the key")
+
+    def _accepted(
+        self, values: tuple[float, ...], env: Mapping[str, float], shown: Mapping[str, fmpq]
+    ) -> bool:
+        """Whether values lie in the interval accepted besides, seen from outside."""
+        if not self.accept:
+            return False
+        low, high = (bound.at(env, shown) for bound in self.accept)
+        slack = (MARGIN - 1) * max(abs(low), abs(high))
+        return all(low - slack <= v <= high + slack for v in values)
 
     def _may_vanish(
         self, trap: str, twin: str, value: tuple[float, ...], other: tuple[float, ...]
@@ -129,14 +152,13 @@ class PartPlan:
         return trap in self.may_vanish and (twin != "the key" or _same(value, other))
 
     def _near_tie(self, key: tuple[float, ...]) -> bool:
-        if "decimals" not in self.answer:
-            return False
-        scale = 10.0 ** int(self.answer["decimals"])
-        return any(abs((abs(k) * scale) % 1.0 - 0.5) < TIE_MARGIN for k in key)
+        return any(
+            abs((abs(k) * 10.0**t.decimals) % 1.0 - 0.5) < TIE_MARGIN
+            for k, t in zip(key, self.tolerances, strict=True)
+            if t.decimals is not None
+        )
 
-    def _trapped(
-        self, plan: list[tuple[str, Compiled]], env: Mapping[str, float]
-    ) -> tuple[float, ...] | None:
+    def _trapped(self, plan: Plan, env: Mapping[str, float]) -> tuple[float, ...] | None:
         changed = dict(env)
         try:
             for name, compiled in plan:
@@ -146,14 +168,35 @@ class PartPlan:
         return tuple(changed[n] / f for n, f in zip(self.of, self.factors, strict=True))
 
 
-def _float_plan(template: Template, wrong: tuple[ChainStep, ...]) -> list[tuple[str, Compiled]]:
-    swapped = {step.name: step.expr for step in wrong}
-    chain = template.chain
-    order = [name for name, _ in chain._plan(wrong)]  # noqa: SLF001 - same package
-    return [
-        (name, compile_expr(swapped.get(name, chain.by_name[name].expr), floats()))
-        for name in order
-    ]
+def _tolerances(answer: Mapping[str, Any], of: tuple[str, ...]) -> tuple[Tolerance, ...]:
+    """The tolerance of each component: a cell's own rule, else that of the whole answer."""
+    labels, cells = answer.get("of"), answer.get("cells", {})
+    own = [cells.get(label, {}) for label in (labels if isinstance(labels, Mapping) else of)]
+    return tuple(
+        tolerance_of(cell if {*RULES} & cell.keys() else {**answer, **cell}) for cell in own
+    )
+
+
+def _rounded(value: float, decimals: int) -> float:
+    scale = 10.0**decimals
+    return math.copysign(math.floor(abs(value) * scale + 0.5) / scale, value)
+
+
+class _Bound:
+    """A bound of an interval, as a formula over quantities in the units they are shown in."""
+
+    def __init__(self, template: Template, text: str) -> None:
+        tree = template.formula(text)
+        self.compiled = compile_expr(tree, floats())
+        self.sizes = {n: to_float(factor(template.units[n])) for n in names(tree)}
+
+    def at(self, env: Mapping[str, float], shown: Mapping[str, fmpq]) -> float:
+        """Its value in a draw."""
+        known = {
+            name: to_float(shown[name]) if name in shown else env[name] / size
+            for name, size in self.sizes.items()
+        }
+        return float(self.compiled(known))
 
 
 def _close(a: tuple[float, ...], b: tuple[float, ...], widths: tuple[float, ...]) -> bool:

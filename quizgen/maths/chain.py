@@ -7,14 +7,19 @@ diagnosing all run the same compiled chain. It serialises to plain formulas of t
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Container, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import TypeAlias
 
 from quizgen.errors import MathError
 from quizgen.maths.precision import PRECISION, working_precision
-from quizgen.maths.tree import Compiled, Expr, compile_inner, exact, names
+from quizgen.maths.systems import Compiled, NumberSystem, compile_inner, exact
+from quizgen.maths.tree import Expr, names
 from quizgen.maths.values import Value, Values
+
+Plan: TypeAlias = tuple[tuple[str, Compiled], ...]
+"""Quantities to compute, in order, each from the ones given and before it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,26 +55,62 @@ class Chain:
         return {step.name: step for step in self.steps}
 
     @cached_property
-    def _compiled(self) -> list[tuple[str, Compiled]]:
-        return [(step.name, compile_inner(step.expr, exact())) for step in self.steps]
+    def uses(self) -> dict[str, frozenset[str]]:
+        """Step name to the quantities in its formula."""
+        return {step.name: names(step.expr) for step in self.steps}
 
     @cached_property
-    def _trap_plans(self) -> dict[str, list[tuple[str, Compiled]]]:
-        return {name: self._plan(wrong) for name, wrong in self.traps.items()}
+    def _compiled(self) -> dict[str, dict[str, Compiled]]:
+        """Number system to step name to the right formula, filled on demand."""
+        return {}
 
-    def _plan(self, wrong: Iterable[ChainStep]) -> list[tuple[str, Compiled]]:
-        """Only the steps that a replacement changes, in order."""
-        swapped = {step.name: step for step in wrong}
-        changed: set[str] = set()
+    @cached_property
+    def _trap_plans(self) -> dict[str, Plan]:
+        return {name: self.plan(wrong, exact()) for name, wrong in self.traps.items()}
+
+    def compiled(self, system: NumberSystem) -> dict[str, Compiled]:
+        """Step name to its formula in a number system, compiled once, in order."""
+        found = self._compiled.get(system.name)
+        if found is None:
+            found = {step.name: compile_inner(step.expr, system) for step in self.steps}
+            self._compiled[system.name] = found
+        return found
+
+    def plan(
+        self,
+        wrong: Iterable[ChainStep],
+        system: NumberSystem,
+        *,
+        changed: Iterable[str] = (),
+        within: Container[str] | None = None,
+    ) -> Plan:
+        """Only the steps that a change touches, compiled, in order.
+
+        Parameters
+        ----------
+        wrong : iterable of ChainStep
+            Steps that stand in for the right ones of the same name.
+        system : NumberSystem
+            What the plan computes in.
+        changed : iterable of str
+            Given quantities that take other values.
+        within : container of str, optional
+            Leave out steps of other names.
+        """
+        swapped = {step.name: step.expr for step in wrong}
+        right = self.compiled(system)
+        touched = set(changed)
         plan = []
-        for name, compiled in self._compiled:
-            if name in swapped:
-                plan.append((name, compile_inner(swapped[name].expr, exact())))
-                changed.add(name)
-            elif changed & names(self.by_name[name].expr):
-                plan.append((name, compiled))
-                changed.add(name)
-        return plan
+        for step in self.steps:
+            if within is not None and step.name not in within:
+                continue
+            if step.name in swapped:
+                plan.append((step.name, compile_inner(swapped[step.name], system)))
+                touched.add(step.name)
+            elif touched & self.uses[step.name]:
+                plan.append((step.name, right[step.name]))
+                touched.add(step.name)
+        return tuple(plan)
 
     def solve(self, given: Values, precision: int = PRECISION) -> dict[str, Value]:
         """Every quantity of the chain, exactly or as a certified ball.
@@ -86,7 +127,7 @@ class Chain:
         MathError
             If a step has no finite real value.
         """
-        return _run(self._compiled, dict(given), precision)
+        return _run(self.compiled(exact()).items(), dict(given), precision)
 
     def trapped(self, trap: str, solved: Values, precision: int = PRECISION) -> dict[str, Value]:
         """The quantities as a student in this trap would get them.
@@ -100,7 +141,7 @@ class Chain:
 
     def with_steps(self, wrong: Iterable[ChainStep], solved: Values) -> dict[str, Value]:
         """Recompute with some steps replaced (mutations, a student's own earlier answer)."""
-        return _run(self._plan(wrong), dict(solved), PRECISION)
+        return _run(self.plan(wrong, exact()), dict(solved), PRECISION)
 
     def needs(self, name: str, known: Iterable[str] = ()) -> frozenset[str]:
         """Step names that ``name`` rests on, not looking through quantities already known."""
@@ -110,12 +151,12 @@ class Chain:
             if current in seen or current not in self.by_name:
                 continue
             seen.add(current)
-            todo += [n for n in names(self.by_name[current].expr) if n not in stop]
+            todo += [n for n in self.uses[current] if n not in stop]
         return frozenset(seen)
 
 
 def _run(
-    plan: list[tuple[str, Compiled]], env: dict[str, Value], precision: int
+    plan: Iterable[tuple[str, Compiled]], env: dict[str, Value], precision: int
 ) -> dict[str, Value]:
     with working_precision(precision):
         for name, compiled in plan:

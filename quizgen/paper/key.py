@@ -15,8 +15,8 @@ from flint import fmpq
 from quizgen.errors import KeyFileError
 from quizgen.files import read_table
 from quizgen.marking.options import Context
-from quizgen.marking.reading.scalars import exact_value
 from quizgen.maths.chain import Chain, ChainStep
+from quizgen.maths.constants import exact_value
 
 if TYPE_CHECKING:
     from quizgen.paper.paper import Item, Paper

@@ -216,7 +216,7 @@ def _lettered(
 def figure_values(drawn: Draw) -> dict[str, Any]:
     """Parameters of the template's figure, as floats in shown units (words stay words)."""
     from quizgen.bank.draw import plan_of
-    from quizgen.maths.tree import compile_expr, exact
+    from quizgen.maths.systems import compile_expr, exact
 
     rule = drawn.template.rules.figure
     if rule is None:

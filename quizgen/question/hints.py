@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from fractions import Fraction
 from typing import Any
 
 from quizgen.locale import word
+from quizgen.maths.constants import exact_value
+from quizgen.maths.numbers import to_float
+from quizgen.maths.tolerance import tolerance_of
 from quizgen.maths.units import shown
 
 
@@ -53,18 +55,17 @@ def _unit(kind: str, answer: Mapping[str, Any], lang: str) -> str:
 
 
 def _rounding(spec: Mapping[str, Any], lang: str) -> str:
-    if "decimals" in spec:
-        count = int(spec["decimals"])
-        name = f"ask.decimals_{count}" if count in (0, 1) else "ask.decimals"
-        return word(lang, name, n=count)
-    if "sigfigs" in spec:
-        return word(lang, "ask.sigfigs", n=spec["sigfigs"])
-    if spec.get("exact"):
+    rule, number = tolerance_of(spec).stated or ("", "")
+    if rule == "decimals":
+        name = f"ask.decimals_{number}" if number in {0, 1} else "ask.decimals"
+        return word(lang, name, n=number)
+    if rule == "sigfigs":
+        return word(lang, "ask.sigfigs", n=number)
+    if rule == "exact":
         return word(lang, "ask.whole" if _whole(spec) else "ask.exact")
-    if "rel" in spec:
-        percent = Fraction(str(spec["rel"])) * 100
-        return word(lang, "ask.rel", percent=f"{float(percent):g}")
-    return word(lang, "ask.abs", abs=spec["abs"]) if "abs" in spec else ""
+    if rule == "rel":
+        return word(lang, "ask.rel", percent=f"{to_float(exact_value(number) * 100):g}")
+    return word(lang, "ask.abs", abs=number) if rule == "abs" else ""
 
 
 def _whole(spec: Mapping[str, Any]) -> bool:

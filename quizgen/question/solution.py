@@ -23,16 +23,8 @@ from quizgen.maths.chain import ChainStep
 from quizgen.maths.notation import to_text
 from quizgen.maths.numbers import exact_text, rational, rounded_text, short_decimal
 from quizgen.maths.precision import working_precision
-from quizgen.maths.tree import (
-    Expr,
-    Sym,
-    compile_expr,
-    exact,
-    floats,
-    names,
-    singles,
-    taken_branch,
-)
+from quizgen.maths.systems import compile_expr, exact, floats, singles, taken_branch
+from quizgen.maths.tree import Expr, Sym, names
 from quizgen.maths.units import shown as unit_shown
 from quizgen.maths.units import unit
 

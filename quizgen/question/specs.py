@@ -15,7 +15,8 @@ from quizgen.bank.prose import Code, Formula, Slot, Styled, Words
 from quizgen.bank.traps import answer_names, factor
 from quizgen.errors import BankError
 from quizgen.maths.numbers import exact_text, key_text
-from quizgen.maths.tree import Num, compile_expr, exact, substitute
+from quizgen.maths.systems import compile_expr, exact
+from quizgen.maths.tree import Num, substitute
 
 Spec = dict[str, Any]
 LETTERS = "ABCDEFGHIJKL"

@@ -1,6 +1,6 @@
 """Number systems beyond the exact one: NumPy arrays, pairs of doubles, mpmath, SymPy.
 
-Each is a ``quizgen.maths.tree.Field``, so one formula tree runs in all of them.
+Each is a ``quizgen.maths.tree.NumberSystem``, so one formula tree runs in all of them.
 """
 
 from __future__ import annotations
@@ -13,7 +13,8 @@ from functools import cache, reduce
 from typing import Any
 
 from quizgen.maths.floats import OPS
-from quizgen.maths.tree import Call, Expr, Field, Num, walk
+from quizgen.maths.systems import NumberSystem
+from quizgen.maths.tree import Call, Expr, Num, walk
 
 _SAME = ("add", "mul", "sub", "neg", "div", "abs", "eq", "ne", "lt", "le", "gt", "ge")
 _ARITHMETIC: dict[str, Callable[..., Any]] = {name: OPS[name] for name in _SAME} | {
@@ -23,7 +24,7 @@ _ARITHMETIC: dict[str, Callable[..., Any]] = {name: OPS[name] for name in _SAME}
 
 
 @cache
-def arrays(bits: int) -> Field:
+def arrays(bits: int) -> NumberSystem:
     """NumPy arrays of 32 or 64 bits, the formula as it is printed."""
     import numpy as np
 
@@ -43,7 +44,7 @@ def arrays(bits: int) -> Field:
         "pi": lambda: number(math.pi),
         "piecewise": _where,
     }
-    return Field(f"float{bits}", lambda q: number(float(q)), ops)
+    return NumberSystem(f"float{bits}", lambda q: number(float(q)), ops)
 
 
 def _special(name: str, bits: int) -> Callable[[Any], Any]:
@@ -73,7 +74,7 @@ PAIR_OPS = frozenset({"add", "mul", "sub", "neg", "div", "pow", "abs"})
 
 
 @cache
-def pairs() -> Field:
+def pairs() -> NumberSystem:
     """Unevaluated sums of two doubles (twice the working precision) on arrays."""
     from quizgen.arrays.double_double import Pair
 
@@ -82,7 +83,7 @@ def pairs() -> Field:
         return Pair(high, float(q - Fraction(high)))
 
     ops = _ARITHMETIC | {"pow": lambda x, n: reduce(operator.mul, [x] * int(n.high))}
-    return Field("double-double", constant, ops)
+    return NumberSystem("double-double", constant, ops)
 
 
 def fits_pairs(expr: Expr) -> bool:
@@ -96,7 +97,7 @@ def fits_pairs(expr: Expr) -> bool:
 
 
 @cache
-def multiprecision() -> Field:
+def multiprecision() -> NumberSystem:
     """``mpmath`` at the precision in force."""
     import mpmath as mp
 
@@ -114,11 +115,11 @@ def multiprecision() -> Field:
         "max": max,
         "pi": lambda: +mp.pi,
     }
-    return Field("mpmath", lambda q: mp.mpf(q.numerator) / q.denominator, ops)
+    return NumberSystem("mpmath", lambda q: mp.mpf(q.numerator) / q.denominator, ops)
 
 
 @cache
-def symbolic() -> Field:
+def symbolic() -> NumberSystem:
     """SymPy expressions on exact rationals, evaluated at the end."""
     import sympy
 
@@ -138,4 +139,4 @@ def symbolic() -> Field:
         "eq": lambda a, b: a == b,
         "pi": lambda: sympy.pi,
     }
-    return Field("SymPy", lambda q: sympy.Rational(q.numerator, q.denominator), ops)
+    return NumberSystem("SymPy", lambda q: sympy.Rational(q.numerator, q.denominator), ops)

@@ -7,7 +7,8 @@ from fractions import Fraction
 from typing import Any
 
 from quizgen.errors import QuizgenError
-from quizgen.maths.tree import Expr, compile_expr, exact
+from quizgen.maths.systems import compile_expr, exact
+from quizgen.maths.tree import Expr
 from quizgen.tradeoff import fields
 from quizgen.tradeoff.families import Family
 from quizgen.tradeoff.rung import DIGITS, Rung, ball_value, to_float

@@ -12,7 +12,8 @@ import sympy as sp
 from quizgen.errors import BankError
 from quizgen.maths.from_sympy import convert
 from quizgen.maths.notation import parse
-from quizgen.maths.tree import Call, Num, evaluate, floats, names
+from quizgen.maths.systems import evaluate, floats
+from quizgen.maths.tree import Call, Num, names
 
 f, X, Z, x, p, c, t = sp.symbols("f X Z x p c t")
 mu, sigma, N, q, z = sp.symbols("mu sigma N q z")

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from quizgen.errors import MathError, RenderError
 from quizgen.maths.notation import parse
-from quizgen.maths.tree import Call, Num, Sym, evaluate
+from quizgen.maths.systems import evaluate
+from quizgen.maths.tree import Call, Num, Sym
 from quizgen.maths.units import SIMPLE, shown
 from quizgen.typeset import (
     decimal,

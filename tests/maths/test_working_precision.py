@@ -13,7 +13,7 @@ from quizgen.maths.chain import Chain, ChainStep
 from quizgen.maths.notation import parse
 from quizgen.maths.numbers import key_text, magnitude, round_to, rounded_text
 from quizgen.maths.precision import PRECISION, working_precision
-from quizgen.maths.tree import compile_expr, evaluate, exact
+from quizgen.maths.systems import compile_expr, evaluate, exact
 
 CHAIN = Chain(
     given={"x": "", "y": ""},

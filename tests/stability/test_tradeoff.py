@@ -13,7 +13,7 @@ from click.testing import CliRunner
 
 from quizgen.cli.tradeoff import tradeoff
 from quizgen.locale import languages
-from quizgen.maths.tree import compile_expr
+from quizgen.maths.systems import compile_expr
 from quizgen.tradeoff import fields, ladder
 from quizgen.tradeoff.families import BY_NAME, FAMILIES
 from quizgen.tradeoff.knobs import KNOBS, coverage

@@ -13,7 +13,7 @@ from quizgen.marking.diagnosis.explain import explainer
 from quizgen.marking.options import Context, Options
 from quizgen.marking.reading.scalars import Number
 from quizgen.marking.rounding import nearest
-from quizgen.marking.specs import Tolerance, gives
+from quizgen.marking.specs import Measured, gives
 from quizgen.marking.verdict import HALF, Verdict, partial, wrong
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.tree import Num
@@ -27,7 +27,7 @@ EARLY = "rounded-too-early"
 class Hints:
     """The question around one quantity."""
 
-    spec: Tolerance
+    spec: Measured
     number: Number
     factor: fmpq
     context: Context
@@ -48,13 +48,13 @@ class Hints:
 
 
 def hints_for(
-    spec: Tolerance, number: Number, scale: fmpq, options: Options, target: str = ""
+    spec: Measured, number: Number, scale: fmpq, options: Options, target: str = ""
 ) -> Hints | None:
     """Return the diagnosis of one quantity's wrong values, or None without a question around.
 
     Parameters
     ----------
-    spec : Tolerance
+    spec : Measured
         The spec; ``of`` names the quantity.
     number : Number
         How the answer was written.
@@ -75,12 +75,12 @@ def hints_for(
     return Hints(spec, number, scale * key_factor(spec, context, target), context, target)
 
 
-def key_factor(spec: Tolerance, context: Context, target: str) -> fmpq:
+def key_factor(spec: Measured, context: Context, target: str) -> fmpq:
     """Base units per unit of the key."""
     return base_factor(spec, context.chain.by_name[target].unit)
 
 
-def base_factor(spec: Tolerance, shown_in: str) -> fmpq:
+def base_factor(spec: Measured, shown_in: str) -> fmpq:
     """Base units per unit of the key, for a quantity that the chain shows in a unit."""
     if getattr(spec, "percent", False):
         return fmpq(1)

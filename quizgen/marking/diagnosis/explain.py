@@ -9,9 +9,10 @@ from functools import cached_property
 from typing import Any
 
 from quizgen.marking.diagnosis.mutations import variants
-from quizgen.maths.chain import Chain, ChainStep
+from quizgen.maths.chain import Chain, ChainStep, Plan
 from quizgen.maths.notation import to_text
-from quizgen.maths.tree import Compiled, Expr, Num, Sym, compile_expr, floats, names
+from quizgen.maths.systems import compile_expr, floats
+from quizgen.maths.tree import Call, Expr, Num, Sym, names
 from quizgen.maths.units import unit
 
 PREFIXES = (-6, -3, -2, -1, 1, 2, 3, 6)
@@ -24,7 +25,7 @@ class Slip:
 
     note: str
     detail: str
-    plan: tuple[tuple[str, Compiled], ...]
+    plan: Plan
 
 
 @dataclass
@@ -33,10 +34,6 @@ class Explainer:
 
     chain: Chain
     _slips: dict[str, list[Slip]] = field(default_factory=dict)
-
-    @cached_property
-    def _floats(self) -> dict[str, Compiled]:
-        return {step.name: compile_expr(step.expr, floats()) for step in self.chain.steps}
 
     @cached_property
     def _alike(self) -> dict[str, list[str]]:
@@ -58,8 +55,9 @@ class Explainer:
         for step in self.chain.steps:
             if step.name in needed:
                 for note, detail, changed in self._variants(step):
-                    yield Slip(note, detail, self._plan(step.name, changed, target, needed))
-        yield from self._prefixes(target, needed)
+                    wrong = ChainStep(step.name, changed)
+                    yield Slip(note, detail, self.chain.plan([wrong], floats(), within=needed))
+        yield from self._prefixes(needed)
 
     def _variants(self, step: ChainStep) -> Iterator[tuple[str, str, Expr]]:
         where = f"{step.name} = {to_text(step.expr)}"
@@ -68,30 +66,16 @@ class Explainer:
         for name in sorted(names(step.expr)):
             yield "step-left-out", step.name, Sym(name)
 
-    def _prefixes(self, target: str, needed: frozenset[str]) -> Iterator[Slip]:
-        used = {n for name in needed for n in names(self.chain.by_name[name].expr)}
+    def _prefixes(self, needed: frozenset[str]) -> Iterator[Slip]:
+        used = {n for name in needed for n in self.chain.uses[name]}
         for name in sorted(used & self.chain.given.keys()):
             if not unit(self.chain.given[name]).dimension:
                 continue
             for power in PREFIXES:
                 scale = Num(Fraction(10) ** power)
-                wrong = compile_expr(scale, floats())
-                plan = self._plan(name, None, target, needed)
-                yield Slip("unit-prefix-given", name, ((name, _scaled(name, wrong)), *plan))
-
-    def _plan(
-        self, start: str, changed: Expr | None, target: str, needed: frozenset[str]
-    ) -> tuple[tuple[str, Compiled], ...]:
-        plan, touched = list[tuple[str, Compiled]](), {start}
-        for step in self.chain.steps:
-            if step.name == start and changed is not None:
-                plan.append((start, compile_expr(changed, floats())))
-            elif step.name in needed and step.name != start and touched & names(step.expr):
-                plan.append((step.name, self._floats[step.name]))
-                touched.add(step.name)
-            if step.name == target:
-                break
-        return tuple(plan)
+                wrong = compile_expr(Call("mul", (Sym(name), scale)), floats())
+                plan = self.chain.plan((), floats(), changed=[name], within=needed)
+                yield Slip("unit-prefix-given", name, ((name, wrong), *plan))
 
     def explain(
         self, target: str, solved: Mapping[str, Any], value: float, slack: float
@@ -125,11 +109,7 @@ class Explainer:
         return note, detail
 
 
-def _scaled(name: str, scale: Compiled) -> Compiled:
-    return lambda env: env[name] * scale(env)
-
-
-def _run(plan: tuple[tuple[str, Compiled], ...], env: dict[str, Any], target: str) -> float | None:
+def _run(plan: Plan, env: dict[str, Any], target: str) -> float | None:
     env = dict(env)
     try:
         for name, compiled in plan:

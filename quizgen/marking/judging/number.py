@@ -12,8 +12,9 @@ from quizgen.marking.diagnosis.context import Hints
 from quizgen.marking.diagnosis.slips import slip
 from quizgen.marking.reading.literals import Doubt
 from quizgen.marking.reading.scalars import Number, Readings
-from quizgen.marking.specs import Tolerance, accepted, gives
+from quizgen.marking.specs import gives
 from quizgen.marking.verdict import HALF, Verdict, ambiguous, correct, partial, wrong
+from quizgen.maths.tolerance import Tolerance
 
 Judge = Callable[[Number], Verdict]
 
@@ -70,7 +71,7 @@ class Asked:
 def judge_value(asked: Asked, number: Number, value: Any, read_as: str = "") -> Verdict:
     """Judge a value that stands in the key's unit; ``number`` says how it was written."""
     read_as = read_as or number.read_as
-    if accepted(asked.spec, value, asked.key):
+    if asked.spec.accepts(value, asked.key):
         return _form(asked.spec, number, asked.form, read_as)
     if whole_enough(asked.spec, number, value, asked.key):
         return correct(read_as, "whole-number")

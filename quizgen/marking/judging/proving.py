@@ -6,7 +6,8 @@ from typing import Any
 
 from flint import Ordering, fmpq, fmpq_mpoly_ctx
 
-from quizgen.maths.tree import Call, Expr, Field, compile_expr, names, walk
+from quizgen.maths.systems import NumberSystem, compile_expr
+from quizgen.maths.tree import Call, Expr, names, walk
 
 RATIONAL = frozenset({"add", "sub", "mul", "div", "neg", "pow"})
 LARGEST_POWER = 12
@@ -40,9 +41,9 @@ def proved_equal(first: Expr, second: Expr) -> bool:
     return bool(top1 * low2 == top2 * low1)
 
 
-def _quotients(ctx: Any) -> Field:
+def _quotients(ctx: Any) -> NumberSystem:
     one = ctx.constant(1)
-    return Field(
+    return NumberSystem(
         "quotients",
         lambda value: (ctx.constant(fmpq(value.numerator, value.denominator)), one),
         {"add": _add, "sub": _sub, "mul": _mul, "div": _div, "neg": _neg, "pow": _pow},

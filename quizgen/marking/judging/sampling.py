@@ -11,10 +11,11 @@ from typing import Any
 from flint import fmpq
 
 from quizgen.errors import MathError, Undecided
-from quizgen.marking.reading.scalars import ReadError, TooLargeError, exact_value, typed_field
-from quizgen.marking.specs import Scalar
+from quizgen.marking.reading.scalars import ReadError
+from quizgen.maths.constants import Scalar, TooLargeError, bounded, exact_value
 from quizgen.maths.precision import working_precision
-from quizgen.maths.tree import Expr, compile_expr, names
+from quizgen.maths.systems import compile_expr
+from quizgen.maths.tree import Expr, names
 
 POINTS = 8
 """Points at which both formulas must have a value and agree."""
@@ -74,7 +75,7 @@ def compiled(tree: Expr) -> Callable[[Env], Any]:
     The result is None where it has no value, and the class ``Undecided`` or ``TooLargeError``
     where that cannot be told.
     """
-    function = compile_expr(tree, typed_field())
+    function = compile_expr(tree, bounded())
 
     def evaluate(env: Env) -> Any:
         try:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, ClassVar
 
 from flint import arb, fmpq
 
@@ -13,15 +13,17 @@ from quizgen.marking.kinds.number import shown, trap_values, without_name
 from quizgen.marking.options import Options
 from quizgen.marking.reading.quantities import TypedQuantity, split_quantity
 from quizgen.marking.reading.rewrites import normalise
-from quizgen.marking.reading.scalars import Number, exact_value, read_source
-from quizgen.marking.specs import Scalar, Tolerance
+from quizgen.marking.reading.scalars import Number, read_source
+from quizgen.marking.specs import Measured
 from quizgen.marking.verdict import Verdict, with_values, wrong
+from quizgen.maths.constants import Scalar, exact_value
+from quizgen.maths.tolerance import AngleTolerance
 from quizgen.maths.units import shown as shown_unit
 
 DEGREES = (("deg", 1),)
 
 
-class Spec(Tolerance, kw_only=True):
+class Spec(Measured, kw_only=True):
     """Angle: ``value`` in degrees; ``period`` (default 360, 0 for none).
 
     Without a tolerance half a degree is accepted. A bare number counts as degrees.
@@ -30,15 +32,14 @@ class Spec(Tolerance, kw_only=True):
     value: Scalar
     period: Scalar = 360
 
+    unstated: ClassVar[tuple[str, Scalar]] = AngleTolerance.unstated
+
     def validate(self) -> None:
         """Check tolerance, value, period and traps."""
         super().validate()
         exact_value(self.value)
         exact_value(self.period)
         trap_values(self)
-        stated = (self.decimals, self.sigfigs, self.rel, self.abs, self.exact or None)
-        if all(item is None for item in stated):
-            self.abs = "0.5"
 
 
 def check(spec: Spec, typed: str, options: Options) -> Verdict:

@@ -15,10 +15,10 @@ from quizgen.marking.judging.sampling import Comparison, Domain, agree, compare
 from quizgen.marking.judging.settling import settle_equal
 from quizgen.marking.options import Options
 from quizgen.marking.reading.formulas import Formula, read_formula
-from quizgen.marking.reading.scalars import exact_value
 from quizgen.marking.rounding import exact_or_figures
 from quizgen.marking.specs import Spec as AnySpec
 from quizgen.marking.verdict import Verdict, ambiguous, correct, wrong
+from quizgen.maths.constants import exact_value
 from quizgen.maths.notation import parse, to_text
 from quizgen.maths.tree import Expr, names
 

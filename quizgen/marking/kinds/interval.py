@@ -10,13 +10,14 @@ from typing import Any
 from quizgen.marking.options import Options
 from quizgen.marking.reading.literals import pointed
 from quizgen.marking.reading.rewrites import Source, normalise
-from quizgen.marking.reading.scalars import ReadError, exact_value, read_source
+from quizgen.marking.reading.scalars import ReadError, read_source
 from quizgen.marking.rounding import exact_or_figures
-from quizgen.marking.specs import Tolerance, accepted
+from quizgen.marking.specs import Measured
 from quizgen.marking.verdict import HALF, Verdict, correct, partial, wrong
+from quizgen.maths.constants import exact_value
 
 
-class Spec(Tolerance, kw_only=True):
+class Spec(Measured, kw_only=True):
     """Interval: ``value`` such as ``]0,1]`` or ``(0, inf)``."""
 
     value: str
@@ -135,7 +136,7 @@ def check(spec: Spec, typed: str, options: Options) -> Verdict:
 def _same(spec: Spec, value: Any, key: Any) -> bool:
     if value is None or key is None:
         return value is None and key is None
-    return accepted(spec, value, key)
+    return spec.accepts(value, key)
 
 
 def show(spec: Spec, lang: str) -> str:  # noqa: ARG001 - one notation in all languages

@@ -16,18 +16,18 @@ from quizgen.marking.reading.scalars import (
     Number,
     ReadError,
     Readings,
-    exact_value,
     quick,
     read_source,
 )
 from quizgen.marking.rounding import exact_or_figures, rounded, with_figures
-from quizgen.marking.specs import Scalar, Tolerance
+from quizgen.marking.specs import Measured
 from quizgen.marking.verdict import Verdict, unreadable, with_values
+from quizgen.maths.constants import Scalar, exact_value
 from quizgen.maths.units import shown as shown_unit
 from quizgen.maths.units import unit
 
 
-class Spec(Tolerance, kw_only=True):
+class Spec(Measured, kw_only=True):
     """Number: ``value``; ``form`` = fraction, lowest, decimal; ``percent``; ``notation``.
 
     With ``percent`` the value is the fraction, tolerances and ``accept`` are in percent, and
@@ -100,7 +100,7 @@ def _judge_as(spec: Spec, number: Number, value: Any, options: Options) -> Verdi
     return with_values(verdict, value / scale)
 
 
-def trap_values(spec: Tolerance, scale: Any = 1) -> list[tuple[str, Any]]:
+def trap_values(spec: Measured, scale: Any = 1) -> list[tuple[str, Any]]:
     """Every trap's name with each value it can give."""
     return [
         (name, exact_value(item) * scale)
@@ -158,7 +158,7 @@ def show(spec: Spec, lang: str) -> str:  # noqa: ARG001 - one notation in all la
     return f"{shown(spec, value, spec.form)} {unit_text}".rstrip()
 
 
-def shown(spec: Tolerance, value: Any, form: str = "") -> str:
+def shown(spec: Measured, value: Any, form: str = "") -> str:
     """Write a key value as far as its tolerance asks."""
     if form in {"fraction", "lowest"} and isinstance(value, fmpq):
         return str(value)
@@ -180,11 +180,9 @@ def _terminates(value: fmpq) -> bool:
     return rest == 1
 
 
-def _for_tolerance(spec: Tolerance, value: Any) -> str:
+def _for_tolerance(spec: Measured, value: Any) -> str:
     """Write enough figures that rounding takes at most a tenth of the tolerance."""
-    from quizgen.marking.specs import half_width
-
-    width = half_width(spec, value)
+    width = spec.half_width(value)
     figures = 4
     while figures < 30 and value != 0:
         text = exact_or_figures(value, figures)

@@ -18,14 +18,15 @@ from quizgen.marking.reading.lists import read_list
 from quizgen.marking.reading.named import reordered
 from quizgen.marking.reading.quantities import split_quantity
 from quizgen.marking.reading.rewrites import Source
-from quizgen.marking.reading.scalars import Number, ReadError, exact_value, read_source
+from quizgen.marking.reading.scalars import Number, ReadError, read_source
 from quizgen.marking.reading.unit_words import TypedUnit, plain_unit
-from quizgen.marking.specs import Scalar, Tolerance, accepted, gives
+from quizgen.marking.specs import Measured, gives
 from quizgen.marking.verdict import Verdict, correct, partial, shared, with_values, wrong
+from quizgen.maths.constants import Scalar, exact_value
 from quizgen.maths.units import shown as shown_unit
 
 
-class Spec(Tolerance, kw_only=True):
+class Spec(Measured, kw_only=True):
     """Point: ``values``; ``names`` of the coordinates; ``unit`` of all; ``up_to_scale``."""
 
     values: list[Scalar]
@@ -117,7 +118,7 @@ def _up_to_scale(spec: Spec, values: list[Any], keys: list[Any], read_as: str) -
     if values[largest] == 0:
         return wrong(read_as)
     scale = keys[largest] / values[largest]
-    right = all(accepted(spec, v * scale, k) for v, k in zip(values, keys, strict=True))
+    right = all(spec.accepts(v * scale, k) for v, k in zip(values, keys, strict=True))
     return correct(read_as) if right else wrong(read_as)
 
 

@@ -14,14 +14,15 @@ from quizgen.marking.kinds.number import shown, trap_values, without_name
 from quizgen.marking.options import Options
 from quizgen.marking.reading.quantities import TypedQuantity, split_quantity
 from quizgen.marking.reading.rewrites import normalise
-from quizgen.marking.reading.scalars import Number, exact_value, read_source
+from quizgen.marking.reading.scalars import Number, read_source
 from quizgen.marking.reading.unit_words import TypedUnit, plain_unit
-from quizgen.marking.specs import Scalar, Tolerance
+from quizgen.marking.specs import Measured
 from quizgen.marking.verdict import HALF, Verdict, partial, with_values, wrong
+from quizgen.maths.constants import Scalar, exact_value
 from quizgen.maths.units import shown as shown_unit
 
 
-class Spec(Tolerance, kw_only=True):
+class Spec(Measured, kw_only=True):
     """Quantity: ``value`` in ``unit``; with ``bare`` the unit is printed beside the field."""
 
     value: Scalar

@@ -10,13 +10,14 @@ from quizgen.marking.kinds.number import shown
 from quizgen.marking.kinds.point import read_all
 from quizgen.marking.options import Options
 from quizgen.marking.reading.lists import read_list
-from quizgen.marking.reading.scalars import Number, exact_value
+from quizgen.marking.reading.scalars import Number
 from quizgen.marking.reading.unit_words import plain_unit
-from quizgen.marking.specs import Scalar, Tolerance, accepted, gives
+from quizgen.marking.specs import Measured, gives
 from quizgen.marking.verdict import Verdict, correct, shared, wrong
+from quizgen.maths.constants import Scalar, exact_value
 
 
-class Spec(Tolerance, kw_only=True):
+class Spec(Measured, kw_only=True):
     """Set: ``values``; ``unit`` of all."""
 
     values: list[Scalar]
@@ -62,7 +63,7 @@ def _matched(spec: Spec, numbers: list[Number], keys: list[fmpq]) -> tuple[set[i
     found: set[int] = set()
     extra, twice = 0, False
     for number in numbers:
-        hits = [i for i, key in enumerate(keys) if accepted(spec, number.value, key)]
+        hits = [i for i, key in enumerate(keys) if spec.accepts(number.value, key)]
         if not hits:
             extra += 1
         elif set(hits) <= found:

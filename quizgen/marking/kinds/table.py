@@ -15,14 +15,14 @@ from quizgen.marking.reading.lists import read_list
 from quizgen.marking.reading.named import find_name, split_name
 from quizgen.marking.reading.rewrites import Source
 from quizgen.marking.reading.scalars import ReadError
-from quizgen.marking.specs import Scalar, Tolerance, decode
-from quizgen.marking.specs import Spec as AnySpec
+from quizgen.marking.specs import AnySpec, Measured, decode
 from quizgen.marking.verdict import Verdict, ambiguous, correct, partial, shared, with_values, wrong
+from quizgen.maths.constants import Scalar
 
 CELLS = {"number": number, "quantity": quantity, "angle": angle}
 
 
-class Spec(Tolerance, kw_only=True):
+class Spec(Measured, kw_only=True):
     """Table: ``values`` (name to value); ``units`` (name to unit); ``cells`` (name to a table).
 
     A cell is a number with the table's tolerance unless ``cells`` says otherwise:

@@ -16,11 +16,11 @@ from quizgen.marking.options import Options
 from quizgen.marking.reading.lists import _depth, unbracketed
 from quizgen.marking.reading.named import find_name, name_key, split_name
 from quizgen.marking.reading.rewrites import Source, normalise
-from quizgen.marking.reading.scalars import Number, ReadError, exact_value, read_source
+from quizgen.marking.reading.scalars import Number, ReadError, read_source
 from quizgen.marking.rounding import exact_or_figures
-from quizgen.marking.specs import Scalar
 from quizgen.marking.specs import Spec as AnySpec
 from quizgen.marking.verdict import Verdict, ambiguous, correct, with_values, wrong
+from quizgen.maths.constants import Scalar, exact_value
 from quizgen.maths.notation import to_text
 from quizgen.maths.precision import working_precision
 from quizgen.maths.tree import RELATIONS, Call, Expr, names

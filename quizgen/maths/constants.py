@@ -1,0 +1,111 @@
+"""Constants that people write: evaluated exactly, or as certified balls, in bounded time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache, lru_cache
+from typing import Any
+
+from flint import fmpq
+
+from quizgen.errors import MathError
+from quizgen.maths.notation import ReadError, parse
+from quizgen.maths.precision import PRECISION, working_precision
+from quizgen.maths.systems import NumberSystem, compile_expr, exact
+from quizgen.maths.tree import Expr
+from quizgen.maths.values import Value
+
+Scalar = str | int | float
+"""A number as it is written: ``"20/3"``, ``"6.67"``, ``12`` or a constant formula."""
+
+LARGEST_BITS = 4000
+"""Largest size of an intermediate value."""
+
+
+def _bits(value: Value) -> float:
+    """Return about how many binary digits a number's size takes, both ways from one."""
+    if isinstance(value, fmpq):
+        return float(value.height_bits())
+    if not value.is_finite():
+        raise MathError("no finite real value")
+    return abs(float(abs(value).mid().man_exp()[1])) + PRECISION if value != 0 else 1.0
+
+
+class TooLargeError(MathError):
+    """An intermediate value is beyond what anyone could mean."""
+
+
+def _guarded_power(a: Value, b: Value) -> Value:
+    size = abs(b) if isinstance(b, fmpq) else abs(b).mid().fmpq()
+    if size > LARGEST_BITS or _bits(a) * float(size) > LARGEST_BITS:
+        raise TooLargeError("too large")
+    return exact().ops["pow"](a, b)
+
+
+def _guarded_exp(a: Value) -> Value:
+    if abs(a) > LARGEST_BITS:
+        raise TooLargeError("too large")
+    return exact().ops["exp"](a)
+
+
+@cache
+def bounded() -> NumberSystem:
+    """The exact field with bounds on size, for mathematics typed by learners."""
+    ops: dict[str, Callable[..., Any]] = {**exact().ops, "pow": _guarded_power, "exp": _guarded_exp}
+    return replace(exact(), name="bounded", ops=ops)
+
+
+def constant(tree: Expr) -> Value:
+    """Evaluate a tree without names, exactly or as a certified ball, in bounded time.
+
+    Raises
+    ------
+    ReadError
+        If it has no finite real value or is too large.
+    """
+    try:
+        with working_precision():
+            value = compile_expr(tree, bounded())({})
+    except TooLargeError:
+        raise ReadError("too-large", 1) from None
+    except (MathError, ZeroDivisionError, OverflowError, ValueError) as error:
+        raise ReadError("no-value", 1, str(error)) from None
+    except (KeyError, TypeError, AttributeError):
+        raise ReadError("not-a-number", 1) from None
+    if isinstance(value, bool):
+        raise ReadError("not-a-number", 1)
+    if not isinstance(value, fmpq) and not _sharp(value):
+        raise ReadError("no-value", 1, "not determined")
+    return value
+
+
+def _sharp(ball: Value) -> bool:
+    return bool(ball.rel_accuracy_bits() >= 40 or ball.rad() < fmpq(1, 10**30))
+
+
+@lru_cache(maxsize=8192)
+def exact_text(text: str) -> Value:
+    """Return the value of an author's constant: ``20/3``, ``6.67``, ``-1e-3``, ``sqrt(2)/2``.
+
+    Raises
+    ------
+    FormulaError
+        If it cannot be read or has no value.
+    """
+    try:
+        whole, slash, below = text.partition("/")
+        return fmpq(int(whole), int(below) if slash else 1)
+    except (ValueError, ZeroDivisionError):
+        return constant(parse(text, symbols=()))
+
+
+def exact_value(value: str | float) -> Value:
+    """Return the exact value of a spec's entry; a float counts as the decimal it prints as.
+
+    Raises
+    ------
+    FormulaError
+        If it cannot be read or has no value.
+    """
+    return exact_text(value if isinstance(value, str) else repr(value))

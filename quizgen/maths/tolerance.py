@@ -1,0 +1,142 @@
+"""How near an answer must be to its key: one rule for drawing, marking and the student's hint."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import ClassVar
+
+import msgspec
+from flint import fmpq
+
+from quizgen.maths.constants import Scalar, exact_value
+from quizgen.maths.numbers import magnitude, to_float
+from quizgen.maths.values import Value
+
+MOST_DIGITS = 40
+"""Most decimals or significant figures that can be asked."""
+
+RULES = ("decimals", "sigfigs", "rel", "abs", "exact")
+"""The ways to state a tolerance, of which a part gives at most one."""
+
+MARGIN = 1 + 1e-9
+"""Factor by which a width computed from a float is widened, so that it is never too small."""
+
+ROUNDED, ROUNDED_REL = 0.005, 0.01
+"""Half-width and share of the key within which an exact answer may still be meant: two decimals."""
+
+
+class Tolerance(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """How near an answer must be: at most one rule, else half a percent of the key.
+
+    ``decimals`` and ``sigfigs`` accept ``within`` units (default one) in the last place asked;
+    all bounds are closed. ``accept`` is an interval accepted besides. ``strict`` asks for exactly
+    the precision stated.
+    """
+
+    decimals: int | None = None
+    sigfigs: int | None = None
+    rel: Scalar | None = None
+    abs: Scalar | None = None
+    exact: bool = False
+    within: Scalar = 1
+    accept: list[Scalar] | None = None
+    strict: bool = False
+
+    unstated: ClassVar[tuple[str, Scalar]] = ("rel", "1/200")
+    """The rule that holds where none is stated."""
+
+    def validate(self) -> None:
+        """Check what types cannot say.
+
+        Raises
+        ------
+        FormulaError
+            If a number cannot be read.
+        ValueError
+            If two rules are given, or one is out of range.
+        """
+        if sum(getattr(self, name) not in (None, False) for name in RULES) > 1:
+            raise ValueError("only one of decimals, sigfigs, rel, abs, exact can be given")
+        if self.accept is not None and len(self.accept) != 2:
+            raise ValueError("accept needs two bounds")
+        if not 0 <= (self.decimals or 0) <= MOST_DIGITS:
+            raise ValueError(f"decimals must be 0 to {MOST_DIGITS}")
+        if not 1 <= (self.sigfigs or 1) <= MOST_DIGITS:
+            raise ValueError(f"sigfigs must be 1 to {MOST_DIGITS}")
+        for value in (self.rel, self.abs, self.within, *(self.accept or ())):
+            if value is not None:
+                exact_value(value)
+
+    @property
+    def stated(self) -> tuple[str, Scalar] | None:
+        """The rule that was given, as its name and its number; None if none was."""
+        for name in RULES:
+            number: Scalar | None = getattr(self, name)
+            if number is not None and number is not False:
+                return name, number
+        return None
+
+    def half_width(self, key: Value) -> Value:
+        """Return the largest accepted distance from a key, exactly."""
+        name, number = self.stated or self.unstated
+        if name == "exact":
+            return fmpq(0)
+        if name == "decimals":
+            return exact_value(self.within) / 10 ** int(number)
+        if name == "sigfigs":
+            return exact_value(self.within) * fmpq(10) ** (magnitude(key) + 1 - int(number))
+        return exact_value(number) * (abs(key) if name == "rel" else 1)
+
+    def outer_width(self, key: float) -> float:
+        """Return the half-width around an approximate key, never too small.
+
+        An exact answer counts as meant while it could be a rounded way to write the key.
+        """
+        if self.exact:
+            return min(ROUNDED, ROUNDED_REL * abs(key))
+        beyond = fmpq(*(abs(key) * MARGIN).as_integer_ratio())
+        return to_float(self.half_width(beyond)) * MARGIN
+
+    def near(self, value: Value, key: Value) -> bool:
+        """Whether a value lies within the tolerance of a key (closed, decided exactly).
+
+        A ball that cannot be told from the bound counts as on it.
+        """
+        width, distance = self.half_width(key), abs(value - key)
+        if isinstance(distance, fmpq) and isinstance(width, fmpq):
+            return bool(distance <= width)
+        return not distance > width
+
+    def accepts(self, value: Value, key: Value) -> bool:
+        """Whether a value is near the key, or in the interval accepted besides."""
+        if self.accept is None or self.near(value, key):
+            return self.near(value, key)
+        low, high = map(exact_value, self.accept)
+        return bool(low <= value <= high)
+
+
+class AngleTolerance(Tolerance, kw_only=True):
+    """Tolerance of an angle in degrees: half a degree unless a rule is stated."""
+
+    unstated: ClassVar[tuple[str, Scalar]] = ("abs", "0.5")
+
+
+def tolerance_of(answer: Mapping[str, object]) -> Tolerance:
+    """Return the tolerance that an authored answer states.
+
+    Parameters
+    ----------
+    answer : mapping
+        ``kind`` and the rule stand among other keys. ``accept`` is left out: its bounds may be
+        formulas over drawn quantities.
+
+    Raises
+    ------
+    msgspec.ValidationError, ValueError
+        If the rule is wrong.
+    """
+    shape = AngleTolerance if answer.get("kind") == "angle" else Tolerance
+    names = {*shape.__struct_fields__} - {"accept"}
+    found = msgspec.convert({n: answer[n] for n in names & answer.keys()}, shape)
+    found.validate()
+    return found
