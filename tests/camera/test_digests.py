@@ -1,0 +1,130 @@
+"""The shipped scenes give stored pictures, plans and messages, whatever is rebuilt below them.
+
+``python tests/camera/test_digests.py`` writes the digests anew.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import tempfile
+from pathlib import Path
+
+import pytest
+
+from quizgen.camera import SceneError
+from quizgen.camera.filters import everywhere_alike
+from quizgen.camera.plan import Prepared, everything, plan
+from quizgen.camera.reading import load
+from quizgen.camera.simulate import run
+
+STORED = Path(__file__).with_name("digests.txt")
+SCENES = Path(__file__).parents[2] / "quizgen" / "camera" / "scenes"
+NAMES = sorted(path.stem for path in SCENES.glob("*.toml"))
+WAYS = {"same": 0.5, "visible": 2.0, "sketch": 8.0}
+
+BAD = (
+    '[camera]\nfocal_lenght = "50 mm"',
+    '[camera]\nfocal_length = "50 kg"',
+    "[camera]\nfocal_length = 50",
+    '[camera]\nfocal_length = "-50 mm"',
+    '[camera]\nfocal_length = "50 mm"\nsensor_width = "36 mm"\nfocus_distance = "20 mm"',
+    '[camera]\nfocal_length = "50 mm"\nsensor_width = "36 mm"\npixel_pitch = "5 um"',
+    '[camera]\nf_number = "f/2"',
+    '[camera]\nf_number = "wide"',
+    "[camera]\nk1 = -0.1",
+    '[camera]\nk2 = "much"',
+    '[camera]\nlateral_colour = "1 mm"',
+    "[camera]\nnatural_vignetting = true",
+    "[camera]\nnatural_vignetting = 1",
+    "[camera]\nmechanical_vignetting = 1.5",
+    '[camera]\nshutter = "-1 s"',
+    '[camera]\nvelocity = ["1 px/s"]',
+    '[camera]\nrow_time = "-1 us"',
+    '[camera]\nexposure = "1 s"',
+    '[camera]\nfull_well = "0 e-"',
+    '[camera]\nshot_noise = "yes"',
+    '[camera]\nread_noise = "3 e-"',
+    '[camera]\nfull_well = "10 e-"\nread_noise = "-3 e-"',
+    '[camera]\ndark_current = "3 e-/s"',
+    '[camera]\nhot_pixels = "3 %"',
+    '[camera]\nfull_well = "10 e-"\nhot_pixels = "300 %"',
+    "[camera]\nblooming = true",
+    '[camera]\nsmear = "1 %"',
+    '[camera]\nfull_well = "10 e-"\nsmear = "-1 %"',
+    "[camera]\nbit_depth = 17",
+    "[camera]\nbit_depth = true",
+    '[camera]\nmosaic = "RGBG"',
+    "[camera]\nwhite_balance = [1, -1, 1]",
+    "[camera]\nwhite_balance = [1, 1]",
+    "[camera]\ngamma = 0.5",
+    '[camera]\ngamma = "film"',
+    '[camera]\nhue = "1 m"',
+    "[camera]\nsaturation = -1",
+    "[camera]\nvalue = -1",
+    "[camera]\ngaussian_noise = -1",
+    '[camera]\nimpulse_noise = "101 %"',
+    "[camera]\nnormalise = [1, 0, 0, 1]",
+    "[camera]\nnormalise = [1, 0]",
+    '[camera]\n"a b" = 1',
+    "[camra]\nk1 = 0",
+    "[scene]\nwidth = 0",
+    '[scene]\nquestion = ["colour"]',
+    '[[thing]]\nshape = "disc"',
+)
+
+
+def plan_table(prepared: Prepared, budget: float) -> list[str]:
+    made = plan(prepared, budget=budget)
+    ran = [
+        f"{s.effect}|{s.rung}|{s.reason}|{s.bound_dn:.6g}|{s.predicted_ms:.4g}" for s in made.steps
+    ]
+    left = [f"{s.effect}|skip|{s.reason}|{s.bound_dn:.6g}|{s.saved_ms:.4g}" for s in made.skipped]
+    return [f"{made.predicted_error_dn:.6g}", *ran, *left, f"absent {', '.join(made.absent)}"]
+
+
+def picture_digest(prepared: Prepared, budget: float | None) -> str:
+    what = everything(prepared) if budget is None else plan(prepared, budget=budget)
+    return hashlib.sha256(run(prepared, what).pixels().tobytes()).hexdigest()
+
+
+def scene_digests(name: str) -> list[str]:
+    """One line per plan and picture of a scene, computed without OpenCV."""
+    with everywhere_alike():
+        prepared = Prepared(*load(SCENES / f"{name}.toml"))
+        tables = [
+            f"{name} {way} {line}" for way in WAYS for line in plan_table(prepared, WAYS[way])
+        ]
+        drawn = [
+            f"{name} {way} {picture_digest(prepared, WAYS[way])}" for way in ("same", "sketch")
+        ]
+        return [*tables, *drawn, f"{name} everything {picture_digest(prepared, None)}"]
+
+
+def bad_file_messages() -> list[str]:
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "s.toml"
+        found = []
+        for text in BAD:
+            path.write_text(text, "utf-8")
+            with pytest.raises(SceneError) as caught:
+                load(path)
+            found.append("bad " + str(caught.value).removeprefix(str(path)))
+    return found
+
+
+def stored(kind: str) -> list[str]:
+    return [line for line in STORED.read_text("utf-8").splitlines() if line.split()[0] == kind]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_pictures_and_plans_are_the_stored_ones(name):
+    assert scene_digests(name) == stored(name)
+
+
+def test_messages_are_the_stored_ones():
+    assert bad_file_messages() == stored("bad")
+
+
+if __name__ == "__main__":
+    lines = [line for name in NAMES for line in scene_digests(name)] + bad_file_messages()
+    STORED.write_text("".join(f"{line}\n" for line in lines), "utf-8")
