@@ -8,18 +8,18 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
-from dataclasses import replace
+from collections.abc import Callable, Iterator
+from functools import partial
 from time import perf_counter, process_time
 from typing import Any
 
 import numpy as np
 
-from quizgen.camera import Camera, Scene, filters
-from quizgen.camera.effects import isp, optics, sensor
+from quizgen.camera import Camera, Scene, View, effects, filters, hsv
+from quizgen.camera.draw import Layer
+from quizgen.camera.effects import distortion, lateral_colour, mosaic, vignetting
 from quizgen.camera.kernels import disc
 from quizgen.camera.plan import Plan, Prepared, everything, plan
-from quizgen.camera.scene import View
 from quizgen.camera.simulate import run
 
 SIZES = {"640x480": (640, 480), "12 MP": (4000, 3000)}
@@ -67,7 +67,7 @@ def picture(width: int, height: int) -> np.ndarray:
 
 
 def view(width: int, height: int, **changes: Any) -> View:
-    camera = replace(Camera(0.01, 1e-5 * 640 / width), **changes)
+    camera = Camera(0.01, 1e-5 * 640 / width, **changes)
     return View(Scene(width, height, image=picture(width, height), depth=10.0), camera)
 
 
@@ -80,72 +80,69 @@ def primitives(size: tuple[int, int], repeats: int) -> dict[str, float]:
         gaussian_noise=0.05, impulse_noise=0.05, normalise=(0.1, 0.9, 0.0, 1.0), blooming=True,
     )  # fmt: skip
     image = look.scene.image
-    raw = sensor.mosaic(image, look)
-    x, y = optics._source(*size, look.focal, look.camera.k1, 0.0)
+    raw = mosaic.run(image, look)
+    x, y = distortion.source(*size, look.focal, look.camera[distortion.K1], 0.0)
     x, y = x + np.float32(0.25), y + np.float32(0.25)
     small, large = disc(2.5), disc(21.0)
-    point = {
-        "vignetting": lambda: fresh_vignetting(image, look),
-        "exposure": lambda: sensor.exposure(image, look),
-        "shot noise": lambda: sensor.shot_noise(image, look),
-        "shot noise/gaussian": lambda: sensor.shot_noise(image, look, "gaussian"),
-        "dark current": lambda: sensor.dark_current(image, look),
-        "blooming": lambda: sensor.blooming(image, look),
-        "streak": lambda: sensor.smear(image, look),
-        "full well": lambda: sensor.full_well(image, look),
-        "read noise": lambda: sensor.read_noise(image, look),
-        "mosaic": lambda: sensor.mosaic(image, look),
-        "quantisation": lambda: sensor.quantise(image, look),
-        "demosaicing": lambda: isp.demosaic(raw, look),
-        "flat field": lambda: isp.flat_field(image, look),
-        "white balance": lambda: isp.white_balance(image, look),
-        "gamma": lambda: isp.gamma(image, look),
-        "gamma/table": lambda: isp.gamma(image, look, "table"),
-        "hsv edit": lambda: isp.hsv_edit(image, look),
-        "gaussian noise": lambda: isp.gaussian_noise(image, look),
-        "impulse noise": lambda: isp.impulse_noise(image, look),
-        "normalisation": lambda: isp.normalise(image, look),
-        "(rgb to hsv)": lambda: isp.rgb_to_hsv(image),
+    building_blocks = {
+        "(rgb to hsv)": lambda: hsv.rgb_to_hsv(image),
         "(copy)": image.copy,
         "SAMPLE": lambda: filters.sample(image, x, y),
         "NEAREST": lambda: filters.sample_nearest(image, x, y),
-        "LATERAL": lambda: optics.lateral_colour(optics_stack(image), look),
+        "LATERAL": lambda: lateral_colour.run((Layer(image),), look),
         "SMALL": lambda: filters.convolve(image, small),
         "LARGE": lambda: filters.convolve(image, large),
     }
-    times = {name: best(work, repeats) for name, work in point.items()}
+    point = dict(pointwise(image, raw, look))
+    times = {name: best(work, repeats) for name, work in {**point, **building_blocks}.items()}
     times["MAP"] = best(lambda: fresh_map(look), repeats)
     return times
 
 
-def optics_stack(image: np.ndarray) -> tuple[Any, ...]:
-    from quizgen.camera.draw import Layer
+def pointwise(
+    image: np.ndarray, raw: np.ndarray, look: View
+) -> Iterator[tuple[str, Callable[[], Any]]]:
+    """Every effect on one picture, and its cheaper ways."""
+    for effect in effects.EFFECTS:
+        if effect.stage in ("scene", "optics"):
+            continue
+        stack = (Layer(raw if effect.name == "demosaicing" else image),)
+        for rung in ("", *(rung.name for rung in effect.rungs)):
+            name = f"{effect.name}/{rung}" if rung else effect.name
+            yield name, partial(from_nothing, effect.run, stack, look, rung)
 
-    return (Layer(image),)
+
+def from_nothing(work: Callable[..., Any], *arguments: Any) -> None:
+    """Run an effect without what an earlier run has left."""
+    vignetting._fall_off_map.cache_clear()
+    work(*arguments)
 
 
 def fresh_map(look: View) -> None:
-    optics._source.cache_clear()
-    optics._source(look.width, look.height, look.focal, look.camera.k1, look.camera.k2)
+    forget_maps()
+    k1, k2 = look.camera[distortion.K1], look.camera[distortion.K2]
+    distortion.source(look.width, look.height, look.focal, k1, k2)
 
 
-def fresh_vignetting(image: np.ndarray, look: View) -> None:
-    sensor._fall_off_map.cache_clear()
-    sensor.vignetting(image, look)
+def forget_maps() -> None:
+    distortion.source.cache_clear()
+    distortion._inverse_table.cache_clear()
+    distortion.undistorted_radius.cache_clear()
+    vignetting._fall_off_map.cache_clear()
 
 
 def calibrate() -> None:
-    """Print the cost table of `quizgen.camera.costs`."""
+    """Print the figures of `quizgen.camera.costs` and of every effect."""
     real = filters.opencv
     for name, stand_in in (("OpenCV", real), ("NumPy", lambda: None)):
-        filters.opencv = isp.opencv = stand_in
+        filters.opencv = hsv.opencv = stand_in
         filters._opencv_remap_is_exact.cache_clear()
         small, large = SIZES.values()
         columns = [primitives(small, 9), primitives(large, 2)]
         print(f"# {name}")
         for key in columns[0]:
             print(f'    "{key}": ({columns[0][key]:.3g}, {columns[1][key]:.4g}),')
-    filters.opencv = isp.opencv = real
+    filters.opencv = hsv.opencv = real
     filters._opencv_remap_is_exact.cache_clear()
 
 
@@ -165,9 +162,9 @@ def chains(repeats: int) -> None:
         scene = Scene(width, height, image=picture(width, height), depth=10.0)
         scene.range  # noqa: B018 - known before, as for drawn scenes
         for wish, changes in STRONG.items():
-            camera = replace(WEAK, pixel_pitch=2e-7 * 4000 / width, **changes)
+            camera = WEAK.but(pixel_pitch=2e-7 * 4000 / width, **changes)
             if wish == "defocus":
-                camera = replace(camera, focus_distance=focus_for(15.0, camera))
+                camera = camera.but(focus_distance=focus_for(15.0, camera))
             prepared = Prepared(scene, camera)
             whole = everything(prepared)
             eager = best(lambda: run(prepared, whole), repeats)  # noqa: B023
@@ -188,8 +185,7 @@ def timed(prepared: Prepared, chosen: Plan) -> tuple[float, float]:
 
     On a busy machine the wall time counts the others' work too; the processor time does not.
     """
-    optics._source.cache_clear()
-    sensor._fall_off_map.cache_clear()
+    forget_maps()
     prepared.stack  # noqa: B018 - drawn before the clock starts
     started = process_time()
     wall = run(prepared, chosen).measured_ms
@@ -201,7 +197,7 @@ def focus_for(diameter: float, camera: Camera) -> float:
     low, high = 5.0, 10.0
     for _ in range(80):
         middle = (low + high) / 2
-        blur = View(Scene(), replace(camera, focus_distance=middle)).blur_diameter(10.0)
+        blur = View(Scene(), camera.but(focus_distance=middle)).blur_diameter(10.0)
         low, high = (middle, high) if blur > diameter else (low, middle)
     return low
 

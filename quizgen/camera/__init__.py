@@ -1,12 +1,14 @@
 """A camera that simulates only what the scene calls for.
 
-``scene`` holds plain values, ``effects`` one function per effect, ``plan`` decides, ``simulate``
+``scene`` holds plain values, ``effects`` one module per effect, ``plan`` decides, ``simulate``
 runs. Pictures are float32 arrays (H, W, 3), linear until ``gamma``; importing needs NumPy only.
 """
 
+from quizgen.camera.camera import Camera
 from quizgen.camera.plan import Plan, everything, plan
-from quizgen.camera.scene import Camera, Length, Scene, SceneError, Thing, View
+from quizgen.camera.scene import Length, Scene, SceneError, Thing
 from quizgen.camera.simulate import Photo, simulate, simulate_everything
+from quizgen.camera.view import View
 
 __all__ = [
     "Camera",

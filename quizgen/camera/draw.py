@@ -13,7 +13,9 @@ from itertools import groupby
 import numpy as np
 from numpy.typing import NDArray
 
-from quizgen.camera.scene import Image, SceneError, Thing, View
+from quizgen.camera.body import F_NUMBER
+from quizgen.camera.scene import Image, SceneError, Thing
+from quizgen.camera.view import View
 
 Plane = NDArray[np.float64]
 Shape = Callable[[Thing, Plane, Plane], Plane]
@@ -236,7 +238,7 @@ def sheets(view: View) -> tuple[Sheet, ...]:
 
 
 def _key(thing: Thing, view: View) -> tuple[float | None, Motion]:
-    return (thing.depth if view.camera.f_number is not None else None), motion(thing, view)
+    return (thing.depth if view.camera[F_NUMBER] is not None else None), motion(thing, view)
 
 
 def _background(view: View) -> Layer:
@@ -261,7 +263,7 @@ def draw(view: View) -> Stack:
     Parameters
     ----------
     view : View
-        All lengths in px (see `quizgen.camera.effects.optics.projection`).
+        All lengths in px (see `quizgen.camera.effects.projection`).
 
     Returns
     -------

@@ -14,7 +14,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from quizgen.camera.draw import Layer, Sheet, Stack, sheets
-from quizgen.camera.scene import Image, View
+from quizgen.camera.scene import Image
+from quizgen.camera.view import View
 
 EXCEEDED = 1e-4
 """Share of values by which a bound on something random may be exceeded."""

@@ -5,31 +5,36 @@ Every function returns plain arrays; words, frames and alt texts belong to the f
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 from numpy.typing import NDArray
 
-from quizgen.camera.effects import isp, sensor
-from quizgen.camera.effects.base import stream
-from quizgen.camera.scene import Camera, Image, Scene, View
+from quizgen.camera.camera import Camera
+from quizgen.camera.codes import histogram, rounded
+from quizgen.camera.effects import demosaicing, mosaic
+from quizgen.camera.effects.gaussian_noise import add_gaussian
+from quizgen.camera.effects.impulse_noise import add_impulses
+from quizgen.camera.effects.normalisation import stretch_range
+from quizgen.camera.hsv import edit_hsv
+from quizgen.camera.noise import stream
+from quizgen.camera.scene import Image, Scene
 from quizgen.camera.simulate import Photo, simulate
+from quizgen.camera.view import View
 
 Codes = NDArray[np.uint8]
 
 
 def codes(image: Image) -> Codes:
     """8-bit codes of a finished picture in [0, 1], halves rounded upward."""
-    return isp.rounded(image * np.float32(255.0))
+    return rounded(image * np.float32(255.0))
 
 
 def hsv_edits(image: Image, value: float, saturation: float, hue: float) -> tuple[Image, ...]:
     """The original, V times a factor, S times a factor, and H plus degrees, in this order."""
     return (
         image,
-        isp.edit_hsv(image, value=value),
-        isp.edit_hsv(image, saturation=saturation),
-        isp.edit_hsv(image, hue=hue),
+        edit_hsv(image, value=value),
+        edit_hsv(image, saturation=saturation),
+        edit_hsv(image, hue=hue),
     )
 
 
@@ -37,8 +42,8 @@ def noisy(image: Image, sigma: float, share: float, seed: int) -> tuple[Image, I
     """Clean, with Gaussian noise, with salt and pepper; each noise has its own stream."""
     height, width = image.shape[:2]
     view = View(Scene(width, height, image=image, seed=seed), Camera())
-    gaussian = isp.add_gaussian(image, sigma, stream(view, "gaussian noise"))
-    return image, gaussian, isp.add_impulses(image, share, stream(view, "impulse noise"))
+    gaussian = add_gaussian(image, sigma, stream(view, "gaussian noise"))
+    return image, gaussian, add_impulses(image, share, stream(view, "impulse noise"))
 
 
 def bayer(image: Image, phase: str = "RGGB") -> tuple[Image, Image, Image]:
@@ -55,18 +60,18 @@ def bayer(image: Image, phase: str = "RGGB") -> tuple[Image, Image, Image]:
     """
     height, width = image.shape[:2]
     view = View(Scene(width, height, image=image), Camera(mosaic=phase))
-    raw = sensor.mosaic(image, view)
+    raw = mosaic.run(image, view)
     coloured = np.zeros((height, width, 3), np.float32)
-    for row, channels in enumerate(sensor.colour_at(view)):
+    for row, channels in enumerate(mosaic.colour_at(view)):
         for column, channel in enumerate(channels):
             coloured[row::2, column::2, channel] = raw[row::2, column::2, 0]
-    return raw[..., 0], coloured, isp.demosaic(raw, view)
+    return raw[..., 0], coloured, demosaicing.run(raw, view)
 
 
 def at_f_numbers(scene: Scene, camera: Camera, numbers: tuple[float, ...]) -> tuple[Photo, ...]:
     """The same scene at several f-numbers; brightness stays, as with a matching shutter."""
     return tuple(
-        simulate(scene, replace(camera, f_number=number), question="depth of field")
+        simulate(scene, camera.but(f_number=number), question="depth of field")
         for number in numbers
     )
 
@@ -75,5 +80,5 @@ def normalised(
     image: Image, low: float, high: float, bins: int = 64
 ) -> tuple[Image, NDArray[np.int64], NDArray[np.int64]]:
     """A picture stretched from [low, high] to [0, 1], and the histograms before and after."""
-    after = isp.stretch_range(image, low, high)
-    return after, isp.histogram(image, bins), isp.histogram(after, bins)
+    after = stretch_range(image, low, high)
+    return after, histogram(image, bins), histogram(after, bins)

@@ -11,14 +11,17 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
+from time import perf_counter
 
-from quizgen.camera.costs import FACTS_PER_MEGAPIXEL, cost
+from quizgen.camera import effects
+from quizgen.camera.camera import Camera
+from quizgen.camera.costs import FACTS_PER_MEGAPIXEL
 from quizgen.camera.draw import Stack, draw
-from quizgen.camera.effects import EFFECTS, QUESTIONS
-from quizgen.camera.effects.base import Effect
-from quizgen.camera.effects.optics import projection
+from quizgen.camera.effect import Effect
 from quizgen.camera.facts import NO_ERROR, Error, Facts, coarse, glimpsed, measured
-from quizgen.camera.scene import Camera, Scene, SceneError, View
+from quizgen.camera.filters import opencv
+from quizgen.camera.scene import Scene, SceneError
+from quizgen.camera.view import View
 
 BUDGETS = {"same": 0.5, "visible": 2.0, "sketch": 8.0}
 """Named budgets in 8-bit grey levels."""
@@ -26,9 +29,6 @@ BUDGETS = {"same": 0.5, "visible": 2.0, "sketch": 8.0}
 GREY_LEVELS = 255.0
 
 EXACT, SKIP = "", "skip"
-
-RANDOM = ("shot noise", "dark current", "read noise", "gaussian noise", "impulse noise")
-"""Effects that draw random numbers."""
 
 _ROUNDING = 5e-7
 """What single precision adds to a difference in one step, relative to the largest value."""
@@ -92,13 +92,18 @@ class Prepared:
 
     def __init__(self, scene: Scene, camera: Camera) -> None:
         self.given = View(scene, camera)
+        self.prepared_ms: dict[str, float] = {}
 
     @cached_property
     def view(self) -> View:
         """Everything in px."""
-        if not self.given.scene.metric:
-            return self.given
-        return replace(self.given, scene=projection(self.given.scene, self.given))
+        view = self.given
+        for effect in effects.present(view):
+            if effect.prepare is not None:
+                started = perf_counter()
+                view = replace(view, scene=effect.prepare(view.scene, view))
+                self.prepared_ms[effect.name] = (perf_counter() - started) * 1e3
+        return view
 
     @cached_property
     def stack(self) -> Stack:
@@ -123,7 +128,7 @@ class _Chain:
         self.before = _facts_along(present, view, facts)
         self.lost = [_lost(effect, f, view) for effect, f in zip(present, self.before, strict=True)]
         self.rough = [
-            {rung.name: rung.error(f, view).plus(_rounding(f)) for rung in effect.cheaper}
+            {rung.name: rung.error(f, view).plus(_rounding(f)) for rung in effect.rungs}
             for effect, f in zip(present, self.before, strict=True)
         ]
 
@@ -182,19 +187,16 @@ def _units(present: tuple[Effect, ...], asked: frozenset[str]) -> list[_Unit]:
 
 
 def _unit(members: tuple[int, ...], present: tuple[Effect, ...], asked: frozenset[str]) -> _Unit:
-    effects = [present[index] for index in members]
-    rungs = [rung.name for rung in effects[0].cheaper] if len(effects) == 1 else []
-    needed = any(asked.intersection(effect.decides) for effect in effects)
-    return _Unit(members, (EXACT, *rungs, SKIP), needed or effects[0].stage == "scene")
+    together = [present[index] for index in members]
+    rungs = [rung.name for rung in together[0].rungs] if len(together) == 1 else []
+    needed = any(effect.reason or asked.intersection(effect.decides) for effect in together)
+    return _Unit(members, (EXACT, *rungs, SKIP), needed)
 
 
-def _costs(
-    present: tuple[Effect, ...], view: View, *, opencv_used: bool | None
-) -> list[dict[str, float]]:
+def _costs(present: tuple[Effect, ...], view: View, *, opencv_used: bool) -> list[dict[str, float]]:
     def one(effect: Effect) -> dict[str, float]:
-        rungs = (EXACT, *(rung.name for rung in effect.cheaper))
-        known = {rung: cost(effect.name, rung, view, opencv_used=opencv_used) for rung in rungs}
-        return {**known, SKIP: 0.0}
+        rungs = (EXACT, *(rung.name for rung in effect.rungs))
+        return {**{rung: effect.cost(view, rung, opencv_used) for rung in rungs}, SKIP: 0.0}
 
     return [one(effect) for effect in present]
 
@@ -250,12 +252,13 @@ def wanted(question: str | tuple[str, ...] | None, scene: Scene) -> frozenset[st
     Raises
     ------
     SceneError
-        If a kind is not in `quizgen.camera.effects.QUESTIONS`.
+        If no effect decides a kind.
     """
     kinds = scene.question if question is None else question
     asked = frozenset((kinds,) if isinstance(kinds, str) else kinds)
-    for kind in sorted(asked.difference(QUESTIONS)):
-        raise SceneError(f"unknown question {kind!r}; one of {', '.join(QUESTIONS)}")
+    known = effects.questions()
+    for kind in sorted(asked.difference(known)):
+        raise SceneError(f"unknown question {kind!r}; one of {', '.join(known)}")
     return asked
 
 
@@ -296,8 +299,7 @@ def plan(
     prepared = scene if isinstance(scene, Prepared) else Prepared(scene, camera or Camera())
     given, limit = prepared.given, read_budget(budget)
     asked = wanted(question, given.scene)
-    present = tuple(effect for effect in EFFECTS if effect.present(given))
-    absent = tuple(effect.name for effect in EFFECTS if effect not in present)
+    present, absent = _sorted_out(given)
     if not present:
         return Plan((), (), absent, 0.0, 0.0, limit)
     units = _units(present, asked)
@@ -308,19 +310,25 @@ def plan(
 def everything(scene: Scene | Prepared, camera: Camera | None = None) -> Plan:
     """The plan that runs every present effect exactly."""
     prepared = scene if isinstance(scene, Prepared) else Prepared(scene, camera or Camera())
-    present = tuple(effect for effect in EFFECTS if effect.present(prepared.given))
-    absent = tuple(effect.name for effect in EFFECTS if effect not in present)
+    present, absent = _sorted_out(prepared.given)
+    used, view = opencv() is not None, prepared.view
     steps = tuple(
-        Step(effect.name, EXACT, "everything", math.nan, cost(effect.name, EXACT, prepared.view))
+        Step(effect.name, EXACT, "everything", math.nan, effect.cost(view, EXACT, used))
         for effect in present
     )
     return Plan(steps, (), absent, 0.0, sum(step.predicted_ms for step in steps), 0.0)
 
 
+def _sorted_out(view: View) -> tuple[tuple[Effect, ...], tuple[str, ...]]:
+    """Effects that the camera has, and the names of those that it has not."""
+    present = effects.present(view)
+    return present, tuple(effect.name for effect in effects.EFFECTS if effect not in present)
+
+
 def _report(
     chain: _Chain, choice: dict[int, str], units: list[_Unit], absent: tuple[str, ...], limit: float
 ) -> Plan:
-    times = _costs(chain.present, chain.view, opencv_used=None)
+    times = _costs(chain.present, chain.view, opencv_used=opencv() is not None)
     steps, skipped = [], []
     for unit in units:
         alone = min(_alone(chain, choice, unit), GREY_LEVELS)
@@ -349,10 +357,8 @@ def _why_skipped(bound: float) -> str:
 
 
 def _why_kept(chain: _Chain, unit: _Unit, index: int, made: str, alone: float) -> str:
-    if chain.present[index].stage == "scene":
-        return "lengths in metres"
     if unit.fixed:
-        return "asked about"
+        return chain.present[index].reason or "asked about"
     size = "anything" if alone >= GREY_LEVELS else f"up to {alone:.3g} DN"
     if made == EXACT:
         return f"may change {size}"

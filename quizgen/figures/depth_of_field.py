@@ -11,7 +11,8 @@ from quizgen.figures._words import words_of
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from quizgen.camera.scene import Camera, Scene
+    from quizgen.camera.camera import Camera
+    from quizgen.camera.scene import Scene
     from quizgen.figures._pen import Pen
 
 DARK = "keep"

@@ -84,7 +84,7 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
 
 def _column(figure: Figure, pen: Pen, image: Image, where: tuple[float, float, float]) -> None:
     from quizgen.camera import pictures
-    from quizgen.camera.effects.isp import histogram
+    from quizgen.camera.codes import histogram
     from quizgen.figures._photo import bars, place
 
     left, wide, high = where

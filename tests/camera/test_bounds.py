@@ -7,7 +7,8 @@ import pytest
 import scenes_at_random as at_random
 
 from quizgen.camera import Camera, Scene, SceneError
-from quizgen.camera.effects import EFFECTS, QUESTIONS
+from quizgen.camera.effects import EFFECTS, questions
+from quizgen.camera.effects.distortion import K1, K2
 from quizgen.camera.facts import DEVIATIONS, EXCEEDED, Error, coarse, glimpsed, measured
 from quizgen.camera.plan import SKIP, Plan, Prepared, Step, _Chain, _units, everything, plan
 from quizgen.camera.simulate import difference_dn, run
@@ -25,7 +26,7 @@ def photographs(first, last, *, noise):
         try:
             yield seed, source, prepared, run(prepared, everything(prepared))
         except SceneError:
-            assert prepared.given.camera.k1 < 0 or prepared.given.camera.k2 < 0
+            assert prepared.given.camera[K1] < 0 or prepared.given.camera[K2] < 0
 
 
 def apart(one, other):
@@ -113,7 +114,7 @@ def test_what_is_asked_about_is_never_skipped():
     for seed in range(120):
         source = np.random.default_rng([seed, 9])
         prepared = Prepared(at_random.scene(source), at_random.camera(source, noise=True))
-        kind = str(source.choice(QUESTIONS))
+        kind = str(source.choice(questions()))
         try:
             chosen = plan(prepared, question=kind, budget=1e6)
         except SceneError:

@@ -10,7 +10,7 @@ from scipy.integrate import quad
 
 from quizgen.camera import Camera, Length, Scene, SceneError, Thing, View, simulate
 from quizgen.camera.draw import Layer, Motion, composite
-from quizgen.camera.effects import optics, sensor
+from quizgen.camera.effects import defocus, distortion, lateral_colour, rolling_shutter, vignetting
 from quizgen.camera.filters import convolve
 from quizgen.camera.kernels import disc, line
 from quizgen.camera.plan import Prepared, everything
@@ -84,7 +84,7 @@ def test_a_sharp_front_keeps_its_edge_before_a_blurred_background():
     front = Layer(edge() * 0.5, edge()[..., :1], 2.0)
     back = Layer(np.random.default_rng(0).random((8, 80, 3)).astype(np.float32), None, 50.0)
     view = View(Scene(80, 8), Camera(0.05, 5e-6, 2.0, 2.0))
-    picture = composite(optics.defocus((back, front), view))
+    picture = composite(defocus.run((back, front), view))
     assert (picture[:, 40:] == 0.5).all()
 
 
@@ -92,7 +92,7 @@ def test_a_blurred_front_lets_the_background_through():
     front = Layer(np.zeros((8, 80, 3), np.float32), edge()[..., :1], 1.0)
     back = Layer(np.ones((8, 80, 3), np.float32), None, 2.0)
     view = View(Scene(80, 8), Camera(0.05, 5e-6, 8.0, 2.0))
-    picture = composite(optics.defocus((back, front), view))[4, :, 0]
+    picture = composite(defocus.run((back, front), view))[4, :, 0]
     radius = abs(view.blur_diameter(1.0)) / 2
     expected = [1 - edge_behind_a_disc(pixel + 0.5 - 40, radius) for pixel in range(20, 60)]
     assert np.abs(picture[20:60] - expected).max() < 2e-3
@@ -113,7 +113,7 @@ def test_the_front_does_not_leak_into_a_blurred_background():
 def test_distortion_is_that_of_project_points(k1, k2):
     """A point drawn undistorted is found where OpenCV projects it."""
     view = View(Scene(201, 151), Camera(0.05, 0.05 / 220, k1=k1, k2=k2))
-    x, y = optics._source(view.width, view.height, view.focal, k1, k2)
+    x, y = distortion.source(view.width, view.height, view.focal, k1, k2)
     rows, columns = np.mgrid[0:151:10, 0:201:10]
     normal = np.stack([(x - 100) / 220, (y - 75) / 220, np.ones_like(x)], axis=-1)
     matrix = np.array([[220.0, 0, 100], [0, 220, 75], [0, 0, 1]])
@@ -124,18 +124,18 @@ def test_distortion_is_that_of_project_points(k1, k2):
 
 
 def test_the_inverse_is_the_published_one_and_stops_at_the_fold():
-    assert optics.undistorted_radius(0.6928203230275509, -0.25, 0.0) == pytest.approx(
+    assert distortion.undistorted_radius(0.6928203230275509, -0.25, 0.0) == pytest.approx(
         0.842122266240542597, abs=1e-15
     )
     with pytest.raises(SceneError, match="folds"):
-        optics.undistorted_radius(0.77, -0.25, 0.0)
+        distortion.undistorted_radius(0.77, -0.25, 0.0)
 
 
 def test_lateral_colour_moves_red_out_and_blue_in():
     image = np.zeros((101, 101, 3), np.float32)
     image[90, 90] = 1
     view = View(Scene(101, 101), Camera(lateral_colour=1.0))
-    split = optics.lateral_colour((Layer(image),), view)[0].colour
+    split = lateral_colour.run((Layer(image),), view)[0].colour
     places = np.arange(101)
     centres = [(split[..., c].sum(axis=0) * places).sum() / split[..., c].sum() for c in range(3)]
     share = 40 / 50 / math.sqrt(2)
@@ -171,7 +171,7 @@ def test_a_propeller_turns_by_spin_times_row_time():
     image = np.zeros((101, 101, 3), np.float32)
     image[:, 49:52] = 1
     layer = Layer(image, image[..., :1], 1.0, Motion((0.0, 0.0), 20.0, (50.0, 50.0), 50.0))
-    bent = optics.rolling_shutter((layer,), view)[0].colour[..., 0]
+    bent = rolling_shutter.run((layer,), view)[0].colour[..., 0]
     for row in (20, 35, 65, 80):
         place = (bent[row] * np.arange(101)).sum() / bent[row].sum()
         angle = 20.0 * (row - 50) * 1e-3
@@ -180,7 +180,7 @@ def test_a_propeller_turns_by_spin_times_row_time():
 
 def test_natural_vignetting_is_cos_to_the_fourth():
     view = View(Scene(640, 480), Camera(0.05, 5e-5, natural_vignetting=True))
-    kept = sensor.fall_off_map(view)[..., 0]
+    kept = vignetting.fall_off_map(view)[..., 0]
     for row, column in ((0, 0), (100, 333), (479, 639)):
         radius = math.hypot(column - 319.5, row - 239.5) * 5e-5
         assert kept[row, column] == pytest.approx(math.cos(math.atan2(radius, 0.05)) ** 4, rel=1e-6)
@@ -192,7 +192,7 @@ def test_mechanical_vignetting_is_the_overlap_of_two_discs():
     x, y = distance * np.cos(turn), distance * np.sin(turn)
     for shift in (0.2, 0.5, 0.8):
         inside = np.hypot(x - shift, y) < 0.5
-        assert sensor.rim_overlap(shift) == pytest.approx(inside.mean(), abs=3e-3)
+        assert vignetting.rim_overlap(shift) == pytest.approx(inside.mean(), abs=3e-3)
 
 
 def test_projection_of_metres():

@@ -72,10 +72,11 @@ def test_units_become_base_units(tmp_path):
         "utf-8",
     )
     scene, camera = load(path)
-    assert (camera.focal_length, camera.f_number, camera.focus_distance) == (0.05, 2.8, 3.0)
-    assert camera.pixel_pitch == pytest.approx(0.036 / 640)
-    assert (camera.shutter, camera.smear, camera.velocity) == (0.004, 0.02, (3.0, -1.0))
-    assert camera.hue == pytest.approx(np.pi)
+    assert camera.given == {
+        "focal_length": 0.05, "f_number": 2.8, "focus_distance": 3.0, "shutter": 0.004,
+        "smear": 0.02, "velocity": (3.0, -1.0), "full_well": 20000.0,
+        "pixel_pitch": pytest.approx(0.036 / 640), "hue": pytest.approx(np.pi),
+    }  # fmt: skip
     thing = scene.things[0]
     assert (thing.width, thing.height) == ((2.0, True), (30.0, False))
     assert thing.velocity == ((1.0, True), (2.0, False))

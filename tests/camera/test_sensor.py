@@ -10,10 +10,24 @@ import pytest
 from scipy import stats
 
 from quizgen.camera import Camera, Scene, View, luminosity, pictures, simulate
-from quizgen.camera.effects import isp, sensor
-from quizgen.camera.effects.base import stream
-from quizgen.camera.effects.sensor_bounds import POISSON_GAP
+from quizgen.camera.codes import histogram, rounded
+from quizgen.camera.effects import (
+    blooming,
+    dark_current,
+    demosaicing,
+    flat_field,
+    gaussian_noise,
+    impulse_noise,
+    quantisation,
+    read_noise,
+    shot_noise,
+    smear,
+    vignetting,
+)  # fmt: skip
+from quizgen.camera.effects.normalisation import stretch_range
 from quizgen.camera.facts import DEVIATIONS, EXCEEDED
+from quizgen.camera.hsv import hsv_to_rgb, rgb_to_hsv
+from quizgen.camera.noise import POISSON_GAP, stream
 from quizgen.camera.power import encode, encode_by_table
 
 
@@ -40,7 +54,7 @@ def chi_square(counts, mean):
 
 @pytest.mark.parametrize("electrons", [3.0, 40.0, 1000.0])
 def test_shot_noise_is_poisson(electrons):
-    noisy = sensor.shot_noise(flat(0.5), view(full_well=2 * electrons)) * 2 * electrons
+    noisy = shot_noise.run(flat(0.5), view(full_well=2 * electrons)) * 2 * electrons
     counts = np.rint(noisy)
     assert np.abs(noisy - counts).max() < 1e-3
     assert 1e-3 < chi_square(counts, electrons) < 1 - 1e-3
@@ -49,14 +63,14 @@ def test_shot_noise_is_poisson(electrons):
 @pytest.mark.parametrize("electrons", [0.2, 6.0, 300.0])
 def test_dark_charge_is_poisson(electrons):
     look = view(full_well=1e4, dark_current=electrons, shutter=1.0)
-    counts = np.rint(sensor.dark_current(flat(0.0), look) * 1e4)
+    counts = np.rint(dark_current.run(flat(0.0), look) * 1e4)
     assert 1e-3 < chi_square(counts, electrons) < 1 - 1e-3
 
 
 @pytest.mark.parametrize("mean", [1e-3, 0.3, 3.0, 16.1, 16.2, 25.5, 400.0, 1e6])
 def test_poisson_quantiles_against_scipy(mean):
     normal = np.linspace(-6, 6, 300_001)
-    counts = sensor.poisson_quantiles(np.full_like(normal, mean), normal)
+    counts = shot_noise.poisson_quantiles(np.full_like(normal, mean), normal)
     jumps = np.flatnonzero(np.diff(counts))
     assert (np.diff(counts) >= 0).all()
     ours, theirs = stats.norm.cdf(normal[jumps]), stats.poisson.cdf(counts[jumps], mean)
@@ -66,15 +80,15 @@ def test_poisson_quantiles_against_scipy(mean):
 def test_a_brighter_pixel_never_counts_less():
     means = np.geomspace(1e-3, 1e5, 20_001)
     for normal in np.linspace(-4, 4, 17):
-        counts = sensor.poisson_quantiles(means, np.full_like(means, normal))
+        counts = shot_noise.poisson_quantiles(means, np.full_like(means, normal))
         assert (np.diff(counts) >= 0).mean() > 0.9999
         assert np.diff(counts).min() >= -1
 
 
 def test_normal_noises_are_normal():
-    read = sensor.read_noise(flat(0.5), view(full_well=1000.0, read_noise=8.0)) - 0.5
-    rough = sensor.shot_noise(flat(0.25), view(full_well=1e4), "gaussian") - 0.25
-    finished = isp.gaussian_noise(flat(0.5), view(gaussian_noise=0.02)) - 0.5
+    read = read_noise.run(flat(0.5), view(full_well=1000.0, read_noise=8.0)) - 0.5
+    rough = shot_noise.run(flat(0.25), view(full_well=1e4), "gaussian") - 0.25
+    finished = gaussian_noise.run(flat(0.5), view(gaussian_noise=0.02)) - 0.5
     for values, sigma in ((read, 8e-3), (rough, math.sqrt(0.25 / 1e4)), (finished, 0.02)):
         assert stats.kstest(values.ravel() / sigma, "norm").pvalue > 1e-3
 
@@ -109,14 +123,14 @@ def test_streams_differ_between_effects_and_seeds():
 
 def test_hot_pixels_are_a_share():
     look = view(full_well=1e4, hot_pixels=0.01)
-    hot = (sensor.dark_current(flat(0.1), look) == 1).all(axis=2).sum()
+    hot = (dark_current.run(flat(0.1), look) == 1).all(axis=2).sum()
     assert stats.binomtest(int(hot), 90_000, 0.01).pvalue > 1e-3
 
 
 def test_blooming_keeps_the_charge_and_stays_in_the_column():
     image = np.zeros((61, 5, 3), np.float32)
     image[30, 2] = 21.0
-    spilt = sensor.blooming(image, view())
+    spilt = blooming.run(image, view())
     assert spilt.max() == 1.0
     assert spilt.sum() == pytest.approx(63.0, rel=1e-6)
     assert spilt[20:41, 2].min() == 1.0
@@ -124,19 +138,19 @@ def test_blooming_keeps_the_charge_and_stays_in_the_column():
     assert np.array_equal(spilt, spilt[::-1])
 
 
-def test_a_streak_lifts_the_whole_column():
+def test_smear_lifts_the_whole_column():
     image = np.zeros((100, 3, 3), np.float32)
     image[10, 1] = 50.0
-    lifted = sensor.smear(image, view(full_well=1.0, smear=0.02))
+    lifted = smear.run(image, view(full_well=1.0, smear=0.02))
     assert lifted[60, 1] == pytest.approx(0.02 * 50 / 100)
     assert (lifted[:, 0] == 0).all()
 
 
 def test_converter_codes():
     ramp = (np.arange(9, dtype=np.float32) / 8).reshape(1, 9, 1)
-    codes = sensor.quantise(ramp, view(bit_depth=2)) * 3
+    codes = quantisation.run(ramp, view(bit_depth=2)) * 3
     assert codes.ravel().tolist() == [0, 0, 1, 1, 2, 2, 2, 3, 3]
-    fine = sensor.quantise(
+    fine = quantisation.run(
         np.random.default_rng(0).random((400, 400, 3), np.float32), view(bit_depth=8)
     )
     original = np.random.default_rng(0).random((400, 400, 3), np.float32)
@@ -158,7 +172,7 @@ OPENCV_NAMES = {
 def test_demosaicing_is_that_of_opencv(phase):
     codes = np.random.default_rng(3).integers(0, 256, (40, 52), np.uint8)
     theirs = cv2.cvtColor(codes, OPENCV_NAMES[phase])
-    ours = isp.rounded(isp.demosaic(codes[..., None].astype(np.float32), view(mosaic=phase)))
+    ours = rounded(demosaicing.run(codes[..., None].astype(np.float32), view(mosaic=phase)))
     assert np.array_equal(ours[1:-1, 1:-1], theirs[1:-1, 1:-1])
 
 
@@ -175,22 +189,22 @@ def test_the_notes_bayer_means():
     """Four greens 100, 120, 110, 130 make 115, and nothing wraps (W15, EC7)."""
     raw = np.zeros((5, 5, 1), np.float32)
     raw[1, 2], raw[2, 1], raw[2, 3], raw[3, 2] = 100, 120, 110, 130
-    assert isp.demosaic(raw, view(mosaic="RGGB"))[2, 2, 1] == 115
+    assert demosaicing.run(raw, view(mosaic="RGGB"))[2, 2, 1] == 115
 
 
 def test_flat_field_of_the_notes():
     """K28 with rounding instead of truncation: 191.25 becomes 191 either way, the rest is exact."""
     image, even = np.float32([[50, 100], [255, 60]]), np.float32([[100, 200], [200, 100]])
-    corrected = isp.correct_flat(image, even, np.float32(0))
+    corrected = flat_field.correct_flat(image, even, np.float32(0))
     assert corrected.tolist() == [[75.0, 75.0], [191.25, 90.0]]
     with pytest.raises(ValueError, match="dark frame"):
-        isp.correct_flat(image, np.float32([[0, 1], [1, 1]]), np.float32(0))
+        flat_field.correct_flat(image, np.float32([[0, 1], [1, 1]]), np.float32(0))
 
 
 def test_flat_field_undoes_vignetting():
     camera = Camera(0.02, 5e-5, natural_vignetting=True, mechanical_vignetting=0.5, flat_field=True)
     picture = simulate(Scene(64, 48, background=(0.3, 0.6, 0.9)), camera, budget=0.0).values
-    kept = sensor.fall_off_map(View(Scene(64, 48), camera))
+    kept = vignetting.fall_off_map(View(Scene(64, 48), camera))
     assert picture == pytest.approx(
         np.float32([0.3, 0.6, 0.9]) * kept.mean() * np.ones_like(picture), rel=1e-5
     )
@@ -231,21 +245,21 @@ def colours():
 
 
 def test_hsv_against_colorsys():
-    ours = isp.rgb_to_hsv(colours())[0]
+    ours = rgb_to_hsv(colours())[0]
     for colour, (hue, saturation, value) in zip(colours()[0].astype(float), ours, strict=True):
         expected = colorsys.rgb_to_hsv(*colour)
         turn = abs(hue / 360 - expected[0])
         assert min(turn, 1 - turn) < 1e-5
         assert saturation == pytest.approx(expected[1], abs=2e-6)
         assert value == pytest.approx(expected[2], abs=1e-7)
-        back = isp.hsv_to_rgb(np.float32([[[hue, saturation, value]]]))[0, 0]
+        back = hsv_to_rgb(np.float32([[[hue, saturation, value]]]))[0, 0]
         assert back == pytest.approx(colour, abs=2e-6)
 
 
 def test_hsv_edits_of_the_notes():
     """(0.2, 0.8, 0.4) is 140 deg; +120 deg swaps to (0.4, 0.2, 0.8); S x 0.2 is (0.68, 0.8, 0.72)."""
     colour = np.float32([[[0.2, 0.8, 0.4]]])
-    assert isp.rgb_to_hsv(colour)[0, 0] == pytest.approx([140, 0.75, 0.8], abs=1e-4)
+    assert rgb_to_hsv(colour)[0, 0] == pytest.approx([140, 0.75, 0.8], abs=1e-4)
     _, darker, paler, turned = (edit[0, 0] for edit in pictures.hsv_edits(colour, 0.5, 0.2, 120.0))
     assert darker == pytest.approx([0.1, 0.4, 0.2], abs=1e-6)
     assert paler == pytest.approx([0.68, 0.8, 0.72], abs=1e-6)
@@ -254,7 +268,9 @@ def test_hsv_edits_of_the_notes():
 
 def test_clipped_noise_lifts_black():
     """0.399 sigma (errata E39): 5.09 grey levels at sigma = 0.05."""
-    lifted = isp.add_gaussian(flat(0.0, 600), 0.05, np.random.default_rng(5)).mean() * 255
+    lifted = (
+        gaussian_noise.add_gaussian(flat(0.0, 600), 0.05, np.random.default_rng(5)).mean() * 255
+    )
     assert lifted == pytest.approx(5.09, abs=0.02)
 
 
@@ -264,12 +280,12 @@ def test_salt_and_pepper_come_in_halves():
     for count in (black, white):
         assert stats.binomtest(int(count), 90_000, 0.04).pvalue > 1e-3
     with pytest.raises(ValueError, match="share"):
-        isp.add_impulses(flat(0.5), 1.5, np.random.default_rng(0))
+        impulse_noise.add_impulses(flat(0.5), 1.5, np.random.default_rng(0))
 
 
 def test_normalisation_of_the_notes():
     values = np.float32([128, 125, 0.51, 160]) / 255
-    look = isp.stretch_range(values, 50 / 255, 200 / 255)
+    look = stretch_range(values, 50 / 255, 200 / 255)
     assert look == pytest.approx([0.52, 0.5, 0.0, 110 / 150], abs=1e-6)
     after, before_counts, after_counts = pictures.normalised(flat(0.5), 0.25, 0.45)
     assert (after == 1).all()
@@ -278,7 +294,7 @@ def test_normalisation_of_the_notes():
 
 def test_histogram_of_codes_has_one_bin_per_level():
     codes = np.arange(256, dtype=np.uint8).reshape(16, 16)
-    assert isp.histogram(codes, top=255).tolist() == [1] * 256
+    assert histogram(codes, top=255).tolist() == [1] * 256
 
 
 def test_luminosity():

@@ -1,0 +1,65 @@
+"""A camera with checked settings."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+from quizgen.camera import effects
+from quizgen.camera.scene import SceneError
+from quizgen.camera.settings import Settings
+
+
+class Camera(Settings):
+    """A camera; every default is absent, not multiplied by one.
+
+    Parameters
+    ----------
+    focal_length, pixel_pitch : float or None
+        m.
+    f_number : float or None
+        None is a pinhole.
+    focus_distance : float
+        Distance in perfect focus, m, may be infinite.
+    **more : object
+        Any other setting of `quizgen.camera.body` or of an effect, in base units, such as
+        ``k1=-0.2``, ``full_well=2e4`` or ``gamma="srgb"``.
+
+    Raises
+    ------
+    SceneError
+        If a setting is unknown or impossible.
+    """
+
+    def __init__(
+        self,
+        focal_length: float | None = None,
+        pixel_pitch: float | None = None,
+        f_number: float | None = None,
+        focus_distance: float = math.inf,
+        **more: object,
+    ) -> None:
+        lens = {
+            "focal_length": focal_length,
+            "pixel_pitch": pixel_pitch,
+            "f_number": f_number,
+            "focus_distance": focus_distance,
+        }
+        known, given = effects.settings(), lens | more
+        for name in more.keys() - known.keys():
+            raise SceneError(f"unknown key {name!r} in camera{nearest(name, known)}")
+        super().__init__({name: x for name, x in given.items() if x != known[name].identity})
+        for setting in known.values():
+            for fault in setting.faults(self):
+                raise SceneError(fault)
+
+    def but(self, **changes: object) -> Camera:
+        """The same camera with other values of some settings."""
+        return Camera(**{**self.given, **changes})  # type: ignore[arg-type]
+
+
+def nearest(name: str, known: Iterable[str]) -> str:
+    """A hint at the key that was probably meant."""
+    close = get_close_matches(name, known, 1)
+    return f"; did you mean {close[0]!r}?" if close else ""

@@ -1,0 +1,31 @@
+"""8-bit codes of pictures, and their histograms."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Numbers = NDArray[np.integer[Any]] | NDArray[np.floating[Any]]
+
+
+def rounded(values: NDArray[np.floating[Any]]) -> NDArray[np.uint8]:
+    """8-bit codes of values in [0, 255]: clipped, halves rounded upward (as OpenCV's demosaicing).
+
+    Nothing is truncated (errata EC8) and nothing wraps (errata E21).
+    """
+    return np.asarray(np.clip(np.floor(values + 0.5), 0, 255), np.uint8)
+
+
+def histogram(image: Numbers, bins: int = 256, top: float = 1.0) -> NDArray[np.int64]:
+    """Counts of values in equal bins over [0, top]; values outside fall into the end bins.
+
+    Parameters
+    ----------
+    image : numpy.ndarray
+        Any shape. With integer pictures use ``top = 255`` and 256 bins: one bin per level.
+    """
+    steps = bins - 1 if np.issubdtype(image.dtype, np.integer) else bins
+    index = np.clip((image.astype(np.float64) * (steps / top)).astype(np.int64), 0, bins - 1)
+    return np.bincount(index.reshape(-1), minlength=bins)

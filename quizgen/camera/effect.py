@@ -1,0 +1,118 @@
+"""What an effect is: one module with its settings, its work, its bound and its cost."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+from quizgen.camera.draw import Layer, Stack, composite
+from quizgen.camera.facts import NO_ERROR, Error, Facts
+from quizgen.camera.scene import Image, Scene
+from quizgen.camera.settings import AnySetting
+from quizgen.camera.view import View
+
+Stage = Literal["scene", "optics", "sensor", "processing", "edit"]
+Run = Callable[[Stack, View, str], Stack]
+Bound = Callable[[Facts, View], Error]
+Carry = Callable[[Error, Facts, View], Error]
+After = Callable[[Facts, View], Facts]
+Cost = Callable[[View, str, bool], float]
+
+
+def _anything(facts: Facts, view: View) -> Error:
+    """Nothing is known: skipping may change everything."""
+    return Error(float("inf"))
+
+
+def same_error(error: Error, facts: Facts, view: View) -> Error:
+    """Differences pass through unchanged (averages, shifts, additions)."""
+    return error
+
+
+def same_facts(facts: Facts, view: View) -> Facts:
+    """The picture's range and steps do not grow."""
+    return facts
+
+
+def no_bound(facts: Facts, view: View) -> Error:
+    """Nothing to lose."""
+    return NO_ERROR
+
+
+def same_stack(stack: Stack, view: View, rung: str) -> Stack:
+    """Nothing is left to do once the scene is drawn."""
+    return stack
+
+
+def on_picture(work: Callable[[Image, View, str], Image]) -> Run:
+    """Work on one picture: the layers are laid over each other first."""
+
+    def run(stack: Stack, view: View, rung: str) -> Stack:
+        return (Layer(work(composite(stack), view, rung)),)
+
+    return run
+
+
+@dataclass(frozen=True, slots=True)
+class Rung:
+    """A cheaper way to compute an effect: its name and how far it is from the exact way."""
+
+    name: str
+    error: Bound
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Effect:
+    """All that the camera knows of an effect.
+
+    Parameters
+    ----------
+    name : str
+        The field's term; the module is called so too, and the stream of its random numbers.
+    stage : str
+        Up to ``optics`` layers are kept apart; what a ``sensor`` limit never meets costs nothing.
+    decides : tuple of str
+        Kinds of question whose answer is this effect.
+    settings : tuple of Setting
+        Keys of ``[camera]`` that belong to it alone.
+    present : callable
+        Whether the camera's settings differ from the identity.
+    run : callable
+        ``run(stack, view, rung) -> stack``; see `on_picture`.
+    cost : callable
+        ``cost(view, rung, opencv_used)``, predicted time in ms of a view in px.
+    skipped : callable
+        Error of leaving it out, from the facts of its input (1 = white). By default anything, so
+        that it is never skipped.
+    carried : callable
+        What becomes of an error that is already there.
+    after : callable
+        Facts of the output.
+    rungs : tuple of Rung
+        Cheaper ways, from dear to cheap.
+    pair : str
+        Effects with the same pair run together or not at all.
+    random : bool
+        Whether it draws random numbers.
+    prepare : callable, optional
+        ``prepare(scene, view) -> scene``, before anything is drawn.
+    reason : str
+        Why it runs whatever the budget; empty where the budget decides.
+    """
+
+    name: str
+    stage: Stage
+    decides: tuple[str, ...]
+    settings: tuple[AnySetting, ...] = ()
+    present: Callable[[View], bool]
+    run: Run
+    cost: Cost
+    skipped: Bound = _anything
+    carried: Carry = same_error
+    after: After = same_facts
+    rungs: tuple[Rung, ...] = ()
+    pair: str = ""
+    random: bool = False
+    prepare: Callable[[Scene, View], Scene] | None = None
+    reason: str = ""

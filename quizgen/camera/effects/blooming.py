@@ -1,0 +1,78 @@
+"""Blooming: charge above the full well spills along the column."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from quizgen.camera.body import NEEDS_FULL_WELL
+from quizgen.camera.costs import measured
+from quizgen.camera.effect import Effect, on_picture
+from quizgen.camera.facts import Error, Facts
+from quizgen.camera.scene import Image
+from quizgen.camera.settings import Setting
+from quizgen.camera.values import truth
+from quizgen.camera.view import View
+
+BLOOMING = Setting("blooming", truth, False, (NEEDS_FULL_WELL,))
+
+
+def run(image: Image, view: View, rung: str = "") -> Image:
+    """Charge above the full well spills along the column, half up and half down.
+
+    Each photosite keeps what it can; what reaches the border is drained.
+    """
+    half = np.maximum(image - np.float32(1.0), np.float32(0.0)) * np.float32(0.5)
+    kept = np.minimum(image, np.float32(1.0))
+    return _spill(_spill(kept, half)[::-1], half[::-1])[::-1]
+
+
+def _spill(kept: Image, excess: Image) -> Image:
+    """Carry excess to the next rows until it finds room."""
+    filled, carried = kept.copy(), np.zeros(kept.shape[1:], np.float32)
+    for row in range(kept.shape[0]):
+        level = filled[row] + carried
+        filled[row] = np.minimum(level, np.float32(1.0))
+        carried = level - filled[row] + excess[row]
+    return filled
+
+
+def _overflows(facts: Facts, error: float = 0.0) -> bool:
+    return facts.top + error > 1.0
+
+
+def skipped(facts: Facts, view: View) -> Error:
+    """Nothing below the full well; else a filled column."""
+    if not _overflows(facts):
+        return Error()
+    return Error(max(facts.top - 1.0, 1.0 - facts.bottom))
+
+
+def carried(error: Error, facts: Facts, view: View) -> Error:
+    """Spilt charge adds up along a column."""
+    if not _overflows(facts, error.total):
+        return error
+    return Error(min((view.height + 1) * error.total, 1.0 - min(facts.bottom - error.total, 0.0)))
+
+
+def after(facts: Facts, view: View) -> Facts:
+    """A filled column is a step of the whole range."""
+    if not _overflows(facts):
+        return facts
+    full = replace(facts, high=1.0)
+    return full.with_jump((full.span + full.reach, full.span + full.reach))
+
+
+EFFECT = Effect(
+    name="blooming",
+    stage="sensor",
+    decides=("blooming", "saturation", "artefacts"),
+    settings=(BLOOMING,),
+    present=lambda view: view.camera[BLOOMING],
+    run=on_picture(run),
+    cost=measured((9.37, 215)),
+    skipped=skipped,
+    carried=carried,
+    after=after,
+)

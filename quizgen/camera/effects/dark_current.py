@@ -1,0 +1,91 @@
+"""Dark current: charge without light, with its own shot noise, and hot pixels."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from quizgen.camera.body import NEEDS_FULL_WELL, SHUTTER
+from quizgen.camera.costs import measured
+from quizgen.camera.effect import Effect, on_picture
+from quizgen.camera.facts import Error, Facts
+from quizgen.camera.noise import POISSON_GAP, bands, electrons_at_white, noisier, stream
+from quizgen.camera.scene import Image
+from quizgen.camera.settings import NOT_NEGATIVE, SHARE, Setting
+from quizgen.camera.values import quantity
+from quizgen.camera.view import View
+
+DARK_CURRENT = Setting("dark_current", quantity("e-/s"), 0.0, (NEEDS_FULL_WELL, NOT_NEGATIVE))
+HOT_PIXELS = Setting("hot_pixels", quantity("%"), 0.0, (NEEDS_FULL_WELL, SHARE))
+"""Share of photosites stuck at full well."""
+
+
+def dark_electrons(view: View) -> float:
+    """Mean dark charge per photosite, e-: current times exposure time."""
+    return view.camera[DARK_CURRENT] * view.camera[SHUTTER]
+
+
+def _poisson(mean: float, shape: tuple[int, ...], source: np.random.Generator) -> Image:
+    """Poisson counts of one mean, by looking uniform numbers up in the distribution's table."""
+    first = max(0, math.floor(mean - 12.0 * math.sqrt(mean) - 20.0))
+    last = math.ceil(mean + 12.0 * math.sqrt(mean) + 40.0)
+    chances = [
+        math.exp(count * math.log(mean) - mean - math.lgamma(count + 1.0))
+        for count in range(first, last)
+    ]
+    below, counts = np.cumsum(chances), np.empty(shape, np.float32)
+    for rows in bands(shape):
+        counts[rows] = np.searchsorted(below, source.random(counts[rows].shape), side="right")
+    return counts + np.float32(first)
+
+
+def run(image: Image, view: View, rung: str = "") -> Image:
+    """Add the dark charge and its own shot noise; hot pixels are stuck at full well."""
+    source, result = stream(view, "dark current"), image
+    electrons = dark_electrons(view)
+    if electrons:
+        share = np.float32(1.0 / electrons_at_white(view))
+        result = image + _poisson(electrons, image.shape, source) * share
+    if view.camera[HOT_PIXELS]:
+        hot = source.random(image.shape[:2]) < view.camera[HOT_PIXELS]
+        result = np.where(hot[..., None], np.float32(1.0), result)
+    return result
+
+
+def _dark(view: View) -> Error:
+    electrons, well = dark_electrons(view), electrons_at_white(view)
+    gap = POISSON_GAP / well if electrons else 0.0
+    return Error(electrons / well + gap, math.sqrt(electrons) / well)
+
+
+def skipped(facts: Facts, view: View) -> Error:
+    """Mean charge and its noise; a hot pixel may be anywhere."""
+    if view.camera[HOT_PIXELS]:
+        return Error(math.inf)
+    return _dark(view)
+
+
+def after(facts: Facts, view: View) -> Facts:
+    """Brighter and noisier; hot pixels are steps of the whole range."""
+    mean = dark_electrons(view) / electrons_at_white(view)
+    lifted = noisier(replace(facts, high=facts.high + mean), _dark(view).sigma)
+    if not view.camera[HOT_PIXELS]:
+        return lifted
+    lifted = replace(lifted, high=max(lifted.high, 1.0))
+    return lifted.with_jump((lifted.span, lifted.span))
+
+
+EFFECT = Effect(
+    name="dark current",
+    stage="sensor",
+    decides=("dark current", "hot pixels", "noise", "snr", "histogram"),
+    settings=(DARK_CURRENT, HOT_PIXELS),
+    present=lambda view: dark_electrons(view) > 0.0 or view.camera[HOT_PIXELS] > 0.0,
+    run=on_picture(run),
+    cost=measured((22, 1050)),
+    skipped=skipped,
+    after=after,
+    random=True,
+)

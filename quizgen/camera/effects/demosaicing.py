@@ -1,0 +1,99 @@
+"""Demosaicing: three colours per pixel again."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from quizgen.camera.costs import measured
+from quizgen.camera.effect import Effect, on_picture
+from quizgen.camera.effects.mosaic import CHANNELS, MOSAIC, colour_at
+from quizgen.camera.facts import Error, Facts
+from quizgen.camera.scene import Image
+from quizgen.camera.view import View
+
+
+def run(raw: Image, view: View, rung: str = "") -> Image:
+    """Bilinear interpolation of a mosaic.
+
+    Parameters
+    ----------
+    raw : numpy.ndarray
+        Shape (H, W, 1), H and W >= 2. The border is mirrored without repeating the edge, so that
+        every neighbour keeps its colour (errata EC7).
+    view : View
+        Camera with a mosaic.
+    """
+    if raw.shape[2] != 1:
+        return raw
+    plane = np.pad(raw[..., 0], 1, mode="reflect")
+    return _bilinear(plane, colour_at(view))
+
+
+def _bilinear(plane: Image, tile: tuple[tuple[int, int], ...]) -> Image:
+    """Means of the nearest photosites of each colour, from a plane padded by one."""
+    height, width = plane.shape[0] - 2, plane.shape[1] - 2
+    result = np.empty((height, width, 3), np.float32)
+    for row in (0, 1):
+        for column in (0, 1):
+            site = _neighbours(plane, row, column, height, width)
+            for channel in range(3):
+                where = _same_colour(tile, row, column, channel)
+                result[row::2, column::2, channel] = site[where]
+    return result
+
+
+def _neighbours(plane: Image, row: int, column: int, height: int, width: int) -> dict[str, Image]:
+    def at(down: int, across: int) -> Image:
+        top, left = row + 1 + down, column + 1 + across
+        return plane[top : top + height - row : 2, left : left + width - column : 2]
+
+    level, upright = at(0, -1) + at(0, 1), at(-1, 0) + at(1, 0)
+    corners = (at(-1, -1) + at(-1, 1)) + (at(1, -1) + at(1, 1))
+    half, quarter = np.float32(0.5), np.float32(0.25)
+    return {
+        "here": at(0, 0),
+        "level": level * half,
+        "upright": upright * half,
+        "cross": (level + upright) * quarter,
+        "corners": corners * quarter,
+    }
+
+
+def _same_colour(tile: tuple[tuple[int, int], ...], row: int, column: int, channel: int) -> str:
+    """Where a colour is found around a place of the tile."""
+    here, beside = tile[row][column], tile[row][1 - column]
+    if here == channel:
+        return "here"
+    if channel == CHANNELS["G"]:
+        return "cross"
+    if here != CHANNELS["G"]:
+        return "corners"
+    return "level" if beside == channel else "upright"
+
+
+def skipped(facts: Facts, view: View) -> Error:
+    """Means of two or four neighbours miss by half the bends; noise is averaged differently."""
+    bend, jump = facts.bend, facts.jump
+    missed = min((bend[0] + bend[1]) / 2.0, jump[0] + jump[1], facts.span)
+    return Error(missed, math.sqrt(1.5) * facts.noise)
+
+
+def after(facts: Facts, view: View) -> Facts:
+    """Green sites stand beside means of four."""
+    x, y = facts.jump
+    return facts.with_jump((x + y / 2, y + x / 2))
+
+
+EFFECT = Effect(
+    name="demosaicing",
+    stage="processing",
+    decides=("bayer", "demosaicing", "moire"),
+    present=lambda view: view.camera[MOSAIC] != "",
+    run=on_picture(run),
+    cost=measured((1.64, 173)),
+    skipped=skipped,
+    after=after,
+    pair="bayer",
+)

@@ -1,0 +1,169 @@
+"""Radial distortion about the principal point, undistorted to distorted, in focal lengths."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+
+from quizgen.arrays.distortion import displacement, fold_radius, inverse_radius
+from quizgen.camera.body import F_NUMBER, NEEDS_LENS
+from quizgen.camera.costs import at_least_a_call, at_size, sampling
+from quizgen.camera.draw import Layer, Stack, sheets
+from quizgen.camera.effect import Effect, Rung
+from quizgen.camera.facts import Error, Facts
+from quizgen.camera.filters import sample, sample_nearest
+from quizgen.camera.layers import Field, mixed_axes, resampled, shifted, within
+from quizgen.camera.scene import Image, SceneError
+from quizgen.camera.settings import Setting
+from quizgen.camera.values import number
+from quizgen.camera.view import View
+
+K1 = Setting("k1", number, 0.0, (NEEDS_LENS,))
+"""k1 < 0 is barrel."""
+K2 = Setting("k2", number, 0.0, (NEEDS_LENS,))
+
+_NODES = 4096
+_LEAST_SLOPE = 1.0 / 50.0
+
+
+def stretch(radius: Field, k1: float, k2: float) -> Field:
+    """Factor L(r) = 1 + k1 r^2 + k2 r^4 from undistorted to distorted radius."""
+    return 1.0 + radius**2 * (k1 + k2 * radius**2)
+
+
+def slope(radius: Field, k1: float, k2: float) -> Field:
+    """Derivative of r L(r); zero where the picture folds over."""
+    return 1.0 + radius**2 * (3.0 * k1 + 5.0 * k2 * radius**2)
+
+
+@lru_cache(maxsize=32)
+def undistorted_radius(distorted: float, k1: float, k2: float) -> float:
+    """Inverse of r L(r) on the branch that starts at 0.
+
+    Raises
+    ------
+    SceneError
+        If the radius lies at or beyond the fold, or so near that the picture is stretched more
+        than 50 times there.
+    """
+    # the slope reaches s where 1 + 3 k1/(1-s) r^2 + 5 k2/(1-s) r^4 vanishes
+    rest = 1.0 - _LEAST_SLOPE
+    steep = float(fold_radius(k1 / rest, k2 / rest))
+    if steep * (1.0 + steep**2 * (k1 + k2 * steep**2)) < distorted:
+        raise SceneError(
+            f"the distortion k1={k1:g}, k2={k2:g} folds before the corner (radius {distorted:.4g})"
+        )
+    return float(inverse_radius(distorted, k1, k2))
+
+
+@lru_cache(maxsize=4)
+def _inverse_table(reach: float, k1: float, k2: float) -> tuple[Field, Field, float]:
+    """Nodes of s = r_u/r_d over q = r_d^2, and ds/dq times the spacing."""
+    undistorted_radius(reach, k1, k2)
+    nodes = np.linspace(0.0, reach**2, _NODES)
+    radius = np.asarray(inverse_radius(np.sqrt(nodes), k1, k2))
+    factor = stretch(radius, k1, k2)
+    rate = -(k1 + 2.0 * k2 * radius**2) / (factor**3 * slope(radius, k1, k2))
+    spacing = nodes[1]
+    return 1.0 / factor, rate * spacing, 1.0 / spacing
+
+
+def _hermite(q: Field, table: tuple[Field, Field, float]) -> Field:
+    """Cubic through values and slopes: within 1e-13, or 1e-5 where a picture is stretched most."""
+    values, rates, scale = table
+    position = q * scale
+    cell = np.minimum(position.astype(np.intp), _NODES - 2)
+    t = position - cell
+    first, second = values[cell], values[cell + 1]
+    bend = rates[cell] - (second - first)
+    other = (second - first) - rates[cell + 1]
+    return np.asarray(first + t * ((second - first) + (1 - t) * (bend * (1 - t) + other * t)))
+
+
+@lru_cache(maxsize=2)
+def source(width: int, height: int, focal: float, k1: float, k2: float) -> tuple[Image, Image]:
+    """Where each output pixel comes from; one quadrant is computed, the rest mirrored."""
+    across, down = np.arange(width) - (width - 1) / 2, np.arange(height) - (height - 1) / 2
+    right, lower = np.abs(across[: (width + 1) // 2]), np.abs(down[: (height + 1) // 2])
+    squared = (right[None, :] ** 2 + lower[:, None] ** 2) / focal**2
+    reach = math.hypot(right[0], lower[0]) / focal
+    factor = _hermite(squared, _inverse_table(reach, k1, k2))
+    factor = np.concatenate([factor, factor[:, width // 2 - 1 :: -1]], axis=1)
+    factor = np.concatenate([factor, factor[height // 2 - 1 :: -1]], axis=0)
+    x, y = factor * across + (width - 1) / 2, factor * down[:, None] + (height - 1) / 2
+    return x.astype(np.float32), y.astype(np.float32)
+
+
+def run(stack: Stack, view: View, rung: str = "") -> Stack:
+    """Read every pixel where it comes from; the rung ``nearest`` does not interpolate."""
+    x, y = source(view.width, view.height, view.focal, view.camera[K1], view.camera[K2])
+    pick = sample_nearest if rung == "nearest" else sample
+    warped = (resampled(layer, lambda image: pick(image, x, y)) for layer in stack)
+    return tuple(_with_depth(layer, x, y) for layer in warped)
+
+
+def _with_depth(layer: Layer, x: Image, y: Image) -> Layer:
+    if not isinstance(layer.depth, np.ndarray):
+        return layer
+    return replace(layer, depth=sample_nearest(layer.depth, x, y))
+
+
+def _top_radius(view: View) -> float:
+    return undistorted_radius(view.corner / view.focal, view.camera[K1], view.camera[K2])
+
+
+def largest_displacement(view: View) -> float:
+    """Bound on how far distortion moves any point of the picture, px: |k1| r^3 + |k2| r^5."""
+    k1, k2 = view.camera[K1], view.camera[K2]
+    return view.focal * float(displacement(_top_radius(view), -abs(k1), -abs(k2)))
+
+
+def magnification(view: View) -> float:
+    """Largest distance on the source per pixel of output (extremes of two quadratics in r^2)."""
+    k1, k2, top = view.camera[K1], view.camera[K2], _top_radius(view)
+    turning = [-k1 / (2 * k2), -3 * k1 / (10 * k2)] if k2 else []
+    radii = np.array([0.0, top] + [math.sqrt(q) for q in turning if 0 < q < top * top])
+    return 1.0 / float(np.minimum(slope(radii, k1, k2), stretch(radii, k1, k2)).min())
+
+
+def skipped(facts: Facts, view: View) -> Error:
+    """Largest displacement times the steepest slope; anything where a depth map moves along."""
+    distance = largest_displacement(view)
+    if view.camera[F_NUMBER] is not None and view.has_depth_map and distance >= 0.5:
+        return Error(facts.span)
+    return shifted(facts, distance)
+
+
+def nearest(facts: Facts, view: View) -> Error:
+    """At most half a pixel along each axis."""
+    return within(sum(sum(layer.jump) for layer in facts.layers) / 2.0, facts)
+
+
+def after(facts: Facts, view: View) -> Facts:
+    """Steps grow by the local magnification."""
+    return mixed_axes(facts, magnification(view))
+
+
+def cost(view: View, rung: str, opencv_used: bool) -> float:
+    """The map, and reading every layer through it."""
+    nearest = at_size((4.15, 238), view.megapixels)
+    one = nearest if rung == "nearest" else sampling(view, opencv_used)
+    layers = sheets(view)
+    return at_size((1.25, 234), view.megapixels) + one * (1.0 + 1.3 * (len(layers) - 1))
+
+
+EFFECT = Effect(
+    name="distortion",
+    stage="optics",
+    decides=("distortion", "geometry", "artefacts"),
+    settings=(K1, K2),
+    present=lambda view: view.camera[K1] != 0.0 or view.camera[K2] != 0.0,
+    run=run,
+    cost=at_least_a_call(cost),
+    skipped=skipped,
+    after=after,
+    rungs=(Rung("nearest", nearest),),
+)

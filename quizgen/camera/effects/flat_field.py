@@ -1,0 +1,83 @@
+"""Flat field: vignetting divided out of the linear data."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from quizgen.camera.costs import measured
+from quizgen.camera.effect import Effect, on_picture
+from quizgen.camera.effects.vignetting import corner_light, fall_off_map, steepest_fall_off
+from quizgen.camera.effects.vignetting import present as vignettes
+from quizgen.camera.facts import Error, Facts
+from quizgen.camera.scene import Image
+from quizgen.camera.settings import Setting
+from quizgen.camera.values import truth
+from quizgen.camera.view import View
+
+FLAT_FIELD = Setting("flat_field", truth, False)
+
+
+def run(image: Image, view: View, rung: str = "") -> Image:
+    """Divide out the vignetting of an even picture: linear data, mean brightness kept (E31)."""
+    flat = fall_off_map(view)
+    return correct_flat(image, flat, np.float32(0.0))
+
+
+def correct_flat(raw: Image, flat: Image, dark: Image | np.float32) -> Image:
+    """Flat-field correction (raw - dark)/(flat - dark) times the mean of (flat - dark).
+
+    Parameters
+    ----------
+    raw, flat, dark : numpy.ndarray
+        Linear pictures of the scene, of an even surface, and with the lens covered.
+
+    Raises
+    ------
+    ValueError
+        If a flat pixel is not brighter than its dark value (a dead pixel has no correction).
+    """
+    light = flat - dark
+    if light.min() <= 0:
+        raise ValueError("a flat pixel is not brighter than the dark frame")
+    return (raw - dark) * (np.float32(light.mean(dtype=np.float64)) / light)
+
+
+def _gain(view: View) -> tuple[float, float]:
+    """Smallest and largest factor of the flat-field correction."""
+    corner = corner_light(view)
+    return corner, 1.0 / corner
+
+
+def skipped(facts: Facts, view: View) -> Error:
+    """The mean lies between corner and centre, so factors lie between V and 1/V of the corner."""
+    return Error(facts.size * (_gain(view)[1] - 1.0), facts.noise * (_gain(view)[1] - 1.0))
+
+
+def carried(error: Error, facts: Facts, view: View) -> Error:
+    """Amplified most at the corner."""
+    return error.times(_gain(view)[1])
+
+
+def after(facts: Facts, view: View) -> Facts:
+    """Brighter, and steeper where the fall-off is divided out."""
+    gain = _gain(view)[1]
+    grown = facts.scaled(gain)
+    step = (facts.size + facts.reach) * gain * gain * steepest_fall_off(view)
+    low = min(facts.low * _gain(view)[0], grown.low)
+    return replace(grown.with_jump((grown.jump[0] + step, grown.jump[1] + step)), low=low)
+
+
+EFFECT = Effect(
+    name="flat field",
+    stage="processing",
+    decides=("flat field", "vignetting"),
+    settings=(FLAT_FIELD,),
+    present=lambda view: view.camera[FLAT_FIELD] and vignettes(view),
+    run=on_picture(run),
+    cost=measured((1.34, 88.2)),
+    skipped=skipped,
+    carried=carried,
+    after=after,
+)

@@ -1,0 +1,95 @@
+"""Gamma: linear light encoded for display."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from quizgen.camera.costs import measured
+from quizgen.camera.effect import Effect, Rung, on_picture
+from quizgen.camera.facts import DEVIATIONS, Error, Facts
+from quizgen.camera.power import CURVE_ERROR, TABLE, encode, encode_by_table, encode_number
+from quizgen.camera.scene import Image
+from quizgen.camera.settings import Rule, Setting, Settings
+from quizgen.camera.values import number
+from quizgen.camera.view import View
+
+
+def _read(value: object) -> str | float:
+    return str(value) if value in ("srgb", "linear") else number(value)
+
+
+def _known(gamma: str | float, _: Settings) -> bool:
+    if isinstance(gamma, str):
+        return gamma in ("linear", "srgb")
+    return 1.0 <= gamma < math.inf
+
+
+GAMMA = Setting[str | float](
+    "gamma", _read, "linear", (Rule(_known, "gamma must be 'linear', 'srgb' or a number >= 1"),)
+)
+
+
+def run(image: Image, view: View, rung: str = "") -> Image:
+    """Encode linear light for display; clips to [0, 1]. The rung ``table`` rounds to 16 bits."""
+    if rung == "table":
+        return encode_by_table(image, view.camera[GAMMA])
+    return encode(image, view.camera[GAMMA])
+
+
+def _gap(width: float, bottom: float, view: View) -> float:
+    """Largest difference after encoding of values that differ by at most ``width``.
+
+    Tone curves are concave, so the gap is largest at the dark end.
+    """
+    start = max(0.0, bottom)
+    gamma = view.camera[GAMMA]
+    return encode_number(start + width, gamma) - encode_number(start, gamma)
+
+
+def skipped(facts: Facts, view: View) -> Error:
+    """Largest distance of the curve from the diagonal over the range, and what it clips."""
+    low, high = max(0.0, min(facts.bottom, 1.0)), min(1.0, max(facts.top, 0.0))
+    grid = np.linspace(low, high, 257)
+    curve = np.array([encode_number(float(value), view.camera[GAMMA]) for value in grid])
+    # both curves rise, so between two points the gap is at most the later minus the earlier
+    gap = float(max((curve[1:] - grid[:-1]).max(), curve[0] - low))
+    return Error(gap + CURVE_ERROR + max(facts.top - 1.0, -facts.bottom, 0.0))
+
+
+def table(facts: Facts, view: View) -> Error:
+    """Half a step of the table, spread most at the dark end."""
+    half = 0.5 / TABLE + 1e-7
+    return Error(_gap(half, facts.bottom - half, view))
+
+
+def carried(error: Error, facts: Facts, view: View) -> Error:
+    """The darkest values are spread most."""
+    sure = _gap(error.sure, facts.bottom - error.total, view)
+    total = _gap(error.total, facts.bottom - error.total, view)
+    return Error(sure, max(0.0, total - sure) / DEVIATIONS)
+
+
+def after(facts: Facts, view: View) -> Facts:
+    """Encoded range; steps as far as the dark end spreads them."""
+    gamma, bottom = view.camera[GAMMA], facts.bottom
+    low, high = encode_number(facts.low, gamma), encode_number(facts.high, gamma)
+    jump = (_gap(facts.jump[0], bottom, view), _gap(facts.jump[1], bottom, view))
+    noise = _gap(facts.reach, bottom, view) / DEVIATIONS
+    return Facts(low, high, facts.layers, noise).with_jump(jump)
+
+
+EFFECT = Effect(
+    name="gamma",
+    stage="processing",
+    decides=("gamma",),
+    settings=(GAMMA,),
+    present=lambda view: view.camera[GAMMA] not in ("linear", 1.0),
+    run=on_picture(run),
+    cost=measured((1.9, 92), table=(1.5, 76)),
+    skipped=skipped,
+    carried=carried,
+    after=after,
+    rungs=(Rung("table", table),),
+)

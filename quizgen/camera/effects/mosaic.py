@@ -1,0 +1,51 @@
+"""Mosaic: one colour per photosite."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from quizgen.camera.costs import measured
+from quizgen.camera.effect import Effect, no_bound, on_picture
+from quizgen.camera.scene import Image
+from quizgen.camera.settings import Rule, Setting, Settings
+from quizgen.camera.values import one_of
+from quizgen.camera.view import View
+
+TILES = ("RGGB", "BGGR", "GRBG", "GBRG")
+CHANNELS = {"R": 0, "G": 1, "B": 2}
+
+
+def _known(tile: str, _: Settings) -> bool:
+    return tile in TILES
+
+
+MOSAIC = Setting("mosaic", one_of(*TILES), "", (Rule(_known, "unknown mosaic"),))
+"""Colours of the 2x2 tile, rows first."""
+
+
+def colour_at(view: View) -> tuple[tuple[int, int], ...]:
+    """Channel at each place of the 2x2 tile, as rows of columns."""
+    tile = [CHANNELS[letter] for letter in view.camera[MOSAIC]]
+    return (tile[0], tile[1]), (tile[2], tile[3])
+
+
+def run(image: Image, view: View, rung: str = "") -> Image:
+    """Keep one colour per photosite, shape (H, W, 1)."""
+    raw = np.empty((*image.shape[:2], 1), np.float32)
+    for row, channels in enumerate(colour_at(view)):
+        for column, channel in enumerate(channels):
+            raw[row::2, column::2, 0] = image[row::2, column::2, channel]
+    return raw
+
+
+EFFECT = Effect(
+    name="mosaic",
+    stage="sensor",
+    decides=("bayer", "demosaicing", "moire"),
+    settings=(MOSAIC,),
+    present=lambda view: view.camera[MOSAIC] != "",
+    run=on_picture(run),
+    cost=measured((0.134, 18.6)),
+    skipped=no_bound,  # what it loses shows after demosaicing
+    pair="bayer",
+)

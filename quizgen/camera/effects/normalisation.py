@@ -1,0 +1,96 @@
+"""Normalisation: one range of values stretched to another."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from quizgen.camera.costs import measured
+from quizgen.camera.effect import Effect, on_picture
+from quizgen.camera.facts import Error, Facts
+from quizgen.camera.scene import Image
+from quizgen.camera.settings import Rule, Setting, Settings
+from quizgen.camera.values import number, several
+from quizgen.camera.view import View
+
+Ends = tuple[float, float, float, float]
+
+
+def _read(value: object) -> Ends:
+    low, high, new_low, new_high = several(number, 4)(value)
+    return low, high, new_low, new_high
+
+
+def _rises(ends: Ends | None, _: Settings) -> bool:
+    return ends is None or ends[0] < ends[1]
+
+
+NORMALISE = Setting[Ends | None](
+    "normalise", _read, None, (Rule(_rises, "normalise needs min < max"),)
+)
+"""min, max, new min, new max; 1 = white."""
+
+
+def _ends(view: View) -> Ends:
+    return view.camera[NORMALISE] or (0.0, 1.0, 0.0, 1.0)
+
+
+def stretch_range(
+    image: Image, low: float, high: float, new_low: float = 0.0, new_high: float = 1.0
+) -> Image:
+    """Normalise [low, high] to [new_low, new_high] and clip to it on both sides (errata E44)."""
+    share = (image - np.float32(low)) * np.float32(1.0 / (high - low))
+    np.clip(share, np.float32(0.0), np.float32(1.0), out=share)
+    share *= np.float32(new_high - new_low)
+    share += np.float32(new_low)
+    return share
+
+
+def run(image: Image, view: View, rung: str = "") -> Image:
+    """`stretch_range` with the camera's limits."""
+    return stretch_range(image, *_ends(view))
+
+
+def _normalised(value: float, view: View) -> float:
+    """`stretch_range` of one number."""
+    low, high, new_low, new_high = _ends(view)
+    return new_low + (new_high - new_low) * min(max((value - low) / (high - low), 0.0), 1.0)
+
+
+def skipped(facts: Facts, view: View) -> Error:
+    """Largest at an end of the range or where clipping starts."""
+    ends = (facts.bottom, facts.top, _ends(view)[0], _ends(view)[1])
+    inside = [value for value in ends if facts.bottom <= value <= facts.top]
+    return Error(max(abs(_normalised(value, view) - value) for value in inside))
+
+
+def _slope(view: View) -> float:
+    """Stretch factor."""
+    low, high, new_low, new_high = _ends(view)
+    return abs(new_high - new_low) / (high - low)
+
+
+def carried(error: Error, facts: Facts, view: View) -> Error:
+    """Stretched."""
+    return error.times(_slope(view))
+
+
+def after(facts: Facts, view: View) -> Facts:
+    """Stretched and clipped."""
+    ends = _normalised(facts.low, view), _normalised(facts.high, view)
+    factor = _slope(view)
+    jump = facts.jump[0] * factor, facts.jump[1] * factor
+    return Facts(min(ends), max(ends), facts.layers, facts.noise * factor).with_jump(jump)
+
+
+EFFECT = Effect(
+    name="normalisation",
+    stage="edit",
+    decides=("normalisation", "contrast"),
+    settings=(NORMALISE,),
+    present=lambda view: view.camera[NORMALISE] is not None,
+    run=on_picture(run),
+    cost=measured((0.313, 36.7)),
+    skipped=skipped,
+    carried=carried,
+    after=after,
+)

@@ -1,0 +1,49 @@
+"""Projection: lengths in metres become pixels, x = f X/Z."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from quizgen.camera.costs import measured
+from quizgen.camera.effect import Effect, same_stack
+from quizgen.camera.scene import Length, Scene, SceneError, Thing
+from quizgen.camera.view import View
+
+
+def project(scene: Scene, view: View) -> Scene:
+    """Turn lengths in metres at a depth into pixels.
+
+    Parameters
+    ----------
+    scene : Scene
+        Things with lengths in m; a length in px stays.
+    view : View
+        Camera with focal length and pixel pitch.
+    """
+    return replace(scene, things=tuple(_project(thing, view.focal) for thing in scene.things))
+
+
+def _project(thing: Thing, focal: float) -> Thing:
+    def on_sensor(length: Length) -> Length:
+        if not length.metric:
+            return length
+        if math.isinf(thing.depth):
+            raise SceneError(f"a {thing.shape} in metres needs a finite depth")
+        return Length(focal * length.value / thing.depth)
+
+    lengths = {name: on_sensor(length) for name, length in thing.lengths().items()}
+    velocity = on_sensor(thing.velocity[0]), on_sensor(thing.velocity[1])
+    return replace(thing, velocity=velocity, **lengths)  # type: ignore[arg-type]
+
+
+EFFECT = Effect(
+    name="projection",
+    stage="scene",
+    decides=("projection", "geometry", "artefacts"),
+    present=lambda view: view.scene.metric,
+    prepare=project,
+    run=same_stack,
+    cost=measured((0.05, 0.05)),
+    reason="lengths in metres",
+)

@@ -1,0 +1,86 @@
+"""Quantisation: the codes of the converter."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from quizgen.camera.costs import measured
+from quizgen.camera.effect import Effect, on_picture
+from quizgen.camera.facts import Error, Facts, LayerFacts
+from quizgen.camera.scene import Image
+from quizgen.camera.settings import Rule, Setting, Settings
+from quizgen.camera.values import whole
+from quizgen.camera.view import View
+
+
+def _possible(bits: int | None, _: Settings) -> bool:
+    return bits is None or 1 <= bits <= 16
+
+
+BIT_DEPTH = Setting[int | None](
+    "bit_depth", whole, None, (Rule(_possible, "bit_depth must be 1 to 16"),)
+)
+"""Bits of the converter; None is analog."""
+
+
+def _largest_code(view: View) -> int:
+    return int(2 ** (view.camera[BIT_DEPTH] or 16) - 1)
+
+
+def run(image: Image, view: View, rung: str = "") -> Image:
+    """Clip to [0, 1] and round to the converter's codes, halves upward."""
+    top = np.float32(_largest_code(view))
+    scaled = image * top
+    scaled += np.float32(0.5)
+    np.floor(scaled, out=scaled)
+    np.clip(scaled, np.float32(0.0), top, out=scaled)
+    scaled /= top
+    return scaled
+
+
+def _step(view: View) -> float:
+    """One code, 1 = full scale."""
+    return 1.0 / _largest_code(view)
+
+
+def skipped(facts: Facts, view: View) -> Error:
+    """Half a code, and what the converter would clip."""
+    clipped = max(facts.top - 1.0, 0.0 - facts.bottom, 0.0)
+    return Error(_step(view) / 2.0 + clipped)
+
+
+def carried(error: Error, facts: Facts, view: View) -> Error:
+    """Any difference may become a whole code."""
+    step = _step(view)
+    if error.sigma:
+        return Error(error.sure + step, error.sigma)
+    return Error(math.ceil(error.sure / step - 1e-9) * step)
+
+
+def after(facts: Facts, view: View) -> Facts:
+    """Clipped; steps grow by up to a code, bends by two."""
+    step = _step(view)
+    clipped = facts.top > 1.0 or facts.bottom < 0.0
+    jump = facts.jump[0] + step, facts.jump[1] + step
+    bend = facts.bend[0] + 2 * step, facts.bend[1] + 2 * step
+    low = min(max(facts.low - step / 2, 0.0), 1.0)
+    high = max(min(facts.high + step / 2, 1.0), 0.0)
+    if clipped:
+        return Facts(low, high, (LayerFacts(jump, (2 * jump[0], 2 * jump[1])),), facts.noise)
+    return Facts(low, high, (LayerFacts(jump, bend),), facts.noise)
+
+
+EFFECT = Effect(
+    name="quantisation",
+    stage="sensor",
+    decides=("quantisation", "bit depth"),
+    settings=(BIT_DEPTH,),
+    present=lambda view: view.camera[BIT_DEPTH] is not None,
+    run=on_picture(run),
+    cost=measured((0.39, 38.4)),
+    skipped=skipped,
+    carried=carried,
+    after=after,
+)

@@ -1,0 +1,49 @@
+"""Read noise of the read-out chain."""
+
+from __future__ import annotations
+
+from quizgen.camera.body import NEEDS_FULL_WELL
+from quizgen.camera.costs import measured
+from quizgen.camera.effect import Effect, on_picture
+from quizgen.camera.facts import Error, Facts
+from quizgen.camera.noise import add_normal, electrons_at_white, noisier, stream
+from quizgen.camera.scene import Image
+from quizgen.camera.settings import NOT_NEGATIVE, Setting
+from quizgen.camera.values import quantity
+from quizgen.camera.view import View
+
+READ_NOISE = Setting("read_noise", quantity("e-"), 0.0, (NEEDS_FULL_WELL, NOT_NEGATIVE))
+"""Standard deviation in electrons."""
+
+
+def _sigma(view: View) -> float:
+    return view.camera[READ_NOISE] / electrons_at_white(view)
+
+
+def run(image: Image, view: View, rung: str = "") -> Image:
+    """Add normal noise."""
+    return add_normal(image, _sigma(view), stream(view, "read noise"))
+
+
+def skipped(facts: Facts, view: View) -> Error:
+    """Its standard deviation."""
+    return Error(0.0, _sigma(view))
+
+
+def after(facts: Facts, view: View) -> Facts:
+    """Noisier."""
+    return noisier(facts, _sigma(view))
+
+
+EFFECT = Effect(
+    name="read noise",
+    stage="sensor",
+    decides=("read noise", "dynamic range", "noise", "snr", "histogram"),
+    settings=(READ_NOISE,),
+    present=lambda view: view.camera[READ_NOISE] > 0.0,
+    run=on_picture(run),
+    cost=measured((7.16, 292)),
+    skipped=skipped,
+    after=after,
+    random=True,
+)

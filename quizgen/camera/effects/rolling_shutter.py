@@ -1,0 +1,100 @@
+"""Rolling shutter: each row is read at its own time."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from quizgen.camera.body import VELOCITY
+from quizgen.camera.costs import at_least_a_call, sampling
+from quizgen.camera.draw import Layer, Stack, sheets
+from quizgen.camera.effect import Effect
+from quizgen.camera.facts import Error, Facts, LayerFacts
+from quizgen.camera.filters import sample
+from quizgen.camera.layers import (
+    Field,
+    anything_moves,
+    chord,
+    each,
+    path,
+    resampled,
+    rim,
+    turned,
+    within,
+)
+from quizgen.camera.settings import NOT_NEGATIVE, Setting
+from quizgen.camera.values import quantity
+from quizgen.camera.view import View
+
+ROW_TIME = Setting("row_time", quantity("s"), 0.0, (NOT_NEGATIVE,))
+"""Delay from row to row, s."""
+
+
+def row_times(view: View) -> Field:
+    """When each row is read, s, the middle row at 0."""
+    rows: Field = np.arange(view.height, dtype=np.float64) - (view.height - 1) / 2
+    return rows * view.camera[ROW_TIME]
+
+
+def run(stack: Stack, view: View, rung: str = "") -> Stack:
+    """What moves is sheared, what turns is bent."""
+    return tuple(_rolled(layer, view) for layer in stack)
+
+
+def _rolled(still: Layer, view: View) -> Layer:
+    times = row_times(view)[:, None]
+    across, down = path(still.motion, view, 1.0)
+    layer = still
+    if still.motion.spin:
+        angle = still.motion.spin * times
+        layer = resampled(still, lambda image: turned(image, view, still.motion, angle))
+    if not across and not down:
+        return layer
+    x = np.arange(view.width)[None, :] - across * times
+    y = np.arange(view.height)[:, None] - down * times + np.zeros_like(x)
+    where = x.astype(np.float32), y.astype(np.float32)
+    return resampled(layer, lambda image: sample(image, *where))
+
+
+def skipped(facts: Facts, view: View) -> Error:
+    """How far things move until the first or last row is read, times the steepest slope."""
+    time, total = (view.height - 1) / 2 * view.camera[ROW_TIME], 0.0
+    for layer, sheet, _ in each(facts, view):
+        across, down = path(sheet.motion, view, time)
+        total += abs(across) * layer.jump[0] + abs(down) * layer.jump[1]
+        total += chord(sheet.motion, view, time) * math.hypot(*layer.jump)
+    return within(total, facts)
+
+
+def after(facts: Facts, view: View) -> Facts:
+    """A shear: one row down also means a row time's movement."""
+    layers, time = [], view.camera[ROW_TIME]
+    for layer, sheet, _ in each(facts, view):
+        across, down = (abs(part) for part in path(sheet.motion, view, time))
+        turn = abs(sheet.motion.spin) * time * rim(sheet.motion, view)
+        x, y = layer.jump if not turn else (math.hypot(*layer.jump) * (1 + turn),) * 2
+        step = x, y * (1 + down) + x * across
+        layers.append(LayerFacts(step, (2 * step[0], 2 * step[1])))
+    return replace(facts, layers=tuple(layers))
+
+
+def cost(view: View, rung: str, opencv_used: bool) -> float:
+    """A sample per layer that moves."""
+    pan = view.camera[VELOCITY]
+    layers = sum(1 for sheet in sheets(view) if any(pan) or not sheet.motion.still)
+    return layers * 1.8 * sampling(view, opencv_used)
+
+
+EFFECT = Effect(
+    name="rolling shutter",
+    stage="optics",
+    decides=("rolling shutter", "motion", "artefacts"),
+    settings=(ROW_TIME,),
+    present=lambda view: view.camera[ROW_TIME] > 0.0 and anything_moves(view),
+    run=run,
+    cost=at_least_a_call(cost),
+    skipped=skipped,
+    after=after,
+)

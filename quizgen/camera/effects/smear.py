@@ -1,0 +1,52 @@
+"""Smear: a bright streak through the whole column of a CCD."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from quizgen.camera.body import NEEDS_FULL_WELL
+from quizgen.camera.costs import measured
+from quizgen.camera.effect import Effect, on_picture
+from quizgen.camera.facts import Error, Facts
+from quizgen.camera.scene import Image
+from quizgen.camera.settings import NOT_NEGATIVE, Setting
+from quizgen.camera.values import quantity
+from quizgen.camera.view import View
+
+SMEAR = Setting("smear", quantity("%"), 0.0, (NEEDS_FULL_WELL, NOT_NEGATIVE))
+"""Share of a column's mean that is added to the column while its rows are shifted."""
+
+
+def run(image: Image, view: View, rung: str = "") -> Image:
+    """Light that falls in while a CCD shifts its rows: a share of each column's mean."""
+    mean = image.mean(axis=0, keepdims=True, dtype=np.float64)
+    return np.asarray(image + (view.camera[SMEAR] * mean).astype(np.float32))
+
+
+def skipped(facts: Facts, view: View) -> Error:
+    """Share of the brightest possible column."""
+    return Error(view.camera[SMEAR] * facts.size)
+
+
+def carried(error: Error, facts: Facts, view: View) -> Error:
+    """The column's mean carries the error again."""
+    return error.times(1.0 + view.camera[SMEAR])
+
+
+def after(facts: Facts, view: View) -> Facts:
+    """Brighter; steps between columns grow."""
+    return facts.scaled(1.0 + view.camera[SMEAR])
+
+
+EFFECT = Effect(
+    name="smear",
+    stage="sensor",
+    decides=("smear", "saturation", "artefacts"),
+    settings=(SMEAR,),
+    present=lambda view: view.camera[SMEAR] > 0.0,
+    run=on_picture(run),
+    cost=measured((0.483, 40.2)),
+    skipped=skipped,
+    carried=carried,
+    after=after,
+)

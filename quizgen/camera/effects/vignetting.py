@@ -1,0 +1,132 @@
+"""Vignetting: less light toward the corners.
+
+It stands after motion: the lens stands still, so its fixed factor can be
+taken out of the integral over the exposure.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+
+from quizgen.camera.body import NEEDS_LENS
+from quizgen.camera.costs import measured
+from quizgen.camera.effect import Effect, on_picture
+from quizgen.camera.facts import Error, Facts
+from quizgen.camera.layers import Field
+from quizgen.camera.scene import Image
+from quizgen.camera.settings import Rule, Setting, Settings
+from quizgen.camera.values import number, truth
+from quizgen.camera.view import View
+
+
+def _below_one(shift: float, _: Settings) -> bool:
+    return 0 <= shift < 1
+
+
+NATURAL = Setting("natural_vignetting", truth, False, (NEEDS_LENS,))
+"""cos^4 fall-off."""
+MECHANICAL = Setting(
+    "mechanical_vignetting",
+    number,
+    0.0,
+    (Rule(_below_one, "mechanical_vignetting must be in [0, 1)"),),
+)
+"""Shift of the lens rim at the corner in aperture diameters."""
+
+
+def present(view: View) -> bool:
+    """Whether the lens loses light toward the corners."""
+    return view.camera[NATURAL] or view.camera[MECHANICAL] > 0.0
+
+
+def rim_overlap(shift: Field) -> Field:
+    """Area shared by two equal discs, as a share of one, at a shift in diameters (0 to 1)."""
+    half = np.clip(shift, 0.0, 1.0)
+    return np.asarray((2.0 / math.pi) * (np.arccos(half) - half * np.sqrt(1.0 - half * half)))
+
+
+def fall_off(radius: Field, view: View) -> Field:
+    """Share of light kept at a distance from the principal point, px.
+
+    Natural: cos^4 of the field angle, (1 + (r/f)^2)^-2. Mechanical: lens rim and aperture as two
+    discs that slide apart, by ``mechanical_vignetting`` diameters at the corner.
+    """
+    camera = view.camera
+    kept = np.ones_like(radius)
+    if camera[NATURAL]:
+        kept = 1.0 / (1.0 + (radius / view.focal) ** 2) ** 2
+    if camera[MECHANICAL]:
+        kept = kept * rim_overlap(camera[MECHANICAL] * radius / view.corner)
+    return kept
+
+
+def fall_off_map(view: View) -> Image:
+    """`fall_off` at every pixel, shape (H, W, 1)."""
+    camera = view.camera
+    focal = view.focal if camera[NATURAL] else 0.0
+    return _fall_off_map(view.width, view.height, focal, camera[MECHANICAL])
+
+
+@lru_cache(maxsize=2)
+def _fall_off_map(width: int, height: int, focal: float, mechanical: float) -> Image:
+    """One quadrant, mirrored."""
+    x, y = (width - 1) / 2, (height - 1) / 2
+    right, lower = np.arange((width + 1) // 2) - x, np.arange((height + 1) // 2) - y
+    squared = right[None, :] ** 2 + lower[:, None] ** 2
+    kept: Field = 1.0 / (1.0 + squared / focal**2) ** 2 if focal else np.ones_like(squared)
+    if mechanical:
+        kept = kept * rim_overlap(mechanical * np.sqrt(squared) / math.hypot(x, y))
+    kept = np.concatenate([kept, kept[:, width // 2 - 1 :: -1]], axis=1)
+    kept = np.concatenate([kept, kept[height // 2 - 1 :: -1]], axis=0)
+    return kept.astype(np.float32)[..., None]
+
+
+def run(image: Image, view: View, rung: str = "") -> Image:
+    """Multiply by the fall-off map."""
+    return image * fall_off_map(view)
+
+
+def corner_light(view: View) -> float:
+    """Share of light kept at the picture's corner."""
+    return float(fall_off(np.array(view.corner), view))
+
+
+def steepest_fall_off(view: View) -> float:
+    """Largest change of the fall-off over one pixel.
+
+    The fall-off only sinks with the radius, so differences over 1.25 px at steps of 0.25 px bound
+    every difference over 1 px.
+    """
+    radii = np.arange(0.0, view.corner + 2.0, 0.25)
+    kept = fall_off(np.minimum(radii, view.corner), view)
+    return float((kept[:-5] - kept[5:]).max())
+
+
+def skipped(facts: Facts, view: View) -> Error:
+    """The corner loses most: largest value times (1 - V)."""
+    return Error(facts.size * (1.0 - corner_light(view)))
+
+
+def after(facts: Facts, view: View) -> Facts:
+    """Darker, and steeper by the fall-off itself."""
+    step = facts.size * steepest_fall_off(view)
+    low = min(facts.low, facts.low * corner_light(view))
+    jump = facts.jump[0] + step, facts.jump[1] + step
+    return replace(facts.with_jump(jump), low=low)
+
+
+EFFECT = Effect(
+    name="vignetting",
+    stage="sensor",
+    decides=("vignetting", "artefacts"),
+    settings=(NATURAL, MECHANICAL),
+    present=present,
+    run=on_picture(run),
+    cost=measured((1.55, 115)),
+    skipped=skipped,
+    after=after,
+)

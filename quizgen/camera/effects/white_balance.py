@@ -1,0 +1,65 @@
+"""White balance: a gain per channel."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from quizgen.camera.costs import measured
+from quizgen.camera.effect import Effect, on_picture
+from quizgen.camera.facts import Error, Facts
+from quizgen.camera.scene import Colour, Image
+from quizgen.camera.settings import NOT_NEGATIVE, Rule, Setting, Settings
+from quizgen.camera.values import triple
+from quizgen.camera.view import View
+
+
+def _no_gain_negative(gains: Colour, _: Settings) -> bool:
+    return min(gains) >= 0.0
+
+
+WHITE_BALANCE = Setting(
+    "white_balance", triple, (1.0, 1.0, 1.0), (Rule(_no_gain_negative, NOT_NEGATIVE.message),)
+)
+"""Gains of red, green and blue."""
+
+
+def run(image: Image, view: View, rung: str = "") -> Image:
+    """Multiply the channels by their gains."""
+    return image * np.asarray(view.camera[WHITE_BALANCE], np.float32)
+
+
+def skipped(facts: Facts, view: View) -> Error:
+    """Largest value times the gain farthest from 1."""
+    factor = max(abs(gain - 1.0) for gain in view.camera[WHITE_BALANCE])
+    return Error(facts.size * factor, facts.noise * factor)
+
+
+def carried(error: Error, facts: Facts, view: View) -> Error:
+    """Amplified by the largest gain."""
+    gains = view.camera[WHITE_BALANCE]
+    return error.times(max(gains))
+
+
+def after(facts: Facts, view: View) -> Facts:
+    """Scaled by gains between the smallest and the largest."""
+    gains = view.camera[WHITE_BALANCE]
+    grown = facts.scaled(max(gains))
+    low = min(facts.low * min(gains), facts.low * max(gains))
+    high = max(facts.high * min(gains), facts.high * max(gains))
+    return replace(grown, low=low, high=high)
+
+
+EFFECT = Effect(
+    name="white balance",
+    stage="processing",
+    decides=("white balance",),
+    settings=(WHITE_BALANCE,),
+    present=lambda view: view.camera[WHITE_BALANCE] != (1.0, 1.0, 1.0),
+    run=on_picture(run),
+    cost=measured((1.55, 76.5)),
+    skipped=skipped,
+    carried=carried,
+    after=after,
+)

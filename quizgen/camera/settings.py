@@ -1,0 +1,94 @@
+"""What can be set on a camera: a key of ``[camera]``, how it is read, what it may be.
+
+An effect brings its own settings. Every identity is absent, not multiplied by one: what is not
+given costs nothing and changes nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any, Generic, TypeVar, cast
+
+from quizgen.camera.values import Reader
+
+T = TypeVar("T")
+Judged_contra = TypeVar("Judged_contra", contravariant=True)
+
+
+class Settings:
+    """The values of a camera; what was not given is the identity.
+
+    Parameters
+    ----------
+    given : mapping of str to object
+        Values in base units by the names of their settings.
+    """
+
+    def __init__(self, given: Mapping[str, object]) -> None:
+        self.given = dict(given)
+
+    def __getitem__(self, setting: Setting[T]) -> T:
+        return cast("T", self.given.get(setting.name, setting.identity))
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Settings) and self.given == other.given
+
+    def __hash__(self) -> int:
+        return hash(frozenset(self.given.items()))
+
+    def __repr__(self) -> str:
+        named = ", ".join(f"{name}={value!r}" for name, value in self.given.items())
+        return f"{type(self).__name__}({named})"
+
+
+@dataclass(frozen=True)
+class Rule(Generic[Judged_contra]):
+    """What a value that is not the identity must fulfil, and what is said if it does not."""
+
+    holds: Callable[[Judged_contra, Settings], bool]
+    message: str
+
+
+@dataclass(frozen=True)
+class Setting(Generic[T]):
+    """One key of ``[camera]``.
+
+    Parameters
+    ----------
+    name : str
+        The key.
+    read : callable
+        From what TOML gives to a value in base units; see `quizgen.camera.values`.
+    identity : object
+        The value that changes nothing.
+    rules : tuple of Rule
+        What it may be, also beside the other settings.
+    """
+
+    name: str
+    read: Reader[T]
+    identity: T
+    rules: tuple[Rule[T], ...] = ()
+
+    def faults(self, settings: Settings) -> Iterator[str]:
+        """Message of every rule that the value breaks."""
+        value = settings[self]
+        if value != self.identity:
+            yield from (rule.message for rule in self.rules if not rule.holds(value, settings))
+
+
+AnySetting = Setting[Any]
+"""A setting of any type: tables hold numbers, flags and words side by side."""
+
+
+def _not_negative(value: float, _: Settings) -> bool:
+    return value >= 0.0
+
+
+def _a_share(value: float, _: Settings) -> bool:
+    return 0.0 <= value <= 1.0
+
+
+NOT_NEGATIVE = Rule(_not_negative, "noise, times, factors and gains must be >= 0")
+SHARE = Rule(_a_share, "shares lie in [0, 1]")

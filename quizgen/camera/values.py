@@ -1,0 +1,145 @@
+"""Readers of a scene file's values: text with a unit, numbers, words, colours."""
+
+# ruff: noqa: TRY004 - a wrong value in a file is a ValueError, whatever its type
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+from fractions import Fraction
+from typing import TypeVar
+
+from quizgen.arrays.gamma import srgb_decode
+from quizgen.camera.scene import Colour, Length
+from quizgen.errors import FormulaError
+from quizgen.maths.units import Dimension, unit
+
+T = TypeVar("T")
+Reader = Callable[[object], T]
+"""Takes what TOML gives; raises ValueError with what was expected."""
+
+_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?:/\d+)?"
+_QUANTITY = re.compile(rf"\s*(?P<number>{_NUMBER})\s*(?P<unit>.*?)\s*")
+
+
+def _measure(text: object) -> tuple[float, Dimension]:
+    """Number in base units and its dimension; degrees become radians."""
+    if not isinstance(text, str):
+        raise ValueError("expected a quantity with its unit in quotes")
+    match = _QUANTITY.fullmatch(text)
+    if match is None:
+        raise ValueError(f"cannot read {text!r}; expected a number and a unit")
+    try:
+        found = unit(match["unit"])
+        value = float(Fraction(match["number"]) * found.factor)
+    except (FormulaError, ZeroDivisionError) as error:
+        raise ValueError(str(error)) from error
+    turn = math.pi / 180.0 if ("deg", 1) in found.dimension else 1.0
+    return value * turn, found.dimension
+
+
+def quantity(name: str) -> Reader[float]:
+    """Reader of a number with a unit of the same dimension as ``name``."""
+    expected = unit(name).dimension
+
+    def read(text: object) -> float:
+        if text == "inf" and expected == unit("m").dimension:
+            return math.inf
+        value, dimension = _measure(text)
+        if dimension != expected:
+            raise ValueError(f"expected a unit like {name!r}")
+        return value
+
+    return read
+
+
+def length(per: str = "") -> Reader[Length]:
+    """Reader of a length in px or m, or of one per time."""
+
+    def read(text: object) -> Length:
+        value, dimension = _measure(text)
+        for metric in (True, False):
+            if dimension == unit(("m" if metric else "px") + per).dimension:
+                return Length(value, metric)
+        raise ValueError(f"expected a length in px{per} or m{per}")
+
+    return read
+
+
+def number(value: object) -> float:
+    """A plain number."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        raise ValueError("expected a number")
+    return float(value)
+
+
+def whole(value: object) -> int:
+    """A whole number."""
+    if isinstance(value, bool) or not isinstance(value, int):
+        raise ValueError("expected a whole number")
+    return value
+
+
+def truth(value: object) -> bool:
+    """True or false."""
+    if not isinstance(value, bool):
+        raise ValueError("expected true or false")
+    return value
+
+
+def words(value: object) -> str:
+    """Text."""
+    if not isinstance(value, str):
+        raise ValueError("expected text in quotes")
+    return value
+
+
+def one_of(*allowed: str) -> Reader[str]:
+    """Reader of one of the given words."""
+
+    def read(value: object) -> str:
+        if value not in allowed:
+            raise ValueError(f"expected one of {', '.join(allowed)}")
+        return str(value)
+
+    return read
+
+
+def several(part: Reader[T], count: int | None = None) -> Reader[tuple[T, ...]]:
+    """Reader of a list."""
+
+    def read(value: object) -> tuple[T, ...]:
+        if not isinstance(value, list) or count not in (None, len(value)):
+            raise ValueError(f"expected a list of {count or 'several'} values")
+        return tuple(part(item) for item in value)
+
+    return read
+
+
+def pair(part: Reader[T]) -> Reader[tuple[T, T]]:
+    """Reader of a list of two."""
+
+    def read(value: object) -> tuple[T, T]:
+        first, second = several(part, 2)(value)
+        return first, second
+
+    return read
+
+
+def triple(value: object) -> Colour:
+    """Three numbers, for red, green and blue."""
+    red, green, blue = several(number, 3)(value)
+    return red, green, blue
+
+
+def colour(value: object) -> Colour:
+    """``#rrggbb`` in sRGB, or three linear radiances."""
+    if isinstance(value, str) and re.fullmatch(r"#[0-9a-fA-F]{6}", value):
+        codes = [int(value[place : place + 2], 16) / 255.0 for place in (1, 3, 5)]
+        red, green, blue = (float(light) for light in srgb_decode(codes))
+        return red, green, blue
+    red, green, blue = triple(value)
+    if min(red, green, blue) < 0.0:
+        raise ValueError("radiance cannot be negative")
+    return red, green, blue

@@ -1,0 +1,88 @@
+"""A camera looking at a scene: what effects and bounds need to know, in px."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quizgen.camera.body import F_NUMBER, FOCAL_LENGTH, FOCUS_DISTANCE, PIXEL_PITCH
+from quizgen.camera.scene import Image, Scene, SceneError
+from quizgen.camera.settings import Settings
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """A camera looking at a scene.
+
+    Parameters
+    ----------
+    scene : Scene
+    camera : Settings
+    """
+
+    scene: Scene
+    camera: Settings
+
+    @property
+    def width(self) -> int:
+        """Columns."""
+        return self.scene.width
+
+    @property
+    def height(self) -> int:
+        """Rows."""
+        return self.scene.height
+
+    @property
+    def megapixels(self) -> float:
+        """Pixels in millions."""
+        return self.width * self.height / 1e6
+
+    @property
+    def focal(self) -> float:
+        """Focal length in px."""
+        length, pitch = self.camera[FOCAL_LENGTH], self.camera[PIXEL_PITCH]
+        if length is None or pitch is None:
+            raise SceneError("lengths in metres need focal_length and pixel_pitch")
+        return length / pitch
+
+    @property
+    def centre(self) -> tuple[float, float]:
+        """Principal point (x, y), counted from the centre of the first pixel (errata E27)."""
+        return (self.width - 1) / 2.0, (self.height - 1) / 2.0
+
+    @property
+    def corner(self) -> float:
+        """Distance from the principal point to the farthest pixel centre, px."""
+        return math.hypot(*self.centre)
+
+    @property
+    def has_depth_map(self) -> bool:
+        """Whether the picture has a distance of its own at every pixel."""
+        return isinstance(self.scene.depth, np.ndarray)
+
+    @overload
+    def blur_diameter(self, depth: float) -> float: ...
+    @overload
+    def blur_diameter(self, depth: Image) -> NDArray[np.floating]: ...
+    def blur_diameter(self, depth: float | Image) -> float | NDArray[np.floating]:
+        """Signed circle of confusion, px: positive behind the plane of focus.
+
+        Parameters
+        ----------
+        depth : float or numpy.ndarray
+            Distance in m, > 0, may be infinite. With f, N, s: c = f^2/(N (s-f)) (1 - s/z), and
+            f^2/(N z) negative when focused at infinity.
+        """
+        length, pitch = self.camera[FOCAL_LENGTH], self.camera[PIXEL_PITCH]
+        number, distance = self.camera[F_NUMBER], self.camera[FOCUS_DISTANCE]
+        if number is None or length is None or pitch is None:
+            return np.zeros_like(depth) if isinstance(depth, np.ndarray) else 0.0
+        scale = length**2 / (number * pitch)
+        if math.isinf(distance):
+            return -scale / depth
+        return scale / (distance - length) * (1.0 - distance / depth)

@@ -1,0 +1,82 @@
+"""The table of effects: one name everywhere, and bounds and limits that no other test pins."""
+
+import math
+from importlib import import_module
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from quizgen.camera import Camera, Scene, View, effects
+from quizgen.camera.body import BODY
+from quizgen.camera.draw import Layer, Motion
+from quizgen.camera.effects import EFFECTS, distortion, motion_blur
+from quizgen.camera.facts import Facts, LayerFacts
+
+NAMES = [effect.name for effect in EFFECTS]
+
+
+@pytest.mark.parametrize("effect", EFFECTS, ids=NAMES)
+def test_an_effect_is_called_as_its_module(effect):
+    module = import_module(f"quizgen.camera.effects.{effect.name.replace(' ', '_')}")
+    assert module.EFFECT is effect
+
+
+def test_every_module_stands_in_the_table_once():
+    modules = {path.stem for path in Path(effects.__file__).parent.glob("*.py")} - {"__init__"}
+    assert sorted(modules) == sorted(name.replace(" ", "_") for name in NAMES)
+
+
+def test_every_setting_belongs_to_one_effect_or_the_body():
+    named = [setting.name for setting in BODY]
+    named += [setting.name for effect in EFFECTS for setting in effect.settings]
+    assert len(named) == len(set(named)) == len(effects.settings())
+
+
+@pytest.mark.parametrize("setting", effects.settings().values(), ids=effects.settings())
+def test_the_identity_calls_for_nothing_and_breaks_no_rule(setting):
+    look = View(Scene(), Camera(**{setting.name: setting.identity}))
+    assert effects.present(look) == ()
+    assert list(setting.faults(look.camera)) == []
+
+
+@pytest.mark.parametrize("place", range(5))
+def test_the_nearest_pixel_is_up_to_half_a_pixel_off_and_no_more(place):
+    """On a ramp of one grey level per pixel along both axes, found by sampling every 1/100 px."""
+    bound = distortion.nearest(Facts(0.0, 99.0, (LayerFacts((1.0, 1.0), (0.0, 0.0)),)), None).sure
+    offsets = np.linspace(-0.5, 0.4999, 101)
+    rows, columns = np.meshgrid(offsets + 3 + place, offsets + 5 + place)
+    away = np.abs((rows + columns) - (np.floor(rows + 0.5) + np.floor(columns + 0.5)))
+    assert away.max() == pytest.approx(1.0, abs=1e-9)
+    assert away.max() <= bound <= 1.0 + 1e-9
+
+
+def test_a_turning_layer_is_sampled_once_per_pixel_at_its_rim():
+    """2 rad in the exposure at a rim of 30 px: 60 px, 60 positions; longer paths stop at 64."""
+    shutter = 0.1
+    assert motion_blur.turns(Motion(spin=20.0, reach=30.0), shutter) == 60
+    assert motion_blur.turns(Motion(spin=-200.0, reach=30.0), shutter) == 64
+    assert motion_blur.turns(Motion(spin=20.0, reach=30.0), shutter, "half") == 30
+    assert motion_blur.turns(Motion(spin=1e-6, reach=30.0), shutter, "half") == 1
+
+
+def test_a_turning_spot_becomes_an_arc_without_gaps():
+    """A spot 25 px from the pivot sweeps 60 px: the arc is lit evenly, as its mean says."""
+    size, radius, angle = 81, 25.0, 2.4
+    image = np.zeros((size, size, 3), np.float32)
+    image[40, 65] = 1.0
+    layer = Layer(
+        image, image[..., :1], motion=Motion(spin=angle / 0.1, pivot=(40.0, 40.0), reach=27.0)
+    )
+    view = View(Scene(size, size), Camera(shutter=0.1))
+    (blurred,) = motion_blur.run((layer,), view)
+    along = np.linspace(-angle / 2 + 0.1, angle / 2 - 0.1, 200)
+    near = [
+        blurred.colour[
+            round(40 + radius * math.sin(turn)) - 1 : round(40 + radius * math.sin(turn)) + 2,
+            round(40 + radius * math.cos(turn)) - 1 : round(40 + radius * math.cos(turn)) + 2,
+            0,
+        ].sum()
+        for turn in along
+    ]
+    assert min(near) > 0.4 * float(np.mean(near))
