@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from fractions import Fraction
+from functools import partial
 
 from quizgen.errors import FormulaError
 from quizgen.maths.notation.names import FUNCTIONS, plain
@@ -11,39 +12,52 @@ from quizgen.maths.tree import Call, Expr, Num, Sym
 
 EITHER, BOTH, TRUTH, RELATION, SUM, PRODUCT, POWER, ATOM = range(8)
 
+Leaves = Mapping[str, str]
+"""Name of a quantity to what is written in its place."""
+
 _RELATIONS = {"eq": "=", "ne": "!=", "lt": "<", "le": "<=", "gt": ">", "ge": ">="}
 
 
-def to_text(expr: Expr) -> str:
+def to_text(expr: Expr, leaves: Mapping[str, str] | None = None) -> str:
     """Write a tree in the formula grammar; ``parse(to_text(e)) == e``.
 
     Constants that are not plain non-negative decimals stand in braces: ``{-1/3}``.
+
+    Parameters
+    ----------
+    expr : Expr
+    leaves : mapping of str to str, optional
+        What to write instead of a quantity's name, such as its number.
 
     Raises
     ------
     FormulaError
         If an operator is unknown or has an impossible number of arguments.
     """
-    return _write(expr)[0]
+    return _write(expr, leaves or {})[0]
 
 
-def _write(expr: Expr) -> tuple[str, int]:
+def _write(expr: Expr, leaves: Leaves) -> tuple[str, int]:
     if isinstance(expr, Num):
         return _number(expr), ATOM
     if isinstance(expr, Sym):
-        return (expr.name if plain(expr.name) else f"`{expr.name}`"), ATOM
+        return leaves.get(expr.name) or _name(expr.name), ATOM
     if expr.op in FUNCTIONS:
-        return f"{expr.op}({', '.join(to_text(arg) for arg in expr.args)})", ATOM
+        return f"{expr.op}({', '.join(_write(arg, leaves)[0] for arg in expr.args)})", ATOM
     if expr.op in _RELATIONS and len(expr.args) == 2:
-        return f" {_RELATIONS[expr.op]} ".join(_at(a, SUM) for a in expr.args), RELATION
+        return f" {_RELATIONS[expr.op]} ".join(_at(a, SUM, leaves) for a in expr.args), RELATION
     writer = _WRITERS.get(expr.op)
     if writer is None:
         raise FormulaError(f"cannot write operator {expr.op!r}")
-    return writer(expr)
+    return writer(expr, leaves)
 
 
-def _at(expr: Expr, level: int) -> str:
-    text, own = _write(expr)
+def _name(name: str) -> str:
+    return name if plain(name) else f"`{name}`"
+
+
+def _at(expr: Expr, level: int, leaves: Leaves) -> str:
+    text, own = _write(expr, leaves)
     return text if own >= level else f"({text})"
 
 
@@ -67,36 +81,45 @@ def _decimal(value: Fraction) -> str:
     return ""
 
 
-def _run(expr: Call, sign: str, own: int) -> tuple[str, int]:
+def _run(expr: Call, leaves: Leaves, sign: str, own: int) -> tuple[str, int]:
     """Write an n-ary sum or product; a nested one of the same kind keeps its brackets."""
     if len(expr.args) < 2:
         raise FormulaError(f"{expr.op} needs two arguments")
     first, *rest = expr.args
     same = isinstance(first, Call) and first.op == expr.op
-    head = f"({to_text(first)})" if same else _at(first, own)
-    return sign.join([head, *[_at(arg, own + 1) for arg in rest]]), own
+    head = _at(first, ATOM if same else own, leaves)
+    return sign.join([head, *[_at(arg, own + 1, leaves) for arg in rest]]), own
 
 
-def _left(expr: Call, sign: str, own: int) -> tuple[str, int]:
+def _left(expr: Call, leaves: Leaves, sign: str, own: int) -> tuple[str, int]:
     first, second = expr.args
-    return f"{_at(first, own)}{sign}{_at(second, own + 1)}", own
+    return f"{_at(first, own, leaves)}{sign}{_at(second, own + 1, leaves)}", own
 
 
-def _joined(expr: Call, word: str, own: int) -> tuple[str, int]:
+def _joined(expr: Call, leaves: Leaves, word: str, own: int) -> tuple[str, int]:
     if len(expr.args) < 2:
         raise FormulaError(f"{expr.op} needs two arguments")
-    return f" {word} ".join(_at(arg, own + 1) for arg in expr.args), own
+    return f" {word} ".join(_at(arg, own + 1, leaves) for arg in expr.args), own
 
 
-_WRITERS: dict[str, Callable[[Call], tuple[str, int]]] = {
-    "add": lambda e: _run(e, " + ", SUM),
-    "sub": lambda e: _left(e, " - ", SUM),
-    "mul": lambda e: _run(e, "*", PRODUCT),
-    "div": lambda e: _left(e, "/", PRODUCT),
-    "neg": lambda e: (f"-{_at(e.args[0], PRODUCT)}", SUM),
-    "pow": lambda e: (f"{_at(e.args[0], ATOM)}^{_at(e.args[1], POWER)}", POWER),
-    "pi": lambda _e: ("pi", ATOM),
-    "or": lambda e: _joined(e, "or", EITHER),
-    "and": lambda e: _joined(e, "and", BOTH),
-    "not": lambda e: (f"not {_at(e.args[0], TRUTH)}", TRUTH),
+def _before(expr: Call, leaves: Leaves, sign: str, inner: int, own: int) -> tuple[str, int]:
+    return f"{sign}{_at(expr.args[0], inner, leaves)}", own
+
+
+def _power(expr: Call, leaves: Leaves) -> tuple[str, int]:
+    base, exponent = expr.args
+    return f"{_at(base, ATOM, leaves)}^{_at(exponent, POWER, leaves)}", POWER
+
+
+_WRITERS: dict[str, Callable[[Call, Leaves], tuple[str, int]]] = {
+    "add": partial(_run, sign=" + ", own=SUM),
+    "sub": partial(_left, sign=" - ", own=SUM),
+    "mul": partial(_run, sign="*", own=PRODUCT),
+    "div": partial(_left, sign="/", own=PRODUCT),
+    "neg": partial(_before, sign="-", inner=PRODUCT, own=SUM),
+    "pow": _power,
+    "pi": lambda _expr, _leaves: ("pi", ATOM),
+    "or": partial(_joined, word="or", own=EITHER),
+    "and": partial(_joined, word="and", own=BOTH),
+    "not": partial(_before, sign="not ", inner=TRUTH, own=TRUTH),
 }
