@@ -12,10 +12,10 @@ from quizgen.audit.lint import lint
 from quizgen.bank.draw import admissible, draw, plan_of
 from quizgen.bank.folder import builtin
 from quizgen.locale import languages
-from quizgen.marking.mark import load_spec, mark, show
+from quizgen.marking.mark import mark, show
 from quizgen.maths.numbers import to_float
 from quizgen.maths.tree import Call, Expr, Num, Sym
-from quizgen.question.specs import build
+from quizgen.question.kinds import build
 
 NAMES = list(builtin().paths)
 SEEDS = 200
@@ -52,12 +52,12 @@ def test_printed_answers_typed_back_in_any_style_are_correct(bank, name):
     for seed in range(TYPED_SEEDS):
         one = draw(template, seed, "typed")
         for index in range(len(template.rules.part)):
-            spec = build(one, index)
-            if spec["kind"] not in TYPED:
+            spec = build(one, index).spec
+            if spec.kind not in TYPED:
                 continue
-            table, printed = load_spec(spec), show(spec, "en")
+            printed = show(spec, "en")
             for style, (decimal, write) in STYLES.items():
-                verdict = mark(table, write(printed), decimal=decimal)
+                verdict = mark(spec, write(printed), decimal=decimal)
                 assert verdict.verdict == "correct", (seed, style, write(printed), verdict)
 
 
@@ -154,7 +154,7 @@ def test_the_right_choice_stands_anywhere(bank, name, index):
     """Position of the right option over seeds: no place more than five deviations off its share."""
     template = bank.template(name)
     draws = 300
-    seen = [build(draw(template, seed, "place"), index)["correct"][0] for seed in range(draws)]
+    seen = [build(draw(template, seed, "place"), index).spec.correct[0] for seed in range(draws)]
     places = len(template.rules.part[index].answer["options"])
     share = draws / places
     spread = math.sqrt(share * (1 - 1 / places))

@@ -12,7 +12,8 @@ from quizgen.bank.folder import Bank
 from quizgen.marking.mark import mark
 from quizgen.maths.numbers import rational
 from quizgen.question.compose import compose
-from quizgen.question.specs import build, plain
+from quizgen.question.filling import plain
+from quizgen.question.kinds import build
 
 SIZES = """
 topic = "projection"
@@ -82,14 +83,14 @@ def test_dividing_by_256_is_told_apart_as_it_would_be_written(bank):
 
 
 def test_half_a_unit_is_accepted_in_one_step(bank):
-    spec = build(reference(bank.template("normalise-from-8-bit-range")), 0)
+    spec = build(reference(bank.template("normalise-from-8-bit-range")), 0).spec
     assert mark(spec, "0.251").verdict == "correct"
     assert mark(spec, "64/255").verdict == "correct"
     assert mark(spec, "0.25").note == "trap:one-more"
 
 
 def test_percent_tolerances_are_in_percent(bank):
-    spec = build(reference(bank.template("radial-points-and-line-bow")), 3)
+    spec = build(reference(bank.template("radial-points-and-line-bow")), 3).spec
     assert mark(spec, "56.25 %").verdict == "correct"
     assert mark(spec, "56.7 %").verdict == "correct"
     assert mark(spec, "57 %").verdict == "wrong"
@@ -104,7 +105,7 @@ def test_percent_tolerances_are_in_percent(bank):
     ],
 )
 def test_key_points_are_found_in_both_languages(bank, typed, found):
-    verdict = mark(build(draw(bank.template("why-bayer-green-and-demosaicing"), 0), 0), typed)
+    verdict = mark(build(draw(bank.template("why-bayer-green-and-demosaicing"), 0), 0).spec, typed)
     assert verdict.note == "self-mark"
     assert set(verdict.fields["found"]) == found
 
@@ -125,7 +126,7 @@ def test_the_solution_of_a_text_question_shows_its_key_points(bank):
     ],
 )
 def test_any_other_point_of_the_ray_in_front_of_the_camera_counts(bank, typed, verdict):
-    spec = build(reference(bank.template("points-on-one-ray")), 1)
+    spec = build(reference(bank.template("points-on-one-ray")), 1).spec
     assert mark(spec, typed).verdict == verdict
 
 
@@ -137,4 +138,4 @@ def test_the_letters_asked_for_are_those_of_the_picture(bank, seed):
     one = draw(bank.template("hsv-edit-from-pictures"), seed)
     order = edit_order(float(int(one.shown["order"].p)))
     expected = [["ABCD"[order.index(edit)]] for edit in ("V", "S", "H")]
-    assert [gap[:1] for gap in build(one, 0)["accept"]] == expected
+    assert [gap[:1] for gap in build(one, 0).spec.accept] == expected

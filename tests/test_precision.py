@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from quizgen.bank.draw import draw
-from quizgen.question.solution import precision_table
+from quizgen.question.precision import precision_table
 
 
 def shown(text: str) -> float:

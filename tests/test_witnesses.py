@@ -10,13 +10,13 @@ import pytest
 
 from quizgen.bank.draw import draw, reference
 from quizgen.marking.mark import mark
-from quizgen.question.specs import build
+from quizgen.question.kinds import build
 
 
 def spec_of(bank, name, seed="reference", part=0):
     template = bank.template(name)
     one = reference(template) if seed == "reference" else draw(template, seed)
-    return build(one, part), one
+    return build(one, part).spec, one
 
 
 def typed(values):

@@ -23,10 +23,13 @@ from quizgen.bank.traps import answer_names
 from quizgen.errors import QuizgenError
 from quizgen.locale import languages
 from quizgen.marking.mark import mark, show
+from quizgen.marking.specs import AnySpec
 from quizgen.maths.numbers import to_float
+from quizgen.paper.marking import SELF_MARKED
 from quizgen.question.compose import identity, put_into_words
-from quizgen.question.solution import key_field
-from quizgen.question.specs import build, plain
+from quizgen.question.contract import Built
+from quizgen.question.filling import plain
+from quizgen.question.kinds import build
 
 COMPOSED = 20
 """Instances that are put into words in every language."""
@@ -111,7 +114,7 @@ def _examine_draws(template: Template, seeds: int, report: Report) -> None:
 def _widen(report: Report, one: Draw) -> None:
     for part in one.template.rules.part:
         for name in answer_names(part.answer):
-            value = to_float(one.in_unit(name))
+            value = to_float(one.shown_values[name])
             low, high = report.ranges.get(name, (value, value))
             report.ranges[name] = (min(low, value), max(high, value))
 
@@ -185,27 +188,22 @@ def composed_problems(one: Draw) -> list[str]:
 
 def marking_problems(one: Draw) -> list[str]:
     """Problems with typing the printed answer and each mistake back."""
-    specs = [build(one, index) for index in range(len(one.template.labels))]
-    return [p for lang in one.template.languages for p in _marked(one, specs, lang)]
+    parts = [build(one, index) for index in range(len(one.template.labels))]
+    return [p for lang in one.template.languages for p in _marked(one, parts, lang)]
 
 
-def _marked(one: Draw, specs: list[dict[str, Any]], lang: str) -> Iterator[str]:
-    for spec, label in zip(specs, one.template.labels, strict=True):
+def _marked(one: Draw, parts: list[Built[Any]], lang: str) -> Iterator[str]:
+    for part, label in zip(parts, one.template.labels, strict=True):
         where = f"seed {one.seed}, {lang}, part {label or '1'}"
-        typed = show(spec, lang)
-        verdict = mark(spec, typed, lang=lang, decimal="point")
-        if spec["kind"] != "text" and verdict.verdict != "correct":
+        typed = show(part.spec, lang)
+        verdict = mark(part.spec, typed, lang=lang, decimal="point")
+        if verdict.verdict != "correct" and verdict.note not in SELF_MARKED:
             yield f"{where}: printed answer {typed!r} is marked {verdict.verdict} ({verdict.note})"
-        for trap, value in spec.get("traps", {}).items():
-            yield from _trap_problems(spec, trap, value, where, lang)
+        for trap, wrong in part.mistakes.items():
+            yield from _trap_problems(part.spec, trap, show(wrong, lang), where, lang)
 
 
-def _trap_problems(
-    spec: dict[str, Any], trap: str, value: Any, where: str, lang: str
-) -> Iterator[str]:
-    wrong = {k: v for k, v in spec.items() if k not in {"traps", "notes"}}
-    wrong[key_field(spec, value)] = value
-    typed = show(wrong, lang)
+def _trap_problems(spec: AnySpec, trap: str, typed: str, where: str, lang: str) -> Iterator[str]:
     verdict = mark(spec, typed, lang=lang, decimal="point")
     if verdict.note != f"trap:{trap}":
         yield f"{where}: trap {trap!r} typed as {typed!r} is {verdict.verdict} ({verdict.note})"

@@ -14,18 +14,24 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cache, cached_property, partial
-from typing import Any
+from typing import Any, TypeVar
 
 from flint import fmpq
 
-from quizgen.bank.template import KeepRule, Template
-from quizgen.bank.traps import PartPlan, factor
+from quizgen.bank.template import KeepRule, Scalar, Template
+from quizgen.bank.traps import PartPlan
 from quizgen.errors import DrawError, MathError
-from quizgen.maths.numbers import places, rational, to_float
+from quizgen.maths.chain import ChainStep
+from quizgen.maths.numbers import exact_text, places, rational, rounded_text, to_float
 from quizgen.maths.precision import working_precision
 from quizgen.maths.systems import Compiled, compile_expr, exact
 from quizgen.maths.tree import names
+from quizgen.maths.units import factor
+from quizgen.maths.values import Value, Values
 
+T = TypeVar("T")
+SHOWN_FIGURES = 6
+"""Significant figures of a shown value that has no short exact form."""
 MAX_TRIES = 5000
 """Tries before a template is called impossible."""
 
@@ -57,14 +63,63 @@ class Draw:
     tries: int
     shown: Mapping[str, fmpq]
     words: Mapping[str, str]
-    values: Mapping[str, Any]
+    values: Values
     traps: tuple[tuple[str, ...], ...] = field(default=())
 
-    def in_unit(self, name: str) -> Any:
-        """A quantity in the unit it is shown in."""
-        if name in self.shown:
-            return self.shown[name]
-        return self.values[name] / factor(self.template.units.get(name, ""))
+    @cached_property
+    def plan(self) -> Plan:
+        """What does not depend on the numbers."""
+        return plan_of(self.template)
+
+    @cached_property
+    def shown_values(self) -> Values:
+        """Every quantity, drawn or solved, in the unit it is shown in."""
+        with working_precision():
+            return self.plan.shown_env(self.shown, self.values)
+
+    @cached_property
+    def _texts(self) -> dict[str, str]:
+        return {}
+
+    def text(self, name: str) -> str:
+        """A quantity's number as it is shown: exact if that is short, else rounded."""
+        if name not in self._texts:
+            value = self.shown_values[name]
+            self._texts[name] = exact_text(value) or rounded_text(value, figures=SHOWN_FIGURES)
+        return self._texts[name]
+
+    def is_rounded(self, name: str) -> bool:
+        """Whether a quantity's text is not its exact value."""
+        return exact_text(self.shown_values[name]) is None
+
+    def computed(self, formula: str) -> Value:
+        """Value of a formula of ``template.toml`` over the quantities in shown units."""
+        with working_precision():
+            value: Value = compile_expr(self.template.formula(formula), exact())(self.shown_values)
+        return value
+
+    def steps(self, index: int) -> tuple[ChainStep, ...]:
+        """The steps that lead to a part's answer, those that the template leaves out aside."""
+        shown = self.template.rules.part[index].show
+        steps = self.plan.parts[index].steps
+        return tuple(step for step in steps if shown is None or step.name in shown)
+
+    def answer(self, index: int) -> tuple[Value, ...]:
+        """The components of a part's answer, each in the unit it is asked in."""
+        return self._components(index, self.values)
+
+    def mistaken(self, index: int) -> dict[str, tuple[Value, ...]]:
+        """Each usable mistake of a part and the answer it gives, as ``answer``."""
+        chain = self.template.chain
+        return {
+            trap: self._components(index, chain.trapped(trap, self.values))
+            for trap in self.traps[index]
+        }
+
+    def _components(self, index: int, values: Values) -> tuple[Value, ...]:
+        part = self.plan.parts[index]
+        with working_precision():
+            return tuple(values[n] / factor(part.unit_of(self.template, n)) for n in part.of)
 
 
 def pick(key: str, count: int) -> int:
@@ -72,7 +127,7 @@ def pick(key: str, count: int) -> int:
     return int.from_bytes(hashlib.sha256(key.encode()).digest()[:8], "big") % count
 
 
-def shuffled(key: str, items: Sequence[Any]) -> list[Any]:
+def shuffled(key: str, items: Sequence[T]) -> list[T]:
     """Deterministic permutation that belongs to a key."""
     ranked = sorted(range(len(items)), key=lambda i: hashlib.sha256(f"{key}/{i}".encode()).digest())
     return [items[i] for i in ranked]
@@ -101,11 +156,11 @@ class _Condition:
     """A condition over shown values, and the quantities it needs."""
 
     text: str
-    test: Callable[[Mapping[str, Any]], bool]
+    test: Callable[[Values], bool]
     needs: frozenset[str]
 
 
-def _of(name: str, test: Callable[[Any], bool]) -> Callable[[Mapping[str, Any]], bool]:
+def _of(name: str, test: Callable[[Value], bool]) -> Callable[[Values], bool]:
     return lambda env: test(env[name])
 
 
@@ -136,6 +191,7 @@ class Plan:
             test = keep_test(rule)
             yield _Condition(f"keep.{name}", _of(name, test), frozenset({name}))
 
+    @working_precision()
     def candidate(self, stem: str, attempt: int) -> tuple[dict[str, fmpq], dict[str, str]]:
         """Values of one try, before any condition."""
         shown: dict[str, fmpq] = {}
@@ -156,22 +212,19 @@ class Plan:
         """Given quantity to the factor from its shown unit to base units."""
         return {n: factor(self.template.units.get(n, "")) for n in self.template.chain.given}
 
-    def solve(self, shown: Mapping[str, fmpq]) -> dict[str, Any]:
+    def solve(self, shown: Mapping[str, fmpq]) -> dict[str, Value]:
         """Run the chain on shown values."""
         return self.template.chain.solve({n: shown[n] * f for n, f in self.base_factors.items()})
 
-    def shown_env(self, shown: Mapping[str, fmpq], values: Mapping[str, Any]) -> dict[str, Any]:
+    def shown_env(self, shown: Mapping[str, fmpq], values: Values) -> dict[str, Value]:
         """Drawn and solved quantities in shown units."""
-        solved = {
-            step.name: values[step.name] / factor(step.unit) if step.unit else values[step.name]
-            for step in self.template.chain.steps
-        }
-        return {**solved, **shown}
+        steps = self.template.chain.steps
+        return {**{step.name: values[step.name] / factor(step.unit) for step in steps}, **shown}
 
 
 @cache
 def candidates(
-    listed: tuple[Any, ...], span: tuple[Any, ...], skip: tuple[Any, ...]
+    listed: tuple[Scalar, ...], span: tuple[Scalar, ...], skip: tuple[Scalar, ...]
 ) -> tuple[fmpq, ...]:
     """The values a rule allows, in order."""
     if listed:
@@ -186,7 +239,7 @@ def candidates(
     )
 
 
-def keep_test(rule: KeepRule) -> Callable[[Any], bool]:
+def keep_test(rule: KeepRule) -> Callable[[Value], bool]:
     """Compile a keep rule into a test of one value."""
     tests = [
         partial(KEEP_TESTS[name], _limit(name, getattr(rule, name)))
@@ -196,10 +249,10 @@ def keep_test(rule: KeepRule) -> Callable[[Any], bool]:
     return lambda value: all(test(value) for test in tests)
 
 
-def _limit(name: str, written: Any) -> Any:
+def _limit(name: str, written: Scalar | tuple[Scalar, ...]) -> object:
     """A limit as written, made exact."""
     if name == "skip":
-        return {rational(str(v)) for v in written}
+        return {rational(str(v)) for v in written}  # type: ignore[union-attr]
     return written if name in {"decimals", "denominator"} else rational(str(written))
 
 
@@ -214,7 +267,7 @@ KEEP_TESTS: dict[str, Callable[[Any, Any], bool]] = {
 """Field of a keep rule to the test of (limit, value)."""
 
 
-def _terminates(value: Any, decimals: int) -> bool:
+def _terminates(value: Value, decimals: int) -> bool:
     count = places(value) if isinstance(value, fmpq) else None
     return count is not None and count <= decimals
 
@@ -230,9 +283,10 @@ def plan_of(template: Template) -> Plan:
     return _PLANS[key]
 
 
+@working_precision()
 def admissible(
     plan: Plan, shown: Mapping[str, fmpq], *, lenient: bool = False
-) -> tuple[dict[str, Any], tuple[tuple[str, ...], ...]] | str:
+) -> tuple[dict[str, Value], tuple[tuple[str, ...], ...]] | str:
     """Solve a candidate; its values and traps per part, or the reason to reject it."""
     try:
         for condition in () if lenient else plan.early:
@@ -240,11 +294,10 @@ def admissible(
                 return condition.text
         values = plan.solve(shown)
         if plan.late and not lenient:
-            with working_precision():
-                env = plan.shown_env(shown, values)
-                for condition in plan.late:
-                    if not condition.test(env):
-                        return condition.text
+            env = plan.shown_env(shown, values)
+            for condition in plan.late:
+                if not condition.test(env):
+                    return condition.text
     except (MathError, ZeroDivisionError) as error:
         return f"no value: {error}"
     approximate = {name: to_float(value) for name, value in values.items()}

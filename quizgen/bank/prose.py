@@ -22,11 +22,11 @@ the grammar that students type. Loops, calls, attributes and arithmetic do not e
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 from quizgen.errors import BankError, FormulaError
 from quizgen.maths.notation import parse
@@ -72,8 +72,18 @@ class Styled:
     children: tuple[Inline, ...]
 
 
-Inline = Any
-"""Words, Slot, Formula, Code, Styled, or a layout node once filled."""
+class Printed(Protocol):
+    """A formula ready for printing: what stands in the place of a ``Formula`` once filled."""
+
+    @property
+    def typed(self) -> str:
+        """How it would be typed."""
+
+
+Inline = Words | Slot | Formula | Code | Styled | Printed
+"""A piece of a sentence; once filled, without ``Slot`` and ``Formula``."""
+Value = Callable[[Slot | Formula], tuple[Inline, ...]]
+"""What a slot or a formula is replaced by."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -303,37 +313,55 @@ def _named(section: str, content: str) -> dict[str, tuple[Inline, ...]]:
     return sentences
 
 
-def slots(parts: Any) -> Iterator[str]:
+def slots(parts: Iterable[Block | Inline]) -> Iterator[str]:
     """Names of all slots in blocks or inlines."""
-    if isinstance(parts, Slot):
-        yield parts.name
-    elif isinstance(parts, CodeBlock):
-        yield from _SLOT.findall(parts.text)
-    elif isinstance(parts, tuple):
-        for part in parts:
-            yield from slots(part)
-    else:
-        for name in _INNER.get(type(parts), ()):
-            yield from slots(getattr(parts, name))
+    for part in parts:
+        match part:
+            case Slot(name):
+                yield name
+            case CodeBlock(text):
+                yield from _SLOT.findall(text)
+            case Paragraph(children) | Styled(_, children):
+                yield from slots(children)
+            case Items(items):
+                yield from slots(block for item in items for block in item)
+            case Table(head, rows):
+                yield from slots(inline for row in (head, *rows) for cell in row for inline in cell)
 
 
-def fill(parts: Any, value: Callable[[Inline], Inline]) -> Any:
-    """Replace slots, formulas and programs in blocks or inlines by what ``value`` gives."""
-    if isinstance(parts, tuple):
-        return tuple(fill(part, value) for part in parts)
-    if isinstance(parts, Slot | Formula | CodeBlock):
-        return value(parts)
-    inner = _INNER.get(type(parts), ())
-    return replace(parts, **{n: fill(getattr(parts, n), value) for n in inner}) if inner else parts
+def fill(parts: tuple[Inline, ...], value: Value) -> tuple[Inline, ...]:
+    """Put what ``value`` gives in the place of the slots and formulas of a sentence."""
+    return tuple(done for part in parts for done in _filled(part, value))
 
 
-_INNER = {
-    Paragraph: ("children",),
-    Styled: ("children",),
-    Items: ("items",),
-    Table: ("head", "rows"),
-}
-"""Where a block or inline holds others."""
+def _filled(part: Inline, value: Value) -> tuple[Inline, ...]:
+    if isinstance(part, Slot | Formula):
+        return value(part)
+    if isinstance(part, Styled):
+        return (Styled(part.style, fill(part.children, value)),)
+    return (part,)
+
+
+def fill_blocks(
+    parts: tuple[Block, ...], value: Value, program: Callable[[str], str]
+) -> tuple[Block, ...]:
+    """Fill every sentence of blocks as ``fill`` does, and programs by ``program``."""
+
+    def filled(block: Block) -> Block:
+        match block:
+            case Paragraph(children):
+                return Paragraph(fill(children, value))
+            case CodeBlock(text):
+                return CodeBlock(program(text))
+            case Items(items, ordered):
+                return Items(tuple(tuple(map(filled, item)) for item in items), ordered)
+            case Table(head, rows):
+                return Table(row(head), tuple(map(row, rows)))
+
+    def row(cells: tuple[tuple[Inline, ...], ...]) -> tuple[tuple[Inline, ...], ...]:
+        return tuple(fill(cell, value) for cell in cells)
+
+    return tuple(map(filled, parts))
 
 
 def fill_text(text: str, value: Callable[[str], str]) -> str:

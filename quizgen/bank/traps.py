@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from functools import cache
 from typing import Any
 
 import msgspec
@@ -17,22 +16,16 @@ from flint import fmpq
 from quizgen.bank.template import Template
 from quizgen.errors import BankError
 from quizgen.maths.chain import ChainStep, Plan
-from quizgen.maths.numbers import rational, to_float
+from quizgen.maths.numbers import to_float
 from quizgen.maths.systems import compile_expr, floats
 from quizgen.maths.tolerance import MARGIN, RULES, Tolerance, tolerance_of
 from quizgen.maths.tree import names
-from quizgen.maths.units import unit
+from quizgen.maths.units import factor
 
 TIE_MARGIN = 0.02
 """A value closer than this (in units of the asked decimal) to a rounding tie is redrawn."""
 APART = 2.0
 """Two values count as different when more than this many tolerances lie between them."""
-
-
-@cache
-def factor(text: str) -> fmpq:
-    """Exact factor from a unit to base units."""
-    return rational(unit(text).factor)
 
 
 def answer_names(answer: Mapping[str, Any]) -> tuple[str, ...]:

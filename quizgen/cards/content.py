@@ -13,7 +13,7 @@ from typing import Any, Literal, TypeVar
 
 import msgspec
 
-from quizgen.bank.prose import Block, Formula, Inline, Slot, blocks, fill, inlines
+from quizgen.bank.prose import Block, Formula, Inline, Slot, blocks, fill, fill_blocks, inlines
 from quizgen.cards.equations import inline
 from quizgen.errors import BankError
 from quizgen.locale import table
@@ -179,10 +179,9 @@ def passage(entry: Entry, name: str, lang: str) -> tuple[Block, ...]:
     """
     both: Both = getattr(entry, name)
     try:
-        ready: tuple[Block, ...] = _ready(blocks(both.of(lang)))
+        return fill_blocks(blocks(both.of(lang)), _printed, _no_program)
     except BankError as error:
         raise BankError(f"card {entry.id!r}, {name}.{lang}: {error}") from error
-    return ready
 
 
 def sentence(entry: Entry, name: str, lang: str) -> tuple[Inline, ...]:
@@ -195,19 +194,16 @@ def sentence(entry: Entry, name: str, lang: str) -> tuple[Inline, ...]:
     """
     both: Both = getattr(entry, name)
     try:
-        ready: tuple[Inline, ...] = _ready(inlines(both.of(lang)))
+        return fill(inlines(both.of(lang)), _printed)
     except BankError as error:
         raise BankError(f"card {entry.id!r}, {name}.{lang}: {error}") from error
-    return ready
 
 
-def _ready(parts: Any) -> Any:
-    return fill(parts, _printed)
-
-
-def _printed(part: Inline) -> Inline:
+def _printed(part: Slot | Formula) -> tuple[Inline, ...]:
     if isinstance(part, Slot):
         raise BankError(f"{{{{ {part.name} }}}} cannot be filled in on a card")
-    if not isinstance(part, Formula):
-        raise BankError(f"{part!r} cannot stand on a card")
-    return inline(part.expr)
+    return (inline(part.expr),)
+
+
+def _no_program(text: str) -> str:
+    raise BankError(f"program {text!r} cannot stand on a card")

@@ -17,7 +17,7 @@ from typing import Any, TypeGuard
 from quizgen import typeset
 from quizgen.bank.prose import Code, CodeBlock, Items, Paragraph, Styled, Table, Words
 from quizgen.figures import Figure
-from quizgen.question.solution import Maths
+from quizgen.question.filling import Maths
 from quizgen.typeset.nodes import RELATION, Node, Row
 
 _TITLE = re.compile(rb"<title>.*?</title>", re.DOTALL)

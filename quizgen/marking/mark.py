@@ -13,7 +13,7 @@ from quizgen.errors import KeyFileError
 from quizgen.marking.kinds import KINDS, kind_module
 from quizgen.marking.messages import say
 from quizgen.marking.options import DECIMALS, Context, Options
-from quizgen.marking.specs import Spec, decode
+from quizgen.marking.specs import AnySpec, decode
 from quizgen.marking.verdict import Verdict, ambiguous, unreadable, with_words
 from quizgen.maths.notation import ReadError
 
@@ -21,7 +21,7 @@ TWO_READINGS = frozenset({"comma-twice", "two-readings"})
 """Reasons for asking back that are not the learner's slip: the text can be read in two ways."""
 
 
-def load_spec(spec: Mapping[str, Any]) -> Spec:
+def load_spec(spec: Mapping[str, Any]) -> AnySpec:
     """Read and validate a spec table.
 
     Raises
@@ -36,7 +36,7 @@ def load_spec(spec: Mapping[str, Any]) -> Spec:
 
 
 def mark(
-    spec: Mapping[str, Any] | Spec,
+    spec: Mapping[str, Any] | AnySpec,
     typed: str,
     *,
     lang: str = "en",
@@ -73,11 +73,11 @@ def mark(
     """
     if decimal not in DECIMALS:
         raise KeyFileError(f"decimal: {decimal!r} is not one of {', '.join(DECIMALS)}")
-    table = spec if isinstance(spec, Spec) else load_spec(spec)
+    table = load_spec(spec) if isinstance(spec, Mapping) else spec
     return explained(table, judge(table, typed, Options(lang, decimal, context, settle)), lang)
 
 
-def judge(spec: Spec, typed: str, options: Options) -> Verdict:
+def judge(spec: AnySpec, typed: str, options: Options) -> Verdict:
     """Return the language-free verdict of one answer."""
     try:
         verdict: Verdict = kind_module(spec.kind).check(spec, typed, options)
@@ -95,7 +95,7 @@ def _asked_back(error: ReadError) -> Verdict:
     return asked(note, column=error.column or 1, **fields)
 
 
-def explained(spec: Spec, verdict: Verdict, lang: str) -> Verdict:
+def explained(spec: AnySpec, verdict: Verdict, lang: str) -> Verdict:
     """Put the verdict's note into words of a language."""
     if not verdict.note and not verdict.cells:
         return verdict
@@ -103,14 +103,14 @@ def explained(spec: Spec, verdict: Verdict, lang: str) -> Verdict:
     return with_words(verdict, _sentence(spec, verdict, lang), cells)
 
 
-def _sentence(spec: Spec, verdict: Verdict, lang: str) -> str:
+def _sentence(spec: AnySpec, verdict: Verdict, lang: str) -> str:
     name = verdict.note.removeprefix("trap:")
     if name == verdict.note:
         return say(lang, verdict.note, verdict.fields) if name else ""
     return spec.notes.get(lang, {}).get(name) or say(lang, "trap", verdict.fields)
 
 
-def show(spec: Mapping[str, Any] | Spec, lang: str = "en") -> str:
+def show(spec: Mapping[str, Any] | AnySpec, lang: str = "en") -> str:
     """Return the key of a spec as it is printed, and as it can be typed back.
 
     Raises
@@ -118,7 +118,7 @@ def show(spec: Mapping[str, Any] | Spec, lang: str = "en") -> str:
     KeyFileError
         If the spec is wrong.
     """
-    table = spec if isinstance(spec, Spec) else load_spec(spec)
+    table = load_spec(spec) if isinstance(spec, Mapping) else spec
     text: str = kind_module(table.kind).show(table, lang)
     return text
 

@@ -17,7 +17,7 @@ Notes = dict[str, dict[str, str]]
 """Language to sentences by trap name."""
 
 
-class Spec(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+class Spec(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, omit_defaults=True):
     """Fields of every kind.
 
     ``traps`` maps a trap's name to the wrong answer it gives (same shape and unit as the key),
@@ -46,7 +46,7 @@ class Spec(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
         """
 
 
-class Measured(Tolerance, kw_only=True, forbid_unknown_fields=True):
+class Measured(Tolerance, kw_only=True, forbid_unknown_fields=True, omit_defaults=True):
     """Fields of every kind whose key is made of numbers: those of ``Spec``, and the tolerance."""
 
     kind: str

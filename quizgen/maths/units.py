@@ -12,7 +12,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 
+from flint import fmpq
+
 from quizgen.errors import FormulaError
+from quizgen.maths.numbers import rational
 
 Dimension = tuple[tuple[str, int], ...]
 
@@ -116,6 +119,18 @@ def unit(text: str) -> Unit:
         position = match.end()
     powers.pop("", None)
     return Unit(text, factor, tuple(sorted((b, p) for b, p in powers.items() if p)))
+
+
+@cache
+def factor(text: str) -> fmpq:
+    """Exact factor from a unit to base units: 1/1000 for ``mm``.
+
+    Raises
+    ------
+    FormulaError
+        If a name is not in the list.
+    """
+    return rational(unit(text).factor)
 
 
 SHOWN = {"um": "µm", "deg": "°", "us": "µs", "uW": "µW", "e-": "e⁻"}

@@ -111,7 +111,7 @@ def key_question(item: Item) -> KeyQuestion:
     """The key of one question."""
     question, key = item.questions[0], item.keys[0]
     parts = [
-        KeyPart(part.field.id, str(part.points), spec)
+        KeyPart(part.field.id, str(part.points), msgspec.to_builtins(spec))
         for part, spec in zip(question.parts, key.specs, strict=True)
     ]
     return KeyQuestion(

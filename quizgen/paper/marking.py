@@ -14,7 +14,7 @@ from quizgen.marking.diagnosis.context import base_factor
 from quizgen.marking.kinds import table as table_kind
 from quizgen.marking.mark import explained, judge, load_spec
 from quizgen.marking.options import DECIMALS, Context, Options
-from quizgen.marking.specs import Spec
+from quizgen.marking.specs import AnySpec
 from quizgen.marking.verdict import Verdict
 from quizgen.paper.key import Key, KeyPart, KeyQuestion, load_key
 
@@ -179,7 +179,7 @@ class Marker:
         return _result(self.question, part, typed, explained(spec, verdict, self.options.lang))
 
 
-def _spec(part: KeyPart) -> Spec:
+def _spec(part: KeyPart) -> AnySpec:
     try:
         return load_spec(part.spec)
     except KeyFileError as error:
@@ -187,7 +187,7 @@ def _spec(part: KeyPart) -> Spec:
 
 
 def _verdict(
-    question: KeyQuestion, spec: Spec, typed: str, options: Options, earlier: dict[str, Any]
+    question: KeyQuestion, spec: AnySpec, typed: str, options: Options, earlier: dict[str, Any]
 ) -> Verdict:
     """Mark without the question around; only what went wrong is looked at again with it."""
     verdict = judge(spec, typed, options)
@@ -205,7 +205,9 @@ def _context(question: KeyQuestion, earlier: dict[str, Any]) -> Context | None:
         raise KeyFileError(f"key: question {question.number}: chain: {error}") from None
 
 
-def _remember(question: KeyQuestion, spec: Spec, verdict: Verdict, earlier: dict[str, Any]) -> None:
+def _remember(
+    question: KeyQuestion, spec: AnySpec, verdict: Verdict, earlier: dict[str, Any]
+) -> None:
     """Keep the student's own values, in base units, for the parts that follow."""
     if question.chain is None or len(spec.quantities()) != len(verdict.values):
         return
@@ -216,7 +218,7 @@ def _remember(question: KeyQuestion, spec: Spec, verdict: Verdict, earlier: dict
             earlier[name] = value * base_factor(cell, units[name])
 
 
-def _cell_specs(spec: Spec) -> list[Any]:
+def _cell_specs(spec: AnySpec) -> list[Any]:
     if isinstance(spec, table_kind.Spec):
         return [table_kind.cell(spec, name) for name in spec.values]
     return [spec] * len(spec.quantities())

@@ -6,23 +6,27 @@ only a ``Question`` cannot leak an answer.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
 from quizgen.bank.draw import Draw, draw, reference
 from quizgen.bank.prose import Block, Inline
-from quizgen.bank.template import Template
-from quizgen.bank.traps import factor
+from quizgen.bank.template import Scalar, Template
 from quizgen.errors import BankError
 from quizgen.figures import Figure
 from quizgen.figures import render as render_figure
+from quizgen.marking.specs import AnySpec
+from quizgen.maths.notation import to_text
 from quizgen.maths.numbers import key_text, to_float
-from quizgen.question import hints, solution, specs
-from quizgen.question.solution import Solution
+from quizgen.maths.units import factor
+from quizgen.question.contract import Built, Control, Named
+from quizgen.question.filling import Filler
+from quizgen.question.kinds import KINDS, build
+from quizgen.question.solution import Solution, solve
 
-NBSP = "\u00a0"
+Choice = tuple[str, tuple[Inline, ...]]
+"""A mark (letter or number) and what stands beside it."""
 
 
 @dataclass(frozen=True)
@@ -33,8 +37,8 @@ class Field:
     ----------
     id : str
         Name in the answer form, for example ``3b``.
-    kind : str
-        Answer kind.
+    control : Control
+        How it is answered.
     hints : tuple of str
         What to type, in the question's language.
     options : tuple of (str, inlines)
@@ -44,10 +48,10 @@ class Field:
     """
 
     id: str
-    kind: str
+    control: Control
     hints: tuple[str, ...]
-    options: tuple[tuple[str, tuple[Inline, ...]], ...] = ()
-    targets: tuple[tuple[str, tuple[Inline, ...]], ...] = ()
+    options: tuple[Choice, ...] = ()
+    targets: tuple[Choice, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -88,7 +92,7 @@ class Key:
     template: str
     number: str
     identity: str
-    specs: tuple[dict[str, Any], ...]
+    specs: tuple[AnySpec, ...]
     solution: Solution
     chain: dict[str, Any] | None
     draw: Draw
@@ -146,7 +150,8 @@ def put_into_words(
     template = drawn.template
     if lang not in template.texts:
         raise BankError(f"template {template.id!r} is not written in {lang!r}")
-    built = tuple(specs.build(drawn, i) for i in range(len(template.rules.part)))
+    built = tuple(build(drawn, index) for index in range(len(template.rules.part)))
+    filler = Filler(drawn, lang, hidden=True)
     question = Question(
         template=template.id,
         number=number,
@@ -155,16 +160,16 @@ def put_into_words(
         topic=template.rules.topic,
         title=template.texts[lang].title,
         minutes=template.minutes,
-        stem=solution.filled(template.texts[lang].stem, drawn, lang, hidden=True),
-        parts=tuple(_part(drawn, lang, i, number, spec) for i, spec in enumerate(built)),
+        stem=filler.blocks(filler.text.stem),
+        parts=tuple(_part(filler, index, number, part) for index, part in enumerate(built)),
         figure=_figure(drawn, lang, quiz=True) if figures else None,
     )
     key = Key(
         template=template.id,
         number=number,
         identity=identity(drawn),
-        specs=built,
-        solution=solution.solve(drawn, lang, built),
+        specs=tuple(part.spec for part in built),
+        solution=solve(drawn, lang, built),
         chain=chain_table(drawn),
         draw=drawn,
         figure=_figure(drawn, lang, quiz=False) if figures else None,
@@ -179,59 +184,39 @@ def identity(drawn: Draw) -> str:
     return f"{drawn.template.id}({', '.join(numbers + words)})"
 
 
-def _part(drawn: Draw, lang: str, index: int, number: str, spec: Mapping[str, Any]) -> Part:
-    template = drawn.template
+def _part(filler: Filler, index: int, number: str, built: Built[Any]) -> Part:
+    template = filler.drawn.template
     label = template.labels[index]
-    body = template.texts[lang].sections.get(label, ()) if label else ()
+    body = filler.section(label) if label else ()
     if label and not body:
-        raise BankError(f"template {template.id!r}: section {label!r} is missing in {lang}.md")
-    return Part(
-        label=label,
-        points=Fraction(str(template.rules.part[index].points)),
-        body=solution.filled(body, drawn, lang, hidden=True),
-        field=_field(drawn, lang, index, f"{number}{label}", spec),
+        raise BankError(
+            f"template {template.id!r}: section {label!r} is missing in {filler.lang}.md"
+        )
+    field = Field(
+        id=f"{number}{label}",
+        control=built.control,
+        hints=KINDS[built.spec.kind].hints(built.spec, filler.lang),
+        options=_choices(filler, built.options),
+        targets=_choices(filler, built.targets),
     )
+    return Part(label, Fraction(str(template.rules.part[index].points)), body, field)
 
 
-def _field(drawn: Draw, lang: str, index: int, name: str, spec: Mapping[str, Any]) -> Field:
-    answer = drawn.template.rules.part[index].answer
-    options, targets = specs.display(drawn, index)
-    return Field(
-        id=name,
-        kind=str(spec["kind"]),
-        hints=hints.hints(answer, spec, lang),
-        options=_lettered(drawn, lang, options),
-        targets=_lettered(drawn, lang, targets),
-    )
-
-
-def _lettered(
-    drawn: Draw, lang: str, names: tuple[tuple[str, str], ...]
-) -> tuple[tuple[str, tuple[Inline, ...]], ...]:
-    return tuple(
-        (mark, solution.sentence(drawn, lang, "options", name, hidden=True)) for mark, name in names
-    )
+def _choices(filler: Filler, names: tuple[Named, ...]) -> tuple[Choice, ...]:
+    return tuple((mark, filler.sentence("options", name)) for mark, name in names)
 
 
 def figure_values(drawn: Draw) -> dict[str, Any]:
     """Parameters of the template's figure, as floats in shown units (words stay words)."""
-    from quizgen.bank.draw import plan_of
-    from quizgen.maths.systems import compile_expr, exact
-
     rule = drawn.template.rules.figure
-    if rule is None:
-        return {}
-    env = plan_of(drawn.template).shown_env(drawn.shown, drawn.values)
-    result: dict[str, Any] = {}
-    for name, source in rule.values.items():
-        if isinstance(source, str) and source in drawn.words:
-            result[name] = drawn.words[source]
-        elif isinstance(source, str):
-            value = compile_expr(drawn.template.formula(source), exact())(env)
-            result[name] = to_float(value)
-        else:
-            result[name] = source
-    return result
+    return {name: _parameter(drawn, source) for name, source in rule.values.items()} if rule else {}
+
+
+def _parameter(drawn: Draw, source: Scalar) -> float | str:
+    """A number as written, a drawn phrase by its name, or the value of a formula."""
+    if not isinstance(source, str):
+        return source
+    return drawn.words.get(source) or to_float(drawn.computed(source))
 
 
 def _figure(drawn: Draw, lang: str, *, quiz: bool) -> Figure | None:
@@ -246,8 +231,6 @@ def chain_table(drawn: Draw) -> dict[str, Any] | None:
     chain = drawn.template.chain
     if not chain.steps:
         return None
-    from quizgen.maths.notation import to_text
-
     units = drawn.template.units
     return {
         "given": {

@@ -1,73 +1,41 @@
-"""What a learner is told about how to type an answer, derived from how it is marked."""
+"""Sentences on how to type an answer that several kinds share: its unit and its rounding."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
-
 from quizgen.locale import word
+from quizgen.marking.specs import Measured
 from quizgen.maths.constants import exact_value
 from quizgen.maths.numbers import to_float
-from quizgen.maths.tolerance import tolerance_of
 from quizgen.maths.units import shown
+from quizgen.question.specs import Numbers, texts_of
 
 
-def hints(answer: Mapping[str, Any], spec: Mapping[str, Any], lang: str) -> tuple[str, ...]:
-    """Sentences about form, unit and rounding of one answer field.
-
-    Parameters
-    ----------
-    answer : mapping
-        The part's ``answer`` table as authored.
-    spec : mapping
-        The specification built for this draw.
-    lang : str
-    """
-    kind = str(spec["kind"])
-    found = [_shape(kind, spec, lang), _unit(kind, answer, lang), _rounding(spec, lang)]
-    return tuple(text for text in found if text)
+def said(*sentences: str) -> tuple[str, ...]:
+    """The sentences that are not empty."""
+    return tuple(sentence for sentence in sentences if sentence)
 
 
-def _shape(kind: str, spec: Mapping[str, Any], lang: str) -> str:
-    if kind in {"number", "quantity", "angle"}:
-        return word(lang, "ask.percent") if spec.get("percent") else ""
-    if kind == "point":
-        three = len(spec["values"]) > len("ab")
-        return word(lang, "ask.point3" if three else "ask.point")
-    if kind == "table":
-        units = spec.get("units", {})
-        names = [f"{n} ({shown(units[n])})" if n in units else n for n in spec["values"]]
-        return word(lang, "ask.table", names=", ".join(names))
-    if kind == "witness":
-        return word(lang, "ask.witness", names="; ".join(f"{n} = ..." for n in spec["symbols"]))
-    if kind == "order" and not spec.get("distractors"):
-        return word(lang, "ask.order_all")
-    return word(lang, f"ask.{kind}")
+def unit(text: str, lang: str) -> str:
+    """The unit that an answer is meant in, if it has one."""
+    return word(lang, "ask.unit", unit=shown(text)) if text else ""
 
 
-def _unit(kind: str, answer: Mapping[str, Any], lang: str) -> str:
-    text = str(answer.get("unit", ""))
-    if kind == "angle":
-        return word(lang, "ask.degrees")
-    if kind == "quantity":
-        return word(lang, "ask.quantity", unit=shown(text))
-    return word(lang, "ask.unit", unit=shown(text)) if text and kind in {"number", "point"} else ""
-
-
-def _rounding(spec: Mapping[str, Any], lang: str) -> str:
-    rule, number = tolerance_of(spec).stated or ("", "")
+def rounding(spec: Measured, key: Numbers, lang: str) -> str:
+    """How exactly an answer must be given, if that was stated."""
+    rule, number = spec.stated or ("", "")
     if rule == "decimals":
         name = f"ask.decimals_{number}" if number in {0, 1} else "ask.decimals"
         return word(lang, name, n=number)
     if rule == "sigfigs":
         return word(lang, "ask.sigfigs", n=number)
     if rule == "exact":
-        return word(lang, "ask.whole" if _whole(spec) else "ask.exact")
+        return word(lang, "ask.whole" if _whole(spec, key) else "ask.exact")
     if rule == "rel":
         return word(lang, "ask.rel", percent=f"{to_float(exact_value(number) * 100):g}")
     return word(lang, "ask.abs", abs=number) if rule == "abs" else ""
 
 
-def _whole(spec: Mapping[str, Any]) -> bool:
+def _whole(spec: Measured, key: Numbers) -> bool:
     """Whether key and mistakes are all whole numbers, so that no one thinks of fractions."""
-    return "/" not in str([spec.get("value"), spec.get("values"), spec.get("traps")])
+    answers = [key, *spec.traps.values()]
+    return not any("/" in text for answer in answers for text in texts_of(answer))

@@ -1,309 +1,194 @@
-"""How each part is marked: from the ``answer`` table and the drawn numbers to a plain table.
-
-The result is JSON: the same table stands in ``key.json`` and is what the checker reads. One builder
-per shape of answer; kinds that share a shape share a builder.
-"""
+"""From an authored ``answer`` and a draw to a spec: what the kinds of one shape share."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from fractions import Fraction
-from typing import Any
+import re
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, TypeAlias, TypeVar
 
-from quizgen.bank.draw import Draw, plan_of, shuffled
-from quizgen.bank.prose import Code, Formula, Slot, Styled, Words
-from quizgen.bank.traps import answer_names, factor
-from quizgen.errors import BankError
-from quizgen.maths.numbers import exact_text, key_text
-from quizgen.maths.systems import compile_expr, exact
-from quizgen.maths.tree import Num, substitute
+import msgspec
 
-Spec = dict[str, Any]
+from quizgen.bank.draw import Draw, shuffled
+from quizgen.bank.traps import answer_names
+from quizgen.errors import BankError, FormulaError
+from quizgen.marking.mark import show
+from quizgen.marking.specs import AnySpec, Measured
+from quizgen.maths.constants import Scalar
+from quizgen.maths.numbers import key_text, rational, short_decimal
+from quizgen.maths.values import Value
+from quizgen.question.contract import Built, Named, S
+from quizgen.question.filling import Filler, plain
+
 LETTERS = "ABCDEFGHIJKL"
 OWN_KEYS = frozenset({"of", "options", "pairs", "steps", "before", "distractors", "gaps", "true"})
-"""Keys of an authored answer that the builder replaces; all others are handed on as they are."""
+"""Keys of an authored answer that a builder replaces; all others are handed on as they are."""
+ROUNDED_MISTAKE = 4
+"""Significant figures of a mistake's answer that has no short exact form."""
+
+Numbers: TypeAlias = Scalar | list[Scalar] | dict[str, Scalar]
+"""The numbers of a key or of a mistake: one, several in order, or several by name."""
+T = TypeVar("T", bound=Measured)
 
 
-def build(drawn: Draw, index: int) -> Spec:
-    """Specification of one part.
+def answer_of(drawn: Draw, index: int) -> Mapping[str, Any]:
+    """The ``answer`` table of a part as authored."""
+    return drawn.template.rules.part[index].answer
+
+
+def complaint(drawn: Draw, index: int, what: str) -> BankError:
+    """An error that names the template and the part."""
+    return BankError(f"template {drawn.template.id!r}: part {index + 1}: {what}")
+
+
+def specification(shape: type[S], drawn: Draw, index: int, **given: object) -> S:
+    """The spec of a part: the authored keys handed on, and what the draw gives.
 
     Raises
     ------
     BankError
-        If the part's answer is not complete.
+        If the answer has a key that the kind does not know, or one of the wrong type.
     """
-    answer = drawn.template.rules.part[index].answer
-    kind = str(answer.get("kind", ""))
-    if kind not in BUILDERS:
-        raise BankError(
-            f"template {drawn.template.id!r}: part {index + 1}: unknown kind {kind!r} "
-            f"(allowed: {', '.join(sorted(BUILDERS))})"
-        )
-    common = {name: value for name, value in answer.items() if name not in OWN_KEYS}
-    if "accept" in common:
-        common["accept"] = [key_text(_computed(drawn, bound)) for bound in common["accept"]]
-    return {**common, **BUILDERS[kind](drawn, index, answer)}
-
-
-def display(drawn: Draw, index: int) -> tuple[tuple[tuple[str, str], ...], ...]:
-    """Marks and sentence names of the options, and of the right side of a matching."""
-    answer = drawn.template.rules.part[index].answer
-    kind = answer["kind"]
-    if kind in {"choice", "multi"}:
-        return _marked(_option_order(drawn, index)), ()
-    if kind == "order":
-        return _marked(_step_order(drawn, index)), ()
-    if kind == "match":
-        left, right = _match_sides(drawn, index)
-        return _marked(left), tuple((str(i + 1), name) for i, name in enumerate(right))
-    return (), ()
-
-
-def _marked(names: list[str]) -> tuple[tuple[str, str], ...]:
-    return tuple((LETTERS[i], name) for i, name in enumerate(names))
-
-
-def value_in(drawn: Draw, name: str, unit_text: str, values: Mapping[str, Any]) -> Any:
-    """A quantity of (possibly wrong) values in an answer's unit."""
-    value = values[name] if name in values else drawn.shown[name]
-    return value / factor(unit_text) if unit_text else value
-
-
-def _unit_of(drawn: Draw, answer: Mapping[str, Any], name: str) -> str:
-    asked = answer.get("unit")
-    return str(asked) if asked is not None else drawn.template.units.get(name, "")
-
-
-def part_values(drawn: Draw, index: int, values: Mapping[str, Any]) -> list[Any]:
-    """The answer's components in the answer's unit."""
-    answer = drawn.template.rules.part[index].answer
-    return [
-        value_in(drawn, name, _unit_of(drawn, answer, name), values)
-        for name in answer_names(answer)
-    ]
-
-
-def trap_values(drawn: Draw, index: int) -> dict[str, list[Any]]:
-    """Each usable mistake and the components it gives."""
-    chain = drawn.template.chain
-    return {
-        trap: part_values(drawn, index, chain.trapped(trap, drawn.values))
-        for trap in drawn.traps[index]
-    }
-
-
-def _sentences(drawn: Draw, index: int) -> dict[str, dict[str, str]]:
-    """What to tell whoever fell into a trap, as plain text in every language."""
-    from quizgen.question.solution import sentence
-
-    texts = drawn.template.texts
-    return {
-        lang: {trap: plain(sentence(drawn, lang, "traps", trap)) for trap in drawn.traps[index]}
-        for lang in texts
-    }
-
-
-def plain(parts: Any) -> str:
-    """Text of filled inlines, with formulas spoken as they are typed."""
-    if isinstance(parts, tuple):
-        return "".join(plain(part) for part in parts)
-    if isinstance(parts, Words | Code):
-        return parts.text
-    if isinstance(parts, Styled):
-        return plain(parts.children)
-    if isinstance(parts, Slot | Formula):
-        raise BankError("a sentence was used before its blanks were filled")
-    return str(parts.typed)
-
-
-def _with_traps(drawn: Draw, index: int, spec: Spec, shape: Callable[[list[Any]], Any]) -> Spec:
-    found = trap_values(drawn, index)
-    if found:
-        spec["traps"] = {trap: shape(values) for trap, values in found.items()}
-        spec["notes"] = _sentences(drawn, index)
-    spec["of"] = list(answer_names(drawn.template.rules.part[index].answer))
+    answer = answer_of(drawn, index)
+    table = {name: value for name, value in answer.items() if name not in OWN_KEYS}
+    if "accept" in answer:
+        table["accept"] = [key_text(drawn.computed(str(bound))) for bound in answer["accept"]]
+    try:
+        spec = msgspec.convert({**table, **given}, shape)
+        spec.validate()
+    except (msgspec.ValidationError, FormulaError, ValueError) as error:
+        raise complaint(drawn, index, str(error)) from error
     return spec
 
 
-def _number(drawn: Draw, index: int, answer: Mapping[str, Any]) -> Spec:
-    (value,) = part_values(drawn, index, drawn.values)
-    spec: Spec = {"value": key_text(value)}
-    if answer["kind"] == "quantity":
-        spec["unit"] = _unit_of(drawn, answer, answer_names(answer)[0])
-    return _with_traps(drawn, index, spec, lambda values: key_text(values[0]))
+def numeric(
+    shape: type[S],
+    drawn: Draw,
+    index: int,
+    key: str,
+    write: Callable[[tuple[Value, ...]], Numbers],
+    **given: object,
+) -> Built[S]:
+    """A part whose key and mistakes are numbers of the chain.
+
+    Parameters
+    ----------
+    shape : type
+        The kind's ``Spec``.
+    drawn : Draw
+    index : int
+    key : str
+        Field of the spec that holds the key.
+    write : callable
+        From the components of an answer to what stands in that field.
+    **given
+        Further fields of the spec.
+    """
+    wrong = {trap: write(values) for trap, values in drawn.mistaken(index).items()}
+    found = {"of": list(answer_names(answer_of(drawn, index))), key: write(drawn.answer(index))}
+    traps = {"traps": wrong, "notes": notes(drawn, wrong)} if wrong else {}
+    spec = specification(shape, drawn, index, **{**found, **traps, **given})
+    return Built(spec, mistakes=mistaken(spec, key))
 
 
-def _point(drawn: Draw, index: int, _answer: Mapping[str, Any]) -> Spec:
-    values = part_values(drawn, index, drawn.values)
-    spec: Spec = {"values": [key_text(value) for value in values]}
-    return _with_traps(drawn, index, spec, lambda wrong: [key_text(v) for v in wrong])
+def notes(drawn: Draw, traps: Iterable[str]) -> dict[str, dict[str, str]]:
+    """What to tell whoever fell into a trap, as plain text in every language."""
+    fillers = {lang: Filler(drawn, lang) for lang in drawn.template.texts}
+    return {
+        lang: {trap: plain(filler.sentence("traps", trap)) for trap in traps}
+        for lang, filler in fillers.items()
+    }
 
 
-def _table(drawn: Draw, index: int, answer: Mapping[str, Any]) -> Spec:
-    of = answer["of"]
-    labels = list(of) if isinstance(of, Mapping) else list(answer_names(answer))
-
-    def shape(values: list[Any]) -> dict[str, str]:
-        return {label: key_text(v) for label, v in zip(labels, values, strict=True)}
-
-    spec: Spec = {"values": shape(part_values(drawn, index, drawn.values))}
-    names = zip(labels, answer_names(answer), strict=True)
-    units = {label: _unit_of(drawn, answer, name) for label, name in names}
-    if any(units.values()):
-        spec["units"] = {label: unit for label, unit in units.items() if unit}
-    built = _with_traps(drawn, index, spec, shape)
-    built["of"] = dict(zip(labels, answer_names(answer), strict=True))
-    return built
+def mistaken(spec: S, key: str) -> dict[str, S]:
+    """Each mistake of a spec with the spec of which its answer would be the key."""
+    return {
+        trap: msgspec.structs.replace(spec, traps={}, notes={}, **{key: wrong})
+        for trap, wrong in spec.traps.items()
+    }
 
 
-def _plain_text(drawn: Draw, name: str) -> str:
-    from quizgen.question.solution import sentence
-
-    return plain(sentence(drawn, drawn.template.languages[0], "options", name))
-
-
-def _holds(drawn: Draw, condition: Any) -> bool:
-    if isinstance(condition, bool):
-        return condition
-    return bool(_computed(drawn, condition))
+def holds(drawn: Draw, condition: object) -> bool:
+    """Whether an authored condition, a truth or a formula, holds in this draw."""
+    return condition if isinstance(condition, bool) else bool(drawn.computed(str(condition)))
 
 
-def _computed(drawn: Draw, formula: Any) -> Any:
-    """Value of a formula of the answer table over the quantities in shown units."""
-    env = plan_of(drawn.template).shown_env(drawn.shown, drawn.values)
-    return compile_expr(drawn.template.formula(str(formula)), exact())(env)
-
-
-def _option_order(drawn: Draw, index: int) -> list[str]:
-    options = list(drawn.template.rules.part[index].answer["options"])
-    return shuffled(_stem(drawn, index), options)
-
-
-def _stem(drawn: Draw, index: int) -> str:
+def order_key(drawn: Draw, index: int) -> str:
+    """What the order of a part's options is drawn from."""
     template = drawn.template
     return f"{template.origin}/{template.rules.version}/{drawn.seed}/{drawn.slot}/order/{index}"
 
 
-def _choice(drawn: Draw, index: int, answer: Mapping[str, Any]) -> Spec:
-    order = _option_order(drawn, index)
-    correct = [i + 1 for i, name in enumerate(order) if _holds(drawn, answer["options"][name])]
-    if answer["kind"] == "choice" and len(correct) != 1:
-        raise BankError(
-            f"template {drawn.template.id!r}: part {index + 1}: {len(correct)} options are right"
-        )
-    return {"options": [_plain_text(drawn, name) for name in order], "correct": correct}
+def mixed(drawn: Draw, index: int, names: Iterable[str], side: str = "") -> list[str]:
+    """Names in the order in which they are shown."""
+    return shuffled(order_key(drawn, index) + side, list(names))
 
 
-def _true_false(drawn: Draw, _index: int, answer: Mapping[str, Any]) -> Spec:
-    return {"options": ["true", "false"], "correct": [1 if _holds(drawn, answer["true"]) else 2]}
+def lettered(names: Iterable[str]) -> tuple[Named, ...]:
+    """Names under A, B, C, ..."""
+    return tuple(zip(LETTERS, names, strict=False))
 
 
-def _match_sides(drawn: Draw, index: int) -> tuple[list[str], list[str]]:
-    answer = drawn.template.rules.part[index].answer
-    pairs: Mapping[str, str] = answer["pairs"]
-    right = sorted({*pairs.values(), *answer.get("distractors", ())})
-    stem = _stem(drawn, index)
-    return shuffled(f"{stem}/left", list(pairs)), shuffled(f"{stem}/right", right)
+def synonyms(drawn: Draw, name: str) -> list[str]:
+    """Words of a gap or of a key point, from all languages.
 
-
-def _match(drawn: Draw, index: int, answer: Mapping[str, Any]) -> Spec:
-    left, right = _match_sides(drawn, index)
-    pairs = answer["pairs"]
-    return {"pairs": {LETTERS[i]: str(right.index(pairs[name]) + 1) for i, name in enumerate(left)}}
-
-
-def _step_order(drawn: Draw, index: int) -> list[str]:
-    answer = drawn.template.rules.part[index].answer
-    return shuffled(_stem(drawn, index), [*answer["steps"], *answer.get("distractors", ())])
-
-
-def _order(drawn: Draw, index: int, answer: Mapping[str, Any]) -> Spec:
-    marks = {name: LETTERS[i] for i, name in enumerate(_step_order(drawn, index))}
-    return {
-        "steps": [marks[name] for name in answer["steps"]],
-        "before": [[marks[a], marks[b]] for a, b in answer.get("before", ())],
-        "distractors": [marks[name] for name in answer.get("distractors", ())],
-    }
-
-
-def _gap(drawn: Draw, _index: int, answer: Mapping[str, Any]) -> Spec:
-    return {"accept": [_synonyms(drawn, drawn.words.get(name, name)) for name in answer["gaps"]]}
-
-
-def _text(drawn: Draw, _index: int, answer: Mapping[str, Any]) -> Spec:
-    return {"points": {name: _synonyms(drawn, name) for name in answer["points"]}}
-
-
-def _synonyms(drawn: Draw, name: str) -> list[str]:
-    """Words of a gap or of a key point, from all languages."""
-    synonyms: list[str] = []
+    Raises
+    ------
+    BankError
+        If a language has none.
+    """
+    found: list[str] = []
     for text in drawn.template.texts.values():
         words = text.sentence("gaps", name)
         if words is None:
             raise BankError(f"template {drawn.template.id!r}: no words for gap {name!r}")
-        synonyms += [w.strip() for w in plain(words).split("|")]
-    return list(dict.fromkeys(synonyms))
+        found += [word.strip() for word in plain(words).split("|")]
+    return list(dict.fromkeys(found))
 
 
-def _code(drawn: Draw, _index: int, answer: Mapping[str, Any]) -> Spec:
-    """Printed output and wrong outputs, with the drawn values in place."""
-    from quizgen.question.solution import in_program, sentence
-
-    wrong = {t: in_program(str(text), drawn) for t, text in answer.get("traps", {}).items()}
-    spec: Spec = {"output": in_program(str(answer["output"]), drawn)}
-    usable = {trap: text for trap, text in wrong.items() if text != spec["output"]}
-    notes = {
-        lang: {trap: plain(sentence(drawn, lang, "traps", trap)) for trap in usable}
-        for lang in drawn.template.texts
-    }
-    return {**spec, "traps": usable, "notes": notes}
-
-
-def _witness(drawn: Draw, _index: int, answer: Mapping[str, Any]) -> Spec:
-    """Conditions with the drawn values in place."""
-    from quizgen.maths.notation import parse, to_text
-
-    known = {n: Num(Fraction(key_text(v)), decimal=v.q != 1) for n, v in drawn.shown.items()}
-
-    def stated(text: str) -> str:
-        tree = parse(text, symbols=(*answer["symbols"], *let, *known))
-        return to_text(substitute(tree, known))
-
-    let: Mapping[str, str] = answer.get("let", {})
-    example: Mapping[str, Any] = answer.get("example", {})
-    return {
-        "example": {name: _short(_computed(drawn, value)) for name, value in example.items()},
-        "let": {name: stated(text) for name, text in let.items()},
-        "predicate": stated(answer["predicate"]),
-        "where": [stated(text) for text in answer.get("where", ())],
-    }
+def exact_first(spec: T, key: Numbers, lang: str) -> str:
+    """The key with its exact value before the rounded one, where that says more."""
+    rounded = show(spec, lang)
+    if spec.decimals is not None or not readable_fractions(key):
+        return rounded
+    exactly = show(
+        msgspec.structs.replace(
+            spec, exact=True, abs=None, rel=None, sigfigs=None, within=1, accept=None
+        ),
+        lang,
+    )
+    return exactly if exactly == rounded else f"{exactly} ≈ {rounded}"
 
 
-def _short(value: Any) -> str:
-    """A decimal where it is short, else the exact fraction."""
-    return exact_text(value, minus="-") or key_text(value)
+def readable_fractions(key: Numbers) -> bool:
+    """Whether numbers are whole and short fractions, some fraction among them."""
+    texts = texts_of(key)
+    return all(re.fullmatch(r"-?\d{1,6}(/\d{1,3})?", t) for t in texts) and any(
+        "/" in t for t in texts
+    )
 
 
-def _as_written(_drawn: Draw, _index: int, _answer: Mapping[str, Any]) -> Spec:
-    return {}
+def mistake_text(wrong: AnySpec, answer: Numbers) -> str:
+    """A wrong answer as it would be written down: like the key, rounded where it is exact.
+
+    Parameters
+    ----------
+    wrong : Spec
+        Has the wrong answer as its key.
+    answer : number, list or mapping
+        The wrong answer.
+    """
+    if not isinstance(wrong, Measured):
+        return show(wrong)
+    freed: dict[str, object] = {"accept": None}
+    if "form" in wrong.__struct_fields__:
+        freed["form"] = ""
+    if wrong.exact and not all(short_decimal(rational(text)) for text in texts_of(answer)):
+        freed |= {"exact": False, "sigfigs": ROUNDED_MISTAKE}
+    return show(msgspec.structs.replace(wrong, **freed))
 
 
-BUILDERS: dict[str, Callable[[Draw, int, Mapping[str, Any]], Spec]] = {
-    "number": _number,
-    "quantity": _number,
-    "angle": _number,
-    "point": _point,
-    "set": _point,
-    "table": _table,
-    "choice": _choice,
-    "multi": _choice,
-    "tf": _true_false,
-    "match": _match,
-    "order": _order,
-    "gap": _gap,
-    "interval": _as_written,
-    "expression": _as_written,
-    "witness": _witness,
-    "code": _code,
-    "text": _text,
-}
+def texts_of(key: Numbers) -> list[str]:
+    """Numbers as a list of texts."""
+    if isinstance(key, dict):
+        return [str(value) for value in key.values()]
+    return [str(value) for value in key] if isinstance(key, list) else [str(key)]

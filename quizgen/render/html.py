@@ -13,7 +13,7 @@ from quizgen import typeset
 from quizgen.bank.prose import Code, CodeBlock, Items, Paragraph, Styled, Table, Words
 from quizgen.locale import marks, word
 from quizgen.paper.paper import Paper
-from quizgen.question.solution import Maths
+from quizgen.question.filling import Maths
 from quizgen.render import fonts
 
 

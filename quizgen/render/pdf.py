@@ -15,14 +15,13 @@ from quizgen.errors import RenderError
 from quizgen.locale import marks, word
 from quizgen.paper.paper import Item, Paper
 from quizgen.question.compose import Field, Part, Question
-from quizgen.question.solution import Line, Maths, PartSolution, Solution
+from quizgen.question.filling import Maths
+from quizgen.question.solution import Line, PartSolution, Solution
 from quizgen.render import fonts
 
 STANDARD: Final = "ua-1"
 MOMENT = datetime(2000, 1, 1, tzinfo=UTC)
 """The date written into every file: the same paper is the same bytes on any day."""
-MORE_LINES = {"choice": 0, "multi": 0, "text": 4, "witness": 2, "code": 3}
-"""Ruled lines for an answer where it is not one."""
 
 
 def string(text: str) -> str:
@@ -213,8 +212,7 @@ class _Sheet:
         fields = [q.parts[index].field for q in questions]
         hints = [f"#{string(' '.join(f.hints))};" if f.hints else "" for f in fields]
         shown = f"#hint[{_each(self.langs, hints)}]" if any(hints) else ""
-        lines = MORE_LINES.get(fields[0].kind, 1)
-        return f"{self._options(questions, index)}\n{shown}\n#space({lines})"
+        return f"{self._options(questions, index)}\n{shown}\n#space({fields[0].control.lines})"
 
     def _options(self, questions: tuple[Question, ...], index: int) -> str:
         fields = [q.parts[index].field for q in questions]
@@ -227,7 +225,7 @@ class _Sheet:
                 inline(getattr(f, side)[place][1], lang)
                 for f, lang in zip(fields, self.langs, strict=True)
             ]
-            box = self.kind == "exam" and fields[0].kind in {"choice", "multi"}
+            box = self.kind == "exam" and fields[0].control.ticked
             name = "tick" if box else "option"
             rows.append(f"#{name}({string(mark)}, [{_joined(self.langs, texts)}])")
         return rows

@@ -8,7 +8,8 @@ from typing import Any
 from quizgen.bank.prose import Code, CodeBlock, Items, Paragraph, Styled, Table, Words
 from quizgen.locale import word
 from quizgen.paper.paper import Item
-from quizgen.question.solution import Maths, PartSolution
+from quizgen.question.filling import Maths
+from quizgen.question.solution import PartSolution
 
 
 def inline(parts: Any) -> str:

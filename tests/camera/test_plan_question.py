@@ -6,7 +6,7 @@ import pytest
 
 from quizgen.bank.draw import draw
 from quizgen.camera import Camera, Length, Scene, Thing, plan
-from quizgen.question.specs import build, display
+from quizgen.question.kinds import build
 
 EFFECTS = {
     "defocus": "defocus",
@@ -48,8 +48,7 @@ def test_key_and_plan_agree(bank, seed):
     drawn = draw(bank.template("which-effects-to-simulate"), seed)
     given = {name: float(value) for name, value in drawn.shown.items()}
     made = plan(_scene(given), _camera(given), budget="visible")
-    options, _ = display(drawn, 4)
-    ignored = {EFFECTS[options[place - 1][1]] for place in build(drawn, 4)["correct"]}
+    ignored = {EFFECTS[name] for _, name in build(drawn, 4).right}
     bounds = {item.effect: item.bound_dn for item in made.skipped}
     assert bounds.pop("full well") == 0.0  # there, but the scene stays below it
     assert set(bounds) == ignored
@@ -58,5 +57,5 @@ def test_key_and_plan_agree(bank, seed):
 
 def test_every_number_of_effects_occurs(bank):
     template = bank.template("which-effects-to-simulate")
-    sizes = {len(build(draw(template, seed), 4)["correct"]) for seed in range(SEEDS)}
+    sizes = {len(build(draw(template, seed), 4).right) for seed in range(SEEDS)}
     assert sizes == {1, 2, 3}

@@ -50,8 +50,8 @@ def test_unreadable_answers_cost_no_try_and_three_wrong_ones_show_the_solution()
     key = first_question()
     lines = ["???", "1;2;3;4;5;6;7", "?"]
     for spec in key.specs:
-        unit = spec.get("unit", "")
-        wrong = f"987654 {unit}" if "value" in spec else "(987654; 123457)"
+        unit = getattr(spec, "unit", "")
+        wrong = f"987654 {unit}" if hasattr(spec, "value") else "(987654; 123457)"
         lines += [wrong] * 3
     done = run(lines, "--seed", "s", "--count", "1")
     assert "Hint:" in done.output

@@ -6,11 +6,12 @@ from collections import Counter
 from fractions import Fraction
 
 import pytest
+from msgspec import to_builtins
 
 from quizgen.bank.folder import builtin
 from quizgen.marking.mark import load_spec, mark, show
-from quizgen.question import specs
 from quizgen.question.compose import instance
+from quizgen.question.kinds import build
 
 SEEDS = 500
 BANGLA = str.maketrans("0123456789", "০১২৩৪৫৬৭৮৯")
@@ -23,7 +24,7 @@ def parts(request):
     """Specs of every part, one list per seed: drawn once, used by all tests of a template."""
     template = builtin().template(request.param)
     return [
-        [specs.build(drawn, index) for index in range(len(template.rules.part))]
+        [to_builtins(build(drawn, index).spec) for index in range(len(template.rules.part))]
         for drawn in (instance(template, seed) for seed in range(SEEDS))
     ]
 

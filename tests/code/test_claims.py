@@ -11,7 +11,7 @@ import pytest
 
 from quizgen.bank.prose import CodeBlock
 from quizgen.question.compose import compose
-from quizgen.question.specs import display
+from quizgen.question.kinds import build
 
 SEEDS = ["reference", *range(8)]
 
@@ -20,9 +20,9 @@ def asked(bank, name, seed=0, part=0):
     """Program of the stem, name to right or wrong, the draw and the composed part."""
     question, key = compose(bank.template(name), seed, "en", figures=False)
     (source,) = [b.text for b in question.stem if isinstance(b, CodeBlock)] or [""]
-    order = [option for _, option in display(key.draw, part)[0]]
-    correct = key.specs[part].get("correct", [])
-    truth = {option: i + 1 in correct for i, option in enumerate(order)}
+    built = build(key.draw, part)
+    right = {name for _, name in built.right}
+    truth = {name: name in right for _, name in built.options}
     return source, truth, key, question.parts[part]
 
 
@@ -45,7 +45,7 @@ def test_k06_only_widening_before_the_sum_gives_255(bank, seed):
     texts = dict(zip(truth, [said[0].text for _, said in part.field.options], strict=True))
     for name, right in truth.items():
         assert (eval(texts[name], scope)[0] == 255) == right
-    assert key.specs[0]["kind"] == "choice"
+    assert key.specs[0].kind == "choice"
 
 
 @pytest.mark.parametrize("seed", SEEDS)

@@ -42,7 +42,7 @@ def numbers(text):
 
 
 def values(spec):
-    found = spec.get("values", spec.get("value"))
+    found = getattr(spec, "values", None) or spec.value
     if isinstance(found, dict):
         return list(found.values())
     return found if isinstance(found, list) else [found]
@@ -62,8 +62,8 @@ def test_the_key_is_what_the_program_prints(bank, name):
         (source,), key = programs(template, seed)
         output = printed(source)
         spec = key.specs[0]
-        if spec["kind"] == "code":
-            assert folded(output) == folded(spec["output"])
+        if spec.kind == "code":
+            assert folded(output) == folded(spec.output)
         else:
             assert numbers(output) == [Fraction(value) for value in values(spec)]
 

@@ -7,7 +7,7 @@ import pytest
 from quizgen.bank.draw import draw
 from quizgen.camera import luminosity
 from quizgen.figures import artefacts, depth_of_field, noise
-from quizgen.question.specs import build, display
+from quizgen.question.kinds import build
 
 SEEDS = range(60)
 NAMES = {
@@ -29,9 +29,8 @@ NAMES = {
 def _drawn(bank, name, seed):
     """Drawn numbers and the name of the right option of part a."""
     drawn = draw(bank.template(name), seed)
-    options, _ = display(drawn, 0)
-    (right,) = build(drawn, 0)["correct"]
-    return {key: float(value) for key, value in drawn.shown.items()}, options[right - 1][1]
+    ((_, right),) = build(drawn, 0).right
+    return {key: float(value) for key, value in drawn.shown.items()}, right
 
 
 @pytest.mark.parametrize("seed", SEEDS)

@@ -12,6 +12,8 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
+from msgspec import to_builtins
+
 from quizgen.bank.folder import builtin
 from quizgen.cards import build as build_deck
 from quizgen.cards.tables import tsv
@@ -50,7 +52,7 @@ def drawn(name: str) -> bytes:
     """What three draws of a template are marked by."""
     template = builtin().template(name)
     keys = [compose(template, seed, figures=False)[1] for seed in range(3)]
-    table = [[key.identity.split("(")[1], key.specs, key.chain] for key in keys]
+    table = [[key.identity.split("(")[1], to_builtins(key.specs), key.chain] for key in keys]
     return json.dumps(table, sort_keys=True, ensure_ascii=False).encode()
 
 

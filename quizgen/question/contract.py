@@ -1,0 +1,92 @@
+"""What an answer kind does on the asking side: its contract, and the values it hands over.
+
+A kind is two modules of one name. ``quizgen/marking/kinds`` has its ``Spec`` and marks what is
+typed; ``quizgen/question/kinds`` makes that ``Spec`` from a draw and says how a learner answers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Generic, Literal, Protocol, TypeVar
+
+from quizgen.bank.draw import Draw
+from quizgen.marking.specs import AnySpec
+
+S = TypeVar("S", bound=AnySpec)
+
+Form = Literal["line", "lines", "one", "many", "truth", "pairs", "order", "gaps"]
+"""What a learner fills in: a line or more of text, one or many of the lettered options, true or
+false, a target for each option, the options in order, a word for each gap."""
+
+Named = tuple[str, str]
+"""A mark (letter or number) and the name of a sentence, or a section and a name in it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Control:
+    """How a learner answers: all that an output needs to know about a kind.
+
+    Parameters
+    ----------
+    form : str
+        What is filled in.
+    lines : int
+        Ruled lines that writing it by hand takes; 0 where the options themselves are ticked.
+    """
+
+    form: Form
+    lines: int = 1
+
+    @property
+    def ticked(self) -> bool:
+        """Whether options are ticked, with no further place for the answer."""
+        return self.lines == 0
+
+
+LINE = Control("line")
+
+
+@dataclass(frozen=True, slots=True)
+class Built(Generic[S]):
+    """One part of a draw as its kind makes it.
+
+    Parameters
+    ----------
+    spec : Spec
+        What it is marked by.
+    control : Control
+    options, targets : tuple of (str, str)
+        Marks and names (in section ``options``) of the lettered options, and of the right side of
+        a matching, in the order in which they are shown.
+    right : tuple of (str, str)
+        Section and name of the sentences that tell the right answer in words.
+    mistakes : mapping of str to Spec
+        Each known mistake and the spec of which its answer would be the key.
+    """
+
+    spec: S
+    control: Control = LINE
+    options: tuple[Named, ...] = ()
+    targets: tuple[Named, ...] = ()
+    right: tuple[Named, ...] = ()
+    mistakes: Mapping[str, S] = field(default_factory=dict)
+
+
+class QuestionKind(Protocol[S]):
+    """The asking side of an answer kind; usually a module of ``quizgen/question/kinds``."""
+
+    def build(self, drawn: Draw, index: int) -> Built[S]:
+        """Make the spec of a part, and what stands beside its field.
+
+        Raises
+        ------
+        BankError
+            If the authored answer is not complete.
+        """
+
+    def hints(self, spec: S, lang: str) -> tuple[str, ...]:
+        """Sentences that tell the learner how to type the answer, from how it is marked."""
+
+    def printed(self, spec: S, lang: str) -> str:
+        """The key as the solution states it; empty where sentences tell it."""

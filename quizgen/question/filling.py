@@ -1,0 +1,165 @@
+"""Sentences of a template with their blanks filled from a draw."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import lru_cache
+
+from quizgen import typeset
+from quizgen.bank.draw import Draw
+from quizgen.bank.prose import (
+    Block,
+    Code,
+    Formula,
+    Inline,
+    Slot,
+    Styled,
+    Words,
+    fill,
+    fill_blocks,
+    fill_text,
+)
+from quizgen.errors import BankError
+from quizgen.maths.notation import to_text
+from quizgen.maths.numbers import exact_text
+from quizgen.maths.tree import Expr
+from quizgen.maths.units import shown as unit_shown
+from quizgen.maths.values import Values
+
+NBSP = "\u00a0"
+SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+@dataclass(frozen=True, slots=True)
+class Maths:
+    """A formula ready for printing: its layout, and how it would be typed."""
+
+    node: typeset.Node
+    typed: str
+
+
+class Filler:
+    """Puts the numbers and phrases of a draw into the sentences of one language.
+
+    Parameters
+    ----------
+    drawn : Draw
+    lang : str
+    hidden : bool
+        Refuse quantities that are solved for, so that a stem cannot give an answer away.
+    """
+
+    def __init__(self, drawn: Draw, lang: str, *, hidden: bool = False) -> None:
+        self.drawn, self.lang = drawn, lang
+        self.known: Values = drawn.shown if hidden else drawn.shown_values
+        self.text = drawn.template.texts[lang]
+
+    def blocks(self, parts: tuple[Block, ...]) -> tuple[Block, ...]:
+        """Blocks with their slots filled.
+
+        Raises
+        ------
+        BankError
+            If a slot names nothing that may stand there.
+        """
+        return fill_blocks(parts, self._value, self._program)
+
+    def section(self, name: str) -> tuple[Block, ...]:
+        """A section of the language file, filled; empty if there is none."""
+        return self.blocks(self.text.sections.get(name, ()))
+
+    def sentence(self, section: str, name: str) -> tuple[Inline, ...]:
+        """A named sentence, filled.
+
+        Raises
+        ------
+        BankError
+            If the language file lacks it, or a slot names nothing that may stand there.
+        """
+        found = self.text.sentence(section, name)
+        if found is None:
+            raise BankError(self._complaint(f"section {section!r} lacks {name!r}"))
+        return fill(found, self._value)
+
+    def _value(self, part: Slot | Formula) -> tuple[Inline, ...]:
+        return self._slot(part.name) if isinstance(part, Slot) else (_inline_maths(part.expr),)
+
+    def _slot(self, name: str) -> tuple[Inline, ...]:
+        drawn = self.drawn
+        if name in drawn.words:
+            return self.sentence("words", drawn.words[name])
+        if name not in self.known:
+            raise BankError(self._complaint(f"{{{{ {name} }}}} is not a drawn quantity"))
+        return (Words(quantity_text(drawn, name)),)
+
+    def _program(self, text: str) -> str:
+        return in_program(text, self.drawn, self.known)
+
+    def _complaint(self, what: str) -> str:
+        return f"{self.drawn.template.path / f'{self.lang}.md'}: {what}"
+
+
+@lru_cache(maxsize=4096)
+def _inline_maths(expr: Expr) -> Maths:
+    return Maths(typeset.layout(expr, inline=True), to_text(expr))
+
+
+def in_program(text: str, drawn: Draw, known: Values) -> str:
+    """Program text or its output with the drawn values in place, as a program writes them.
+
+    Parameters
+    ----------
+    text : str
+    drawn : Draw
+    known : mapping of str to number
+        The quantities that may stand there, in shown units.
+
+    Raises
+    ------
+    BankError
+        If a blank names another quantity, or one that is not a short decimal.
+    """
+
+    def value(name: str) -> str:
+        written = exact_text(known[name], minus="-") if name in known else None
+        if written is None:
+            what = f"{{{{ {name} }}}} cannot stand in a program"
+            raise BankError(f"template {drawn.template.id!r}: {what}")
+        return written
+
+    return fill_text(text, value)
+
+
+def quantity_text(drawn: Draw, name: str) -> str:
+    """A quantity of a draw with its unit as text, exact if that is short."""
+    return with_unit(drawn.text(name), drawn.template.units.get(name, ""))
+
+
+def with_unit(text: str, unit: str) -> str:
+    """A number and its unit; only the degree sign stands close."""
+    shown = unit_shown(unit)
+    readable = re.sub(r"e(-?\d+)$", lambda m: f"·10{m[1].translate(SUPERSCRIPTS)}", text)
+    return f"{readable}{'' if shown in {'', '°'} else NBSP}{shown}"
+
+
+def plain(parts: Iterable[Inline]) -> str:
+    """Text of a filled sentence, with formulas as they are typed.
+
+    Raises
+    ------
+    BankError
+        If a blank is left.
+    """
+    return "".join(map(_plain, parts))
+
+
+def _plain(part: Inline) -> str:
+    if isinstance(part, Words | Code):
+        return part.text
+    if isinstance(part, Styled):
+        return plain(part.children)
+    if isinstance(part, Slot | Formula):
+        raise BankError("a sentence was used before its blanks were filled")
+    return part.typed

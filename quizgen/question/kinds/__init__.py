@@ -1,0 +1,64 @@
+"""The one table of answer kinds on the asking side: a module each, see ``QuestionKind``."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from quizgen.bank.draw import Draw
+from quizgen.question.contract import Built, QuestionKind
+from quizgen.question.kinds import (
+    angle,
+    choice,
+    code,
+    expression,
+    gap,
+    interval,
+    match,
+    multi,
+    number,
+    order,
+    point,
+    quantity,
+    sets,
+    table,
+    text,
+    truth,
+    witness,
+)
+from quizgen.question.specs import answer_of, complaint
+
+KINDS: dict[str, QuestionKind[Any]] = {
+    "number": number,
+    "quantity": quantity,
+    "angle": angle,
+    "point": point,
+    "table": table,
+    "set": sets,
+    "interval": interval,
+    "expression": expression,
+    "choice": choice,
+    "multi": multi,
+    "tf": truth,
+    "match": match,
+    "order": order,
+    "gap": gap,
+    "witness": witness,
+    "code": code,
+    "text": text,
+}
+"""Kind to the module in this folder."""
+
+
+def build(drawn: Draw, index: int) -> Built[Any]:
+    """One part of a draw as its kind makes it.
+
+    Raises
+    ------
+    BankError
+        If its kind is unknown or its answer is not complete.
+    """
+    name = str(answer_of(drawn, index).get("kind", ""))
+    if name not in KINDS:
+        allowed = ", ".join(sorted(KINDS))
+        raise complaint(drawn, index, f"unknown kind {name!r} (allowed: {allowed})")
+    return KINDS[name].build(drawn, index)

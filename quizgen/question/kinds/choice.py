@@ -1,0 +1,42 @@
+"""Kind ``choice``: one of several options is right."""
+
+from __future__ import annotations
+
+from quizgen.bank.draw import Draw
+from quizgen.locale import word
+from quizgen.marking.kinds.choice import Spec
+from quizgen.marking.mark import show as printed
+from quizgen.question.contract import Built, Control
+from quizgen.question.filling import Filler, plain
+from quizgen.question.specs import answer_of, complaint, holds, lettered, mixed, specification
+
+
+def build(drawn: Draw, index: int) -> Built[Spec]:
+    """The options in a drawn order; exactly one is right."""
+    built = offered(drawn, index, Control("one", lines=0))
+    if len(built.right) != 1:
+        raise complaint(drawn, index, f"{len(built.right)} options are right")
+    return built
+
+
+def offered(drawn: Draw, index: int, control: Control) -> Built[Spec]:
+    """The options in a drawn order, with those that are right in this draw."""
+    conditions = answer_of(drawn, index)["options"]
+    order = mixed(drawn, index, conditions)
+    right = [place for place, name in enumerate(order, 1) if holds(drawn, conditions[name])]
+    filler = Filler(drawn, drawn.template.languages[0])
+    wordings = [plain(filler.sentence("options", name)) for name in order]
+    return Built(
+        specification(Spec, drawn, index, options=wordings, correct=right),
+        control,
+        options=lettered(order),
+        right=tuple(("options", order[place - 1]) for place in right),
+    )
+
+
+def hints(_spec: Spec, lang: str) -> tuple[str, ...]:
+    """One option is to be chosen."""
+    return (word(lang, "ask.choice"),)
+
+
+__all__ = ["build", "hints", "printed"]

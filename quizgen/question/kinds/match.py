@@ -1,0 +1,32 @@
+"""Kind ``match``: each left side belongs to one of the right sides."""
+
+from __future__ import annotations
+
+from quizgen.bank.draw import Draw
+from quizgen.locale import word
+from quizgen.marking.kinds.match import Spec
+from quizgen.marking.mark import show as printed
+from quizgen.question.contract import Built, Control
+from quizgen.question.specs import answer_of, lettered, mixed, specification
+
+
+def build(drawn: Draw, index: int) -> Built[Spec]:
+    """Both sides in a drawn order of their own."""
+    answer = answer_of(drawn, index)
+    pairs = answer["pairs"]
+    left = lettered(mixed(drawn, index, pairs, "/left"))
+    targets = sorted({*pairs.values(), *answer.get("distractors", ())})
+    right = mixed(drawn, index, targets, "/right")
+    places = {name: str(place) for place, name in enumerate(right, 1)}
+    spec = specification(
+        Spec, drawn, index, pairs={mark: places[pairs[name]] for mark, name in left}
+    )
+    return Built(spec, Control("pairs"), options=left, targets=tuple((places[n], n) for n in right))
+
+
+def hints(_spec: Spec, lang: str) -> tuple[str, ...]:
+    """How pairs are typed."""
+    return (word(lang, "ask.match"),)
+
+
+__all__ = ["build", "hints", "printed"]

@@ -1,0 +1,34 @@
+"""Kind ``point``: two or more coordinates of the chain."""
+
+from __future__ import annotations
+
+from quizgen.bank.draw import Draw
+from quizgen.locale import word
+from quizgen.marking.kinds.point import Spec
+from quizgen.maths.constants import Scalar
+from quizgen.maths.numbers import key_text
+from quizgen.maths.values import Value
+from quizgen.question.contract import Built
+from quizgen.question.hints import rounding, said, unit
+from quizgen.question.specs import exact_first, numeric
+
+
+def each(values: tuple[Value, ...]) -> list[Scalar]:
+    """The components of an answer in order, as a key holds them."""
+    return [key_text(value) for value in values]
+
+
+def build(drawn: Draw, index: int) -> Built[Spec]:
+    """The coordinates, and those that each mistake gives."""
+    return numeric(Spec, drawn, index, "values", each)
+
+
+def hints(spec: Spec, lang: str) -> tuple[str, ...]:
+    """Shape, unit and rounding."""
+    name = "ask.point3" if len(spec.values) > len(("x", "y")) else "ask.point"
+    return said(word(lang, name), unit(spec.unit, lang), rounding(spec, spec.values, lang))
+
+
+def printed(spec: Spec, lang: str) -> str:
+    """The exact coordinates first."""
+    return exact_first(spec, spec.values, lang)

@@ -1,0 +1,43 @@
+"""Kind ``table``: several named values of the chain."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from quizgen.bank.draw import Draw
+from quizgen.bank.traps import answer_names
+from quizgen.locale import word
+from quizgen.marking.kinds.table import Spec
+from quizgen.marking.mark import show as printed
+from quizgen.maths.constants import Scalar
+from quizgen.maths.numbers import key_text
+from quizgen.maths.units import shown
+from quizgen.maths.values import Value
+from quizgen.question.contract import Built
+from quizgen.question.hints import rounding, said
+from quizgen.question.specs import answer_of, numeric
+
+
+def build(drawn: Draw, index: int) -> Built[Spec]:
+    """The cells by their labels, and those that each mistake gives."""
+    answer = answer_of(drawn, index)
+    of, names = answer["of"], answer_names(answer)
+    labels = list(of) if isinstance(of, Mapping) else list(names)
+
+    def write(values: tuple[Value, ...]) -> dict[str, Scalar]:
+        return {label: key_text(v) for label, v in zip(labels, values, strict=True)}
+
+    units = [str(answer.get("unit", drawn.template.units.get(name, ""))) for name in names]
+    stated = {label: unit for label, unit in zip(labels, units, strict=True) if unit}
+    named = dict(zip(labels, names, strict=True))
+    return numeric(Spec, drawn, index, "values", write, of=named, units=stated)
+
+
+def hints(spec: Spec, lang: str) -> tuple[str, ...]:
+    """Names with their units, and rounding."""
+    units = spec.units
+    names = [f"{name} ({shown(units[name])})" if name in units else name for name in spec.values]
+    return said(word(lang, "ask.table", names=", ".join(names)), rounding(spec, spec.values, lang))
+
+
+__all__ = ["build", "hints", "printed"]

@@ -1,0 +1,29 @@
+"""Kind ``text``: a few sentences that name the key points."""
+
+from __future__ import annotations
+
+from quizgen.bank.draw import Draw
+from quizgen.locale import word
+from quizgen.marking.kinds.text import Spec
+from quizgen.question.contract import Built, Control
+from quizgen.question.specs import answer_of, specification, synonyms
+
+
+def build(drawn: Draw, index: int) -> Built[Spec]:
+    """The key points; a model sentence tells each."""
+    points = answer_of(drawn, index)["points"]
+    spec = specification(
+        Spec, drawn, index, points={name: synonyms(drawn, name) for name in points}
+    )
+    right = tuple(("points", name) for name in points)
+    return Built(spec, Control("lines", lines=4), right=right)
+
+
+def hints(_spec: Spec, lang: str) -> tuple[str, ...]:
+    """In own words."""
+    return (word(lang, "ask.text"),)
+
+
+def printed(_spec: Spec, _lang: str) -> str:
+    """Nothing: the model sentences tell the answer."""
+    return ""

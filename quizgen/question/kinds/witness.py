@@ -1,0 +1,52 @@
+"""Kind ``witness``: numbers of one's own that meet a condition."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from quizgen.bank.draw import Draw
+from quizgen.locale import word
+from quizgen.marking.kinds.witness import Spec
+from quizgen.marking.mark import show as printed
+from quizgen.maths.notation import parse, to_text
+from quizgen.maths.numbers import exact_text, key_text
+from quizgen.maths.tree import Num, substitute
+from quizgen.question.contract import Built, Control
+from quizgen.question.specs import answer_of, specification
+
+
+def build(drawn: Draw, index: int) -> Built[Spec]:
+    """Conditions and an example with the drawn values in place."""
+    answer = answer_of(drawn, index)
+    known = {n: Num(Fraction(key_text(v)), decimal=v.q != 1) for n, v in drawn.shown.items()}
+    let, example = answer.get("let", {}), answer.get("example", {})
+    symbols = (*answer["symbols"], *let, *known)
+
+    def stated(text: object) -> str:
+        return to_text(substitute(parse(str(text), symbols=symbols), known))
+
+    spec = specification(
+        Spec,
+        drawn,
+        index,
+        example={name: _short(drawn, formula) for name, formula in example.items()},
+        let={name: stated(text) for name, text in let.items()},
+        predicate=stated(answer["predicate"]),
+        where=[stated(text) for text in answer.get("where", ())],
+    )
+    return Built(spec, Control("lines", lines=2))
+
+
+def _short(drawn: Draw, formula: str | int) -> str:
+    """A decimal where it is short, else the exact fraction."""
+    value = drawn.computed(str(formula))
+    return exact_text(value, minus="-") or key_text(value)
+
+
+def hints(spec: Spec, lang: str) -> tuple[str, ...]:
+    """Which names to give."""
+    names = "; ".join(f"{name} = ..." for name in spec.symbols)
+    return (word(lang, "ask.witness", names=names),)
+
+
+__all__ = ["build", "hints", "printed"]

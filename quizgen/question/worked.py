@@ -1,0 +1,81 @@
+"""One worked step: *formula = numbers in place = exact value ~ rounded value*.
+
+All of it comes from the one chain of the solver: the formula is printed, the same formula is
+printed with the drawn numbers in place, and its exact value follows.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+from quizgen import typeset
+from quizgen.bank.draw import Draw
+from quizgen.maths.chain import ChainStep
+from quizgen.maths.notation import to_text
+from quizgen.maths.numbers import exact_text, rounded_text, short_decimal
+from quizgen.maths.precision import working_precision
+from quizgen.maths.systems import exact, taken_branch
+from quizgen.maths.tree import Expr, Sym, names
+from quizgen.maths.units import shown as unit_shown
+from quizgen.question.filling import Maths, quantity_text, with_unit
+
+
+class Side(NamedTuple):
+    """One side of a worked line: the sign before it, its layout, and how it would be typed."""
+
+    sign: str
+    node: typeset.Node
+    typed: str
+
+
+def worked(drawn: Draw, step: ChainStep) -> Maths:
+    """One step, printed from formula to rounded value.
+
+    Parameters
+    ----------
+    drawn : Draw
+    step : ChainStep
+    """
+    with working_precision():
+        expr = taken_branch(step.expr, drawn.values, exact())
+    sides = [Side("=", typeset.layout(expr), to_text(expr))]
+    if names(expr):
+        sides.append(_with_numbers(drawn, expr))
+    sides += [side for side in _values(drawn, step) if side.typed != sides[-1].typed]
+    signs = [side.sign for side in sides]
+    nodes = [typeset.name(step.name), *(side.node for side in sides)]
+    typed = "".join(f" {side.sign} {side.typed}" for side in sides)
+    return Maths(typeset.relation(signs, nodes), f"{step.name}{typed}")
+
+
+def _with_numbers(drawn: Draw, expr: Expr) -> Side:
+    """The formula with numbers in place; equal unless one of them is shown rounded."""
+    quantities = sorted(names(expr))
+    sign = "≈" if any(drawn.is_rounded(name) for name in quantities) else "="
+    node = typeset.layout(expr, leaves={name: _node(drawn, name) for name in quantities})
+    if isinstance(expr, Sym):
+        return Side(sign, node, quantity_text(drawn, expr.name))
+    return Side(sign, node, to_text(expr, {name: _typed(drawn, name) for name in quantities}))
+
+
+def _node(drawn: Draw, name: str) -> typeset.Node:
+    return typeset.quantity(drawn.text(name), unit_shown(drawn.template.units.get(name, "")))
+
+
+def _typed(drawn: Draw, name: str) -> str:
+    """A quantity inside a typed formula: in brackets unless it is a number alone."""
+    text = quantity_text(drawn, name)
+    return text if re.fullmatch(r"[0-9.]+", text) else f"({text})"
+
+
+def _values(drawn: Draw, step: ChainStep) -> list[Side]:
+    """The exact value if it can be shown, and the rounded one if that says more."""
+    value, unit = drawn.shown_values[step.name], unit_shown(step.unit)
+    exactly = exact_text(value)
+    texts = [] if exactly is None else [("=", exactly)]
+    if not short_decimal(value):
+        texts.append(("≈", rounded_text(value)))
+    return [
+        Side(sign, typeset.quantity(text, unit), with_unit(text, step.unit)) for sign, text in texts
+    ]
