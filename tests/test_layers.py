@@ -38,7 +38,7 @@ LAYERS = {
 
 MAY_IMPORT_BY_NAME = {
     "__init__.py", "cli/main.py", "bank/folder.py",
-    "figures/__init__.py", "marking/kinds/__init__.py",
+    "marking/kinds/__init__.py",
 }  # fmt: skip
 """The lazy public names, the lazy commands, and a bank's own solvers."""
 

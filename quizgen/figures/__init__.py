@@ -1,17 +1,10 @@
 """Figures drawn from the numbers of a question: symbols and digits only, words stay in the text.
 
-Each module draws one figure and has four names:
+In: the name of a figure and a number for each of its parameters. Out: one ``<svg>`` element and
+the same picture in words. Must never know: templates, questions, papers.
 
-* ``PARAMETERS``: parameter name to unit, meaning and default
-* ``draw(figure, values, *, quiz)``: draws on an empty matplotlib ``Figure``
-* ``alt(values, lang, *, quiz)``: the same picture in words
-* ``DARK``: ``"invert"`` for line art on nothing, ``"keep"`` for pictures on white
-
-``values`` maps every parameter to a float in its unit. ``quiz`` hides what a question asks for;
-the docstrings of ``draw`` and ``alt`` say what that is. Values that cannot be drawn raise
-``BankError``.
-
-Nothing here loads NumPy or matplotlib before the first figure is drawn.
+Each module draws one figure and offers what ``_table.FigureModule`` says. Nothing here loads NumPy
+or matplotlib before the first figure is drawn.
 """
 
 from __future__ import annotations
@@ -19,28 +12,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
-from importlib import import_module
-from typing import Any
 
 from quizgen.errors import BankError
 from quizgen.figures._parameters import Parameter, complete
 from quizgen.locale import languages
-
-FIGURES: Mapping[str, str] = {
-    "artefacts": "quizgen.figures.artefacts",
-    "bayer": "quizgen.figures.bayer",
-    "blur_disc": "quizgen.figures.blur_disc",
-    "depth_of_field": "quizgen.figures.depth_of_field",
-    "distorted_grid": "quizgen.figures.distorted_grid",
-    "gaussian": "quizgen.figures.gaussian",
-    "hsv_edits": "quizgen.figures.hsv_edits",
-    "luminosity": "quizgen.figures.luminosity",
-    "noise": "quizgen.figures.noise",
-    "normalisation": "quizgen.figures.normalisation",
-    "pinhole": "quizgen.figures.pinhole",
-    "thin_lens": "quizgen.figures.thin_lens",
-}
-"""Figure name to the module that draws it, imported when first used."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,8 +50,9 @@ def parameters(name: str) -> Mapping[str, Parameter]:
     BankError
         If there is no such figure.
     """
-    table: Mapping[str, Parameter] = _module(name).PARAMETERS
-    return table
+    from quizgen.figures._table import figure_module
+
+    return figure_module(name).PARAMETERS
 
 
 def render(name: str, values: Mapping[str, float], *, quiz: bool, lang: str) -> Figure:
@@ -85,7 +61,7 @@ def render(name: str, values: Mapping[str, float], *, quiz: bool, lang: str) -> 
     Parameters
     ----------
     name : str
-        A key of ``FIGURES``.
+        A key of ``_table.FIGURES``.
     values : mapping of str to float
         Parameters in the units that ``parameters(name)`` names. Optional ones may be left out.
     quiz : bool
@@ -113,8 +89,9 @@ def render(name: str, values: Mapping[str, float], *, quiz: bool, lang: str) -> 
 @lru_cache(maxsize=256)
 def _render(name: str, items: tuple[tuple[str, float], ...], quiz: bool, lang: str) -> Figure:
     from quizgen.figures._svg import with_title
+    from quizgen.figures._table import figure_module
 
-    module = _module(name)
+    module = figure_module(name)
     body, width, height = _body(name, items, quiz)
     words = module.alt(dict(items), lang, quiz=quiz)
     return Figure(with_title(body, width, height, words, lang), words, width, height, module.DARK)
@@ -123,15 +100,10 @@ def _render(name: str, items: tuple[tuple[str, float], ...], quiz: bool, lang: s
 @lru_cache(maxsize=256)
 def _body(name: str, items: tuple[tuple[str, float], ...], quiz: bool) -> tuple[str, float, float]:
     from quizgen.figures._svg import body
+    from quizgen.figures._table import figure_module
 
-    module = _module(name)
+    module = figure_module(name)
     return body(lambda figure: module.draw(figure, dict(items), quiz=quiz))
 
 
-def _module(name: str) -> Any:
-    if name not in FIGURES:
-        raise BankError(f"unknown figure {name!r}; there are {', '.join(FIGURES)}")
-    return import_module(FIGURES[name])
-
-
-__all__ = ["FIGURES", "Figure", "Parameter", "parameters", "render"]
+__all__ = ["Figure", "Parameter", "parameters", "render"]

@@ -18,10 +18,11 @@ from figure_cases import HIDDEN, REFERENCE, draws
 from matplotlib.figure import Figure as Canvas
 
 from quizgen.errors import BankError
-from quizgen.figures import FIGURES, _module, parameters, render
 from quizgen.figures import _pen as pens
+from quizgen.figures import parameters, render
 from quizgen.figures._letters import SUBSCRIPT, outline
 from quizgen.figures._parameters import complete
+from quizgen.figures._table import FIGURES, figure_module
 
 BOTH = list(itertools.product(FIGURES, (False, True)))
 NUMBER = re.compile(r"\d+(?:\.\d+)?")
@@ -135,7 +136,7 @@ def test_settings_do_not_leak():
 def _labels(name, values, *, quiz):
     canvas = Canvas()
     full = complete(name, parameters(name), values)
-    _module(name).draw(canvas, full, quiz=quiz)
+    figure_module(name).draw(canvas, full, quiz=quiz)
     return "\n".join(str(artist.get_label()) for artist in canvas.artists)
 
 
@@ -190,7 +191,7 @@ def test_alt_texts_hold_the_same_numbers(name, quiz):
 def test_alt_texts_of_all_draws_hold_the_same_numbers():
     for name, values in draws():
         full = complete(name, parameters(name), values)
-        alt = _module(name).alt
+        alt = figure_module(name).alt
         for quiz in (False, True):
             texts = [alt(full, lang, quiz=quiz) for lang in ("en", "bn")]
             found = [sorted(NUMBER.findall(text)) for text in texts]
@@ -222,7 +223,7 @@ def drawn(monkeypatch):
 
     def draw(name, values, *, quiz):
         _Recorder.made.clear()
-        _module(name).draw(Canvas(), complete(name, parameters(name), values), quiz=quiz)
+        figure_module(name).draw(Canvas(), complete(name, parameters(name), values), quiz=quiz)
         return _Recorder.made[0]
 
     return draw

@@ -1,0 +1,82 @@
+"""Every figure by name, and what a figure's module offers.
+
+The modules load neither NumPy nor matplotlib before they draw.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Protocol
+
+from quizgen.errors import BankError
+from quizgen.figures import (
+    artefacts,
+    bayer,
+    blur_disc,
+    depth_of_field,
+    distorted_grid,
+    gaussian,
+    hsv_edits,
+    luminosity,
+    noise,
+    normalisation,
+    pinhole,
+    thin_lens,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from quizgen.figures._parameters import Parameter, Values
+
+
+class FigureModule(Protocol):
+    """One figure: what it is drawn from, the drawing, and the same picture in words.
+
+    ``values`` maps every parameter to a float in its unit. ``quiz`` hides what a question asks
+    for; the docstrings of ``draw`` and ``alt`` say what that is. Values that cannot be drawn raise
+    ``BankError``.
+    """
+
+    PARAMETERS: dict[str, Parameter]
+    """Parameter name to unit, meaning and default."""
+
+    DARK: str
+    """``"invert"`` for line art on nothing, ``"keep"`` for pictures on white."""
+
+    def draw(self, figure: Figure, values: Values, *, quiz: bool) -> None:
+        """Draw on an empty matplotlib ``Figure``: symbols and digits only."""
+        ...
+
+    def alt(self, values: Values, lang: str, *, quiz: bool) -> str:
+        """Describe the figure in words, in a language of the locale folder."""
+        ...
+
+
+FIGURES: Mapping[str, FigureModule] = {
+    "artefacts": artefacts,
+    "bayer": bayer,
+    "blur_disc": blur_disc,
+    "depth_of_field": depth_of_field,
+    "distorted_grid": distorted_grid,
+    "gaussian": gaussian,
+    "hsv_edits": hsv_edits,
+    "luminosity": luminosity,
+    "noise": noise,
+    "normalisation": normalisation,
+    "pinhole": pinhole,
+    "thin_lens": thin_lens,
+}
+
+
+def figure_module(name: str) -> FigureModule:
+    """The module that draws a figure.
+
+    Raises
+    ------
+    BankError
+        If there is no such figure.
+    """
+    if name not in FIGURES:
+        raise BankError(f"unknown figure {name!r}; there are {', '.join(FIGURES)}")
+    return FIGURES[name]
