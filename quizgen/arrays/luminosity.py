@@ -1,6 +1,6 @@
 """Luminous flux of lines and bands, the energy of photons and the light of black bodies.
 
-Sources: CIE 018 (V(lambda), linear between table points, zero outside; Km = 683 lm/W);
+Sources: CIE 018 (V(lambda), V'(lambda), linear between table points, zero outside; Km = 683 lm/W);
 SI Brochure 2019 (h, c, e, k exact); Planck, Ann. Phys. 309 (1901) 553.
 """
 
@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from quizgen.arrays import cie1951
 from quizgen.arrays.aliases import Array, Indices, Limits, Numbers, Result
 from quizgen.arrays.cie1924 import FIRST_NM, STEP_NM, V
 from quizgen.arrays.domain import NONNEGATIVE, POSITIVE, Rule
@@ -29,6 +30,10 @@ _HC = 1.9864458571489286e-25
 _TABLE = np.array(V)
 _EDGES = FIRST_NM + STEP_NM * np.arange(_TABLE.size)
 _LAST_NM = float(_EDGES[-1])
+_NIGHT = dict(
+    zip(cie1951.FIRST_NM + cie1951.STEP_NM * np.arange(len(cie1951.V)), cie1951.V, strict=True)
+)
+_NIGHT_NM, _NIGHT_V = np.array(sorted({**_NIGHT, cie1951.PEAK_NM: 1.0}.items())).T
 _SIGMA = 0.42466090014400953
 _SIGMA_LOST = -1.2979732052298702e-17
 """Standard deviation of a line of unit full width at half maximum, 1/sqrt(8 ln 2)."""
@@ -54,6 +59,10 @@ def _photopic(wavelength: Array) -> Array:
     i -= above < i * STEP_NM
     inside = (wavelength >= FIRST_NM) & (wavelength <= _LAST_NM)
     return np.where(inside, _between(i, above - i * STEP_NM), 0.0)
+
+
+def _scotopic(wavelength: Array) -> Array:
+    return np.interp(wavelength, _NIGHT_NM, _NIGHT_V, left=0.0, right=0.0)
 
 
 def _band(low: Array, high: Array) -> Array:
@@ -186,6 +195,7 @@ _C2 = Pair(14387768.775039338, 4.460310775877047e-10)
 
 _STEEP, _DARK = 40.0, 760.0
 _PHOTOPIC = Kernel(_photopic, (NONNEGATIVE,))
+_SCOTOPIC = Kernel(_scotopic, (NONNEGATIVE,))
 _BAND = Kernel(_band, (NONNEGATIVE,) * 2, (Rule("reversed", lambda low, high: high < low),))
 _LINE = Kernel(_line, (NONNEGATIVE, NONNEGATIVE))
 
@@ -224,6 +234,23 @@ def photopic(wavelength: Numbers) -> Result:
         0 to 1; linear between table points 5 nm apart, 0 outside 360 to 830 nm.
     """
     return _PHOTOPIC(wavelength)
+
+
+def scotopic(wavelength: Numbers) -> Result:
+    """Luminous efficiency of the eye at night V'(lambda), CIE 1951.
+
+    Parameters
+    ----------
+    wavelength : array_like
+        Nanometres, >= 0.
+
+    Returns
+    -------
+    float or array
+        0 to 1; linear between table points 5 nm apart and the peak at 507 nm, 0 outside 380 to
+        780 nm.
+    """
+    return _SCOTOPIC(wavelength)
 
 
 def band_flux(power: Numbers, low: Numbers, high: Numbers) -> Result:

@@ -91,9 +91,12 @@ def shown_extent(values: Values) -> float:
 
 
 def _folds(values: Values, extent: float) -> bool:
+    """Whether the slope falls below the least one, where stronger coefficients fold over."""
+    from quizgen.arrays.distortion import fold_radius
+
     corner = hypot(extent + abs(values["c_x"]), extent + abs(values["c_y"]))
-    radii = [corner * i / 64 for i in range(65)]
-    return any(1 + 3 * values["k1"] * r**2 + 5 * values["k2"] * r**4 < _LEAST_SLOPE for r in radii)
+    stronger = (values[name] / (1 - _LEAST_SLOPE) for name in ("k1", "k2"))
+    return bool(fold_radius(*stronger) < corner)
 
 
 def _lines(values: Values, extent: float) -> list[np.ndarray]:
@@ -124,10 +127,11 @@ def _levels(centre: float, step: float, extent: float) -> list[float]:
 def _distorted(line: np.ndarray, values: Values) -> np.ndarray:
     import numpy as np
 
+    from quizgen.arrays.distortion import distort
+
     centre = np.array([values["c_x"], values["c_y"]])
-    ray = line - centre
-    r2 = (ray**2).sum(axis=1, keepdims=True)
-    moved: np.ndarray = centre + ray * (1 + values["k1"] * r2 + values["k2"] * r2**2)
+    x, y = (line - centre).T
+    moved: np.ndarray = centre + np.stack(distort(x, y, values["k1"], values["k2"]), axis=-1)
     return moved
 
 

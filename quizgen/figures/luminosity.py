@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import cache
 from math import log10
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from quizgen.figures._numbers import derived, given, spoken
 from quizgen.figures._parameters import ABSENT, Parameter, Values, require
@@ -46,9 +46,9 @@ def marks(values: Values) -> tuple[float, ...]:
 
 def read(wavelength: float, *, night: bool) -> float:
     """V or V' at a wavelength in nm."""
-    from quizgen.camera import luminosity
+    from quizgen.arrays.luminosity import photopic, scotopic
 
-    return float((luminosity.scotopic if night else luminosity.photopic)(wavelength))
+    return float((scotopic if night else photopic)(wavelength))
 
 
 def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
@@ -97,25 +97,24 @@ def _strip() -> bytes:
 
     Hues run from violet (270 degrees, 400 nm) over blue 460, green 530 and yellow 580 to red 640.
     """
-    from colorsys import hsv_to_rgb
-
     import numpy as np
 
+    from quizgen.arrays.hsv import to_rgb
     from quizgen.figures._photo import photo_png
 
     places = np.arange(FIRST, LAST, 4.0)
     hues = np.interp(places, [400, 460, 490, 530, 580, 640], [270, 240, 180, 120, 60, 0])
     fades = np.interp(places, [FIRST, 430, 680, LAST], [0.35, 1, 1, 0.35])
-    row = [hsv_to_rgb(hue / 360, 1, fade) for hue, fade in zip(hues, fades, strict=True)]
-    return photo_png(np.round(np.array([row]) * 255).astype(np.uint8))
+    row = np.stack(to_rgb(hues, 1.0, fades), axis=-1)
+    return photo_png(np.round(row[None] * 255).astype(np.uint8))
 
 
 @cache
 def _points(night: bool, logarithmic: bool) -> tuple[Point, ...]:
-    from quizgen.camera import luminosity
+    from quizgen.arrays.luminosity import photopic, scotopic
 
     grid = [FIRST + 2.5 * step for step in range(161)]
-    heights: Any = (luminosity.scotopic if night else luminosity.photopic)(grid)
+    heights = (scotopic if night else photopic)(grid)
     # A logarithmic curve leaves through the floor of the axis: nothing is drawn along it.
     return tuple(
         (_x(x), _y(float(v), logarithmic=logarithmic))

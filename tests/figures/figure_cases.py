@@ -25,7 +25,7 @@ REFERENCE = {
     "blur_disc": {"D": 25, "z_p": 60, "z_s": 61},
     "artefacts": {"kind": 2},
     "depth_of_field": {"N_1": 16, "N_2": 1.8, "order": 1},
-    "luminosity": {"m_1": 532, "m_2": 650},
+    "luminosity": {"m_1": 530, "m_2": 650},
     "noise": {"sigma": 0.04, "p": 0.09, "order": 4},
     "normalisation": {"low": 60, "high": 140},
 }
@@ -41,7 +41,7 @@ HIDDEN = {
     "blur_disc": ["0.4167"],
     "artefacts": ["t_0"],
     "depth_of_field": ["16", "1.8"],
-    "luminosity": ["0.885", "0.107"],
+    "luminosity": ["0.862", "0.107"],
     "noise": ["0.04", "0.09"],
     "normalisation": ["140"],
 }

@@ -94,7 +94,7 @@ def test_pictures_keep_their_brightness():
 @pytest.mark.parametrize(
     ("wavelength", "night", "value"),
     # CIE 1924 and 1951 tables
-    [(532, False, 0.885), (650, False, 0.107), (700, False, 0.004102), (507, True, 1.0),
+    [(530, False, 0.862), (655, False, 0.0816), (650, False, 0.107), (700, False, 0.004102), (507, True, 1.0),
      (650, True, 0.000677), (555, False, 1.0)],
 )  # fmt: skip
 def test_curves_are_read_at_the_tables_values(wavelength, night, value):

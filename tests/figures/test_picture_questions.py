@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from quizgen.arrays import luminosity
 from quizgen.bank.draw import draw
-from quizgen.camera import luminosity
 from quizgen.figures import artefacts, depth_of_field, noise
 from quizgen.question.kinds import build
 

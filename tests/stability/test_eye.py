@@ -1,0 +1,38 @@
+"""The curves of the eye against colour-science's tables of the same standards."""
+
+from __future__ import annotations
+
+import colour
+import numpy as np
+import pytest
+
+from quizgen.arrays.luminosity import photopic, scotopic
+
+DAY = colour.SDS_LEFS["CIE 1924 Photopic Standard Observer"]
+NIGHT = colour.SDS_LEFS["CIE 1951 Scotopic Standard Observer"]
+
+
+@pytest.mark.parametrize(
+    ("curve", "standard", "first", "last"),
+    [(photopic, DAY, 360, 830), (scotopic, NIGHT, 380, 780)],
+)
+def test_a_curve_is_the_standard_at_every_table_point(curve, standard, first, last):
+    at = np.arange(first, last + 1, 5.0)
+    np.testing.assert_allclose(curve(at), [standard[nm] for nm in at], rtol=4e-15)
+    np.testing.assert_array_equal(curve(np.array([0.0, first - 0.01, last + 0.01])), 0.0)
+
+
+@pytest.mark.parametrize(("curve", "standard"), [(photopic, DAY), (scotopic, NIGHT)])
+def test_straight_lines_between_them_miss_little(curve, standard):
+    every = np.array(standard.wavelengths)
+    np.testing.assert_allclose(curve(every), standard.values, atol=0.0025)
+    assert curve(every).sum() == pytest.approx(np.sum(standard.values), rel=1e-4)
+
+
+def test_peaks_of_day_and_night():
+    assert photopic(555.0) == scotopic(507.0) == 1.0
+
+
+def test_deep_red_looks_244_times_darker_than_green():
+    """V(700) = 0.004102."""
+    assert 1 / photopic(700.0) == pytest.approx(243.8, abs=0.05)
