@@ -16,13 +16,14 @@ PACKAGE = ROOT / "quizgen"
 LAYERS = {
     "errors": "",
     "files": "errors",
+    "png": "",
     "locale": "errors",
     "maths": "errors",
     "arrays": "errors",
     "typeset": "errors locale maths",
     "bank": "errors files locale maths",
-    "camera": "errors files maths arrays",
-    "figures": "errors locale arrays camera",
+    "camera": "errors files png maths arrays",
+    "figures": "errors png locale arrays camera",
     "marking": "errors locale maths",
     "question": "errors locale maths typeset bank figures marking",
     "paper": "errors files locale maths bank marking question",
@@ -31,7 +32,7 @@ LAYERS = {
     "cards": "errors files locale maths typeset bank figures question paper render",
     "tradeoff": "errors files locale maths arrays typeset bank figures render",
     "audit": "errors files locale maths bank figures marking question paper render",
-    "cli": "errors files locale maths bank camera figures marking question paper practice render cards "
+    "cli": "errors files png locale maths bank camera figures marking question paper practice render cards "
     "tradeoff audit",
 }
 """Package to the packages below it that it may use. Solvers use ``maths.model`` alone."""

@@ -12,8 +12,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from quizgen import png
 from quizgen.arrays.gamma import srgb_decode
-from quizgen.camera import effects, png
+from quizgen.camera import effects
 from quizgen.camera.camera import Camera, nearest
 from quizgen.camera.draw import SHAPES, SIZES, TEXTURES
 from quizgen.camera.scene import Image, Length, Scene, SceneError, Thing
@@ -29,8 +30,6 @@ from quizgen.camera.values import (
     whole,
     words,
 )
-
-_MAX_PIXELS = 50_000_000
 
 Readers = Mapping[str, Reader[Any]]
 """Readers of the keys of one table; each gives the type of its own field."""
@@ -221,7 +220,5 @@ def _picture(file: _File, key: str, name: str) -> NDArray[np.float64]:
         raise file.fail("scene", 0, key, f"{name}: {error.strerror or error}") from error
     except ValueError as error:
         raise file.fail("scene", 0, key, f"{name}: {error}") from error
-    if pixels.shape[0] * pixels.shape[1] > _MAX_PIXELS:
-        raise file.fail("scene", 0, key, f"{name}: more than 50 megapixels")
     values = pixels / float(np.iinfo(pixels.dtype).max)
     return np.repeat(values[..., :1], 3, axis=2) if values.shape[2] < 3 else values[..., :3]

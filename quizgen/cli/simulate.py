@@ -79,10 +79,10 @@ def _list_scenes() -> None:
 def _write(photo: Photo, target: Path | None) -> None:
     if target is None:
         return
-    from quizgen.camera import png
+    from quizgen import png
     from quizgen.files import write_all
 
-    write_all(target.parent, {target.name: png.encode(photo.pixels())})
+    write_all(target.parent, {target.name: png.compact(photo.pixels())})
 
 
 def summary(photo: Photo, whole: Photo | None = None) -> dict[str, Any]:

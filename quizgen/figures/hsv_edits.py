@@ -110,17 +110,17 @@ def _palettes(values: Values) -> dict[str, tuple[Colour, ...]]:
 
 @cache
 def _pixels(scene: int) -> bytes:
-    from quizgen.figures._png import pixels
     from quizgen.figures._scene import indices
+    from quizgen.png import index_data
 
-    return pixels(indices(scene))
+    return index_data(indices(scene))
 
 
 def _png(scene: int, palette: tuple[Colour, ...]) -> bytes:
     from quizgen.figures import _scene
-    from quizgen.figures._png import png
+    from quizgen.png import indexed
 
-    return png((_scene.HEIGHT, _scene.WIDTH), _pixels(scene), palette)
+    return indexed((_scene.HEIGHT, _scene.WIDTH), _pixels(scene), palette)
 
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:

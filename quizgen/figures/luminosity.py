@@ -100,13 +100,13 @@ def _strip() -> bytes:
     import numpy as np
 
     from quizgen.arrays.hsv import to_rgb
-    from quizgen.figures._photo import photo_png
+    from quizgen.png import encode
 
     places = np.arange(FIRST, LAST, 4.0)
     hues = np.interp(places, [400, 460, 490, 530, 580, 640], [270, 240, 180, 120, 60, 0])
     fades = np.interp(places, [FIRST, 430, 680, LAST], [0.35, 1, 1, 0.35])
     row = np.stack(to_rgb(hues, 1.0, fades), axis=-1)
-    return photo_png(np.round(row[None] * 255).astype(np.uint8))
+    return encode(np.round(row[None] * 255).astype(np.uint8))
 
 
 @cache

@@ -22,7 +22,7 @@ from quizgen.figures import (
     render,
 )
 from quizgen.figures._parameters import complete
-from quizgen.figures._photo import photo_png
+from quizgen.png import encode
 
 
 def _decoded(data: bytes):
@@ -39,13 +39,13 @@ def _pictures(name, values, *, quiz):
 @pytest.mark.parametrize("shape", [(5, 7), (1, 1), (5, 7, 3), (96, 144, 3)])
 def test_png_is_read_back_by_opencv(shape):
     codes = np.random.Generator(np.random.SFC64(3)).integers(0, 256, shape, np.uint8)
-    read = cv2.imdecode(np.frombuffer(photo_png(codes), np.uint8), cv2.IMREAD_UNCHANGED)
+    read = cv2.imdecode(np.frombuffer(encode(codes), np.uint8), cv2.IMREAD_UNCHANGED)
     assert np.array_equal(read if codes.ndim == 2 else read[..., ::-1], codes)
 
 
 def test_grey_pictures_are_stored_with_one_channel():
     codes = np.repeat(np.arange(20, dtype=np.uint8).reshape(4, 5, 1), 3, axis=2)
-    read = cv2.imdecode(np.frombuffer(photo_png(codes), np.uint8), cv2.IMREAD_UNCHANGED)
+    read = cv2.imdecode(np.frombuffer(encode(codes), np.uint8), cv2.IMREAD_UNCHANGED)
     assert np.array_equal(read, codes[..., 0])
 
 

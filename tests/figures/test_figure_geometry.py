@@ -17,7 +17,8 @@ from PIL import Image
 from scipy.stats import norm
 from skimage.color import hsv2rgb, rgb2hsv
 
-from quizgen.figures import _png, _scene, render
+from quizgen import png
+from quizgen.figures import _scene, render
 from quizgen.figures._numbers import derived, equation, given
 from quizgen.figures.bayer import neighbours
 from quizgen.figures.distorted_grid import shown_extent
@@ -378,14 +379,14 @@ def test_scenes_differ():
 @pytest.mark.parametrize("run", [*range(1, 14), 257, 258, 259, 260, 261, 516, 517, 600])
 def test_inflate_reads_every_run_length(run):
     data = np.repeat(np.array([0, 7, 143, 144, 255, 0], np.uint8), run)
-    assert zlib.decompress(_png.deflate(data)) == data.tobytes()
+    assert zlib.decompress(png.deflate(data)) == data.tobytes()
 
 
 def test_png_is_read_by_pillow():
     rng = np.random.default_rng(3)
     indices = rng.integers(0, 256, (17, 31), dtype=np.uint8)
     palette = [tuple(map(int, colour)) for colour in rng.integers(0, 256, (256, 3))]
-    file = _png.png(indices.shape, _png.pixels(indices), palette)
+    file = png.indexed(indices.shape, png.index_data(indices), palette)
     picture = np.asarray(Image.open(io.BytesIO(file)).convert("RGB"))
     assert (picture == np.array(palette)[indices]).all()
 

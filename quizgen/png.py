@@ -1,0 +1,238 @@
+"""PNG files: small ones whose bytes depend on nothing but the picture, photographs, and reading.
+
+zlib's output differs between its implementations and versions, and a paper must be the same on
+every machine: `encode` and `indexed` code runs with the fixed Huffman table of deflate (RFC 1951),
+which suits flat pictures well. A photograph that goes into a file of its own is packed by Pillow
+(`compact`), smaller and faster; its pixels never vary, its bytes may.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+from io import BytesIO
+from struct import pack, unpack
+from typing import TYPE_CHECKING
+from zlib import adler32, crc32
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+    from PIL.PngImagePlugin import PngImageFile
+
+    Codes = NDArray[np.uint8] | NDArray[np.uint16]
+
+_SIGNATURE = b"\x89PNG\r\n\x1a\n"
+_GREY, _RGB, _PALETTE = 0, 2, 3
+
+_LENGTH_BASE = (
+    3, 4, 5, 6, 7, 8, 9, 10, 11, 13, 15, 17, 19, 23, 27, 31, 35, 43, 51, 59, 67, 83, 99, 115, 131,
+    163, 195, 227, 258,
+)  # fmt: skip
+_LENGTH_BITS = (0,) * 8 + (1,) * 4 + (2,) * 4 + (3,) * 4 + (4,) * 4 + (5,) * 4 + (0,)
+_LONGEST = 258
+_DISTANCE_ONE = "00000"
+
+
+# Written with bytes that never vary
+
+
+@cache
+def _symbol(code: int) -> str:
+    """Bits of a literal or length symbol in the fixed table, in the order they are written."""
+    if code < 144:
+        return f"{0x30 + code:08b}"
+    if code < 256:
+        return f"{0x190 + code - 144:09b}"
+    return f"{code - 256:07b}" if code < 280 else f"{0xC0 + code - 280:08b}"
+
+
+@cache
+def _repeat(length: int) -> str:
+    """Bits that repeat the last byte 3 to 258 times."""
+    code = max(i for i, base in enumerate(_LENGTH_BASE) if base <= length)
+    bits = _LENGTH_BITS[code]
+    extra = f"{length - _LENGTH_BASE[code]:0{bits}b}"[::-1] if bits else ""
+    return _symbol(257 + code) + extra + _DISTANCE_ONE
+
+
+@cache
+def _run(byte: int, count: int) -> str:
+    """Bits of one byte repeated."""
+    bits, count = [_symbol(byte)], count - 1
+    while count >= 3:
+        step = min(count, _LONGEST)
+        bits.append(_repeat(step))
+        count -= step
+    return "".join(bits) + _symbol(byte) * count
+
+
+def deflate(data: NDArray[np.uint8]) -> bytes:
+    """Compress bytes into a zlib stream.
+
+    Parameters
+    ----------
+    data : ndarray of uint8, shape (n,)
+        At least one byte.
+
+    Returns
+    -------
+    bytes
+        A stream that any inflate reads (RFC 1950).
+    """
+    import numpy as np
+
+    starts = np.flatnonzero(np.diff(data, prepend=data[0] ^ 1))
+    counts = np.diff(starts, append=len(data))
+    runs = zip(data[starts].tolist(), counts.tolist(), strict=True)
+    bits = "110" + "".join(_run(byte, count) for byte, count in runs) + _symbol(256)
+    packed = int(bits[::-1], 2).to_bytes((len(bits) + 7) // 8, "little")
+    return b"\x78\x01" + packed + pack(">I", adler32(data.tobytes()))
+
+
+def index_data(indices: NDArray[np.uint8]) -> bytes:
+    """Compress the pixels of a picture; palettes may be put to them later.
+
+    Parameters
+    ----------
+    indices : ndarray of uint8, shape (height, width)
+        Index of the colour of each pixel.
+    """
+    import numpy as np
+
+    return deflate(np.pad(indices, ((0, 0), (1, 0))).ravel())
+
+
+def indexed(shape: tuple[int, int], data: bytes, palette: Sequence[tuple[int, int, int]]) -> bytes:
+    """Put a picture with a palette together.
+
+    Parameters
+    ----------
+    shape : tuple of int
+        Height and width in pixels.
+    data : bytes
+        From `index_data`.
+    palette : sequence of tuple of int
+        Up to 256 colours as (red, green, blue), 0 to 255.
+
+    Returns
+    -------
+    bytes
+        A PNG file, the same with every version of zlib.
+    """
+    colours = b"".join(bytes(colour) for colour in palette)
+    return _file(shape, _PALETTE, (b"PLTE", colours), (b"IDAT", data))
+
+
+def encode(codes: NDArray[np.uint8]) -> bytes:
+    """Encode 8-bit codes.
+
+    Parameters
+    ----------
+    codes : ndarray of uint8, shape (H, W, 3) or (H, W)
+        Three equal channels are stored as one.
+
+    Returns
+    -------
+    bytes
+        A PNG file, the same with every version of zlib.
+    """
+    import numpy as np
+
+    if codes.ndim == 3 and np.array_equal(codes[..., :1].repeat(3, axis=2), codes):
+        codes = codes[..., 0]
+    height, width = codes.shape[:2]
+    rows = codes.reshape(height, -1)
+    upward = np.diff(rows, axis=0, prepend=rows[:1] * 0)  # flat areas become runs of zeros
+    filtered = np.pad(upward, ((0, 0), (1, 0)), constant_values=2)
+    kind = _GREY if codes.ndim == 2 else _RGB
+    return _file((height, width), kind, (b"IDAT", deflate(filtered.ravel())))
+
+
+def _file(shape: tuple[int, int], kind: int, *chunks: tuple[bytes, bytes]) -> bytes:
+    height, width = shape
+    header = pack(">IIBBBBB", width, height, 8, kind, 0, 0, 0)
+    whole = ((b"IHDR", header), *chunks, (b"IEND", b""))
+    return _SIGNATURE + b"".join(_chunk(name, content) for name, content in whole)
+
+
+def _chunk(kind: bytes, content: bytes) -> bytes:
+    return pack(">I", len(content)) + kind + content + pack(">I", crc32(kind + content))
+
+
+# Photographs, by Pillow
+
+
+def compact(codes: NDArray[np.uint8]) -> bytes:
+    """Encode 8-bit codes of a photograph, shape (H, W) or (H, W, C) with C = 3 or 4."""
+    from PIL import Image
+
+    stream = BytesIO()
+    Image.fromarray(codes).save(stream, "PNG")
+    return stream.getvalue()
+
+
+MOST_MEGAPIXELS = 50
+
+
+def decode(data: bytes) -> Codes:
+    """Pixels of a PNG.
+
+    Returns
+    -------
+    ndarray of uint8 or uint16, shape (H, W, C)
+        C = 1 grey, 2 grey and alpha, 3 RGB, 4 RGB and alpha.
+
+    Raises
+    ------
+    ValueError
+        If the file is broken or larger than `MOST_MEGAPIXELS`, interlaced, has a palette or fewer
+        than 8 bits.
+    """
+    if not data.startswith(_SIGNATURE):
+        raise ValueError("not a PNG file")
+    width, height = unpack(">II", data[16:24].ljust(8, b"\0"))
+    if width * height > MOST_MEGAPIXELS * 1_000_000:
+        raise ValueError(f"more than {MOST_MEGAPIXELS} megapixels")
+    try:
+        return _decoded(data).reshape(height, width, -1)
+    except (OSError, SyntaxError) as error:
+        raise ValueError("a broken PNG file") from error
+
+
+def _decoded(data: bytes) -> Codes:
+    import numpy as np
+
+    file = _opened(data)
+    packing = str(file.tile[0].args) if file.tile else ""
+    if file.info.get("interlace") or packing not in _WAYS:
+        raise ValueError("only PNG files of 8 or 16 bits without palette or interlacing")
+    first, *second = (_unpacked(data, way) for way in _WAYS[packing])
+    if second:
+        return first.astype(np.uint16) * 256 + second[0]
+    return first.view(">u2").astype(np.uint16) if packing == "LA;16B" else first
+
+
+def _opened(data: bytes) -> PngImageFile:
+    from PIL.PngImagePlugin import PngImageFile
+
+    return PngImageFile(BytesIO(data))
+
+
+def _unpacked(data: bytes, way: str) -> Codes:
+    import numpy as np
+
+    file = _opened(data)
+    file.tile = [tile._replace(args=way) for tile in file.tile]
+    return np.asarray(file)
+
+
+_WAYS = {
+    **{raw: (raw,) for raw in ("L", "LA", "RGB", "RGBA", "I;16B")},
+    "RGB;16B": ("RGB;16B", "RGB;16L"),
+    "RGBA;16B": ("RGBA;16B", "RGBA;16L"),
+    "LA;16B": ("RGBA",),
+}
+"""How Pillow is to unpack the pixels. Of colours of 16 bits it keeps the leading byte, which is the
+first; asked for the other order of bytes, it keeps the second. Grey and alpha of 16 bits come as
+four bytes."""
