@@ -1,21 +1,24 @@
-"""Operators of the exact field: rationals stay rational, everything else is a certified ball."""
+"""Operators on exact values: rationals stay rational, everything else is a certified ball.
+
+Run them under ``working_precision``. What is not here is a ball's own method (``sin``, ``tan``).
+"""
 
 from __future__ import annotations
 
 import operator
 from collections.abc import Callable
-from functools import reduce
-from typing import Any
+from types import SimpleNamespace
 
 from flint import arb, fmpq, fmpz
 
 from quizgen.errors import MathError, Undecided
+from quizgen.maths.values import Value
 
 LARGEST_POWER = 4096
 """Largest integer exponent raised exactly: bounds the size of the result."""
 
 
-def _ball(x: Any) -> arb:
+def _ball(x: Value) -> arb:
     return x if isinstance(x, arb) else arb(x)
 
 
@@ -25,7 +28,8 @@ def _finite(x: arb) -> arb:
     return x
 
 
-def _div(a: Any, b: Any) -> Any:
+def divide(a: Value, b: Value) -> Value:
+    """Quotient."""
     if b == 0:
         raise MathError("division by zero")
     if isinstance(a, fmpq) and isinstance(b, fmpq):
@@ -33,13 +37,14 @@ def _div(a: Any, b: Any) -> Any:
     return _finite(_ball(a) / _ball(b))
 
 
-def _pow(a: Any, b: Any) -> Any:
+def power(a: Value, b: Value) -> Value:
+    """Power with a real exponent."""
     if isinstance(a, fmpq) and isinstance(b, fmpq) and b.q == 1 and abs(b.p) <= LARGEST_POWER:
         if a == 0 and b < 0:
             raise MathError("division by zero")
         return a ** int(b.p)
     if isinstance(b, fmpq) and b == fmpq(1, 2):
-        return _sqrt(a)
+        return square_root(a)
     if a == 0 and _sign(b) > 0:
         return fmpq(0)
     if _sign(a) < 0:
@@ -47,7 +52,8 @@ def _pow(a: Any, b: Any) -> Any:
     return _finite(_ball(a) ** _ball(b))
 
 
-def _sqrt(a: Any) -> Any:
+def square_root(a: Value) -> Value:
+    """Square root, rational where it can be."""
     if isinstance(a, fmpq):
         if a < 0:
             raise MathError("square root of a negative number")
@@ -62,7 +68,7 @@ def _rational_root(a: fmpq) -> fmpq | None:
     return fmpq(p, q) if p * p == a.p and q * q == a.q else None
 
 
-def _sign(a: Any) -> int:
+def _sign(a: Value) -> int:
     if a > 0:
         return 1
     if a < 0:
@@ -72,8 +78,18 @@ def _sign(a: Any) -> int:
     raise Undecided("sign cannot be certified")
 
 
-def _compare(test: Callable[[Any, Any], Any], opposite: Callable[[Any, Any], Any]) -> Any:
-    def decide(a: Any, b: Any) -> bool:
+def sign(a: Value) -> fmpq:
+    """-1, 0 or 1."""
+    return fmpq(_sign(a))
+
+
+Comparison = Callable[[Value, Value], bool]
+
+
+def _comparison(test: Comparison, opposite: Comparison) -> Comparison:
+    """A relation that is false only if its opposite is certain."""
+
+    def decide(a: Value, b: Value) -> bool:
         if test(a, b):
             return True
         if (isinstance(a, fmpq) and isinstance(b, fmpq)) or opposite(a, b):
@@ -83,7 +99,14 @@ def _compare(test: Callable[[Any, Any], Any], opposite: Callable[[Any, Any], Any
     return decide
 
 
-def _equal(a: Any, b: Any) -> bool:
+less = _comparison(operator.lt, operator.ge)
+at_most = _comparison(operator.le, operator.gt)
+more = _comparison(operator.gt, operator.le)
+at_least = _comparison(operator.ge, operator.lt)
+
+
+def equal(a: Value, b: Value) -> bool:
+    """Equality of rationals; balls can only be certainly different."""
     if isinstance(a, fmpq) and isinstance(b, fmpq):
         return bool(a == b)
     if not _ball(a).overlaps(_ball(b)):
@@ -91,7 +114,13 @@ def _equal(a: Any, b: Any) -> bool:
     raise Undecided("equality cannot be certified")
 
 
-def _floor(a: Any) -> Any:
+def unequal(a: Value, b: Value) -> bool:
+    """The opposite of ``equal``."""
+    return not equal(a, b)
+
+
+def floor(a: Value) -> fmpq:
+    """Largest integer not above."""
     if isinstance(a, fmpq):
         return fmpq(a.floor())
     integer = a.floor().unique_fmpz()
@@ -100,30 +129,51 @@ def _floor(a: Any) -> Any:
     return fmpq(integer)
 
 
-def _round(a: Any) -> Any:
+def ceil(a: Value) -> fmpq:
+    """Smallest integer not below."""
+    return -floor(-a)
+
+
+def rounded(a: Value) -> fmpq:
     """Round half away from zero, as the stems promise."""
-    return _floor(abs(a) + fmpq(1, 2)) * _sign(a)
+    return floor(abs(a) + fmpq(1, 2)) * _sign(a)
 
 
-def _function(name: str) -> Callable[[Any], Any]:
-    def apply(a: Any) -> arb:
-        return _finite(getattr(_ball(a), name)())
-
-    return apply
+def remainder(a: Value, b: Value) -> Value:
+    """Remainder with the sign of the divisor."""
+    return a - b * floor(divide(a, b))
 
 
-def _log(base: int | None) -> Callable[[Any], Any]:
-    def apply(a: Any) -> Any:
-        if _sign(a) <= 0:
-            raise MathError("logarithm of a number that is not positive")
-        if base is not None and isinstance(a, fmpq):
-            power = _integer_log(a, base)
-            if power is not None:
-                return fmpq(power)
-        ball = _ball(a).log()
-        return ball if base is None else ball / arb(base).log()
+def least(a: Value, b: Value) -> Value:
+    """Smaller of two."""
+    return a if less(a, b) else b
 
-    return apply
+
+def greatest(a: Value, b: Value) -> Value:
+    """Larger of two."""
+    return b if less(a, b) else a
+
+
+def natural_log(a: Value) -> Value:
+    """Logarithm to base e."""
+    if _sign(a) <= 0:
+        raise MathError("logarithm of a number that is not positive")
+    return _ball(a).log()
+
+
+def binary_log(a: Value) -> Value:
+    """Logarithm to base 2, rational for its powers."""
+    return _log(a, 2)
+
+
+def decimal_log(a: Value) -> Value:
+    """Logarithm to base 10, rational for its powers."""
+    return _log(a, 10)
+
+
+def _log(a: Value, base: int) -> Value:
+    power = _integer_log(a, base) if isinstance(a, fmpq) and a > 0 else None
+    return natural_log(a) / arb(base).log() if power is None else fmpq(power)
 
 
 def _integer_log(a: fmpq, base: int) -> int | None:
@@ -136,61 +186,39 @@ def _integer_log(a: fmpq, base: int) -> int | None:
     return sign * power if value == 1 else None
 
 
-def _exp(a: Any) -> Any:
+def exponential(a: Value) -> Value:
+    """Power of e; 1 for 0."""
     return fmpq(1) if isinstance(a, fmpq) and a == 0 else _finite(_ball(a).exp())
 
 
-def _erf(a: Any) -> Any:
+def error_function(a: Value) -> Value:
+    """Error function; 0 for 0."""
     return fmpq(0) if isinstance(a, fmpq) and a == 0 else _ball(a).erf()
 
 
-def _least(a: Any, b: Any) -> Any:
-    return a if LESS(a, b) else b
+def complementary_error_function(a: Value) -> Value:
+    """1 minus the error function, also where that is tiny; 1 for 0."""
+    return fmpq(1) if isinstance(a, fmpq) and a == 0 else _ball(a).erfc()
 
 
-def _most(a: Any, b: Any) -> Any:
-    return b if LESS(a, b) else a
+def atan2(y: Value, x: Value) -> arb:
+    """Angle of the point (x, y)."""
+    return arb.atan2(_ball(y), _ball(x))
 
 
-LESS = _compare(operator.lt, operator.ge)
+def pi() -> arb:
+    """Half the length of the unit circle."""
+    return arb.pi()
 
-OPS: dict[str, Callable[..., Any]] = {
-    "add": lambda *args: reduce(operator.add, args),
-    "mul": lambda *args: reduce(operator.mul, args),
-    "sub": operator.sub,
-    "neg": operator.neg,
-    "div": _div,
-    "pow": _pow,
-    "sqrt": _sqrt,
-    "exp": _exp,
-    "ln": _log(None),
-    "log2": _log(2),
-    "log10": _log(10),
-    "sin": _function("sin"),
-    "cos": _function("cos"),
-    "tan": _function("tan"),
-    "asin": _function("asin"),
-    "acos": _function("acos"),
-    "atan": _function("atan"),
-    "atan2": lambda y, x: arb.atan2(_ball(y), _ball(x)),
-    "erf": _erf,
-    "erfc": lambda a: 1 - _erf(a) if isinstance(a, fmpq) and a == 0 else _ball(a).erfc(),
-    "abs": abs,
-    "sign": lambda a: fmpq(_sign(a)),
-    "floor": _floor,
-    "ceil": lambda a: -_floor(-a),
-    "round": _round,
-    "mod": lambda a, b: a - b * _floor(_div(a, b)),
-    "min": lambda *args: reduce(_least, args),
-    "max": lambda *args: reduce(_most, args),
-    "pi": arb.pi,
-    "eq": _equal,
-    "ne": lambda a, b: not _equal(a, b),
-    "lt": LESS,
-    "le": _compare(operator.le, operator.gt),
-    "gt": _compare(operator.gt, operator.le),
-    "ge": _compare(operator.ge, operator.lt),
-    "and": lambda *args: all(args),
-    "or": lambda *args: any(args),
-    "not": operator.not_,
-}
+
+def _method(name: str) -> Callable[[Value], arb]:
+    method = getattr(arb, name)
+
+    def apply(a: Value) -> arb:
+        return _finite(method(_ball(a)))
+
+    return apply
+
+
+BALLS = SimpleNamespace(**{name: _method(name) for name in dir(arb) if name[0] != "_"})
+"""A ball's own methods as functions that must have a finite value."""

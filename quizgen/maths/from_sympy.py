@@ -8,7 +8,7 @@ product by -1. Here they become quotients and differences again. SymPy sorts the
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from fractions import Fraction
 from typing import Any
 
@@ -17,36 +17,19 @@ from sympy.core.function import AppliedUndef
 from sympy.logic.boolalg import BooleanFalse, BooleanTrue
 
 from quizgen.errors import BankError
+from quizgen.maths.operators import OPERATORS
 from quizgen.maths.tree import Call, Expr, Num, Sym
 
 _DOUBLE = 53
 _ONE = Num(Fraction(1))
-_NAMED: dict[type, str] = {
-    sympy.exp: "exp",
-    sympy.sin: "sin",
-    sympy.cos: "cos",
-    sympy.tan: "tan",
-    sympy.asin: "asin",
-    sympy.acos: "acos",
-    sympy.atan: "atan",
-    sympy.atan2: "atan2",
-    sympy.erf: "erf",
-    sympy.erfc: "erfc",
-    sympy.Abs: "abs",
-    sympy.sign: "sign",
-    sympy.floor: "floor",
-    sympy.ceiling: "ceil",
-    sympy.Mod: "mod",
-    sympy.Equality: "eq",
-    sympy.Unequality: "ne",
-    sympy.StrictLessThan: "lt",
-    sympy.LessThan: "le",
-    sympy.StrictGreaterThan: "gt",
-    sympy.GreaterThan: "ge",
-    sympy.And: "and",
-    sympy.Or: "or",
-    sympy.Not: "not",
-}
+
+
+def _classes() -> Iterator[tuple[type, str]]:
+    """SymPy's classes that are operators of ours, by the name that the table gives."""
+    for row in OPERATORS.values():
+        kind = getattr(sympy, row.function_in("sympy"), None)
+        if isinstance(kind, type):
+            yield kind, row.name
 
 
 def convert(expression: Any) -> Expr:
@@ -233,6 +216,7 @@ def _unknown(expression: Any) -> Expr:
 
 
 _RULES: dict[type, Callable[[Any], Expr]] = {
+    **{kind: _named(op) for kind, op in _classes()},
     sympy.Symbol: _symbol,
     sympy.Rational: _rational,
     sympy.Float: _float,
@@ -248,5 +232,4 @@ _RULES: dict[type, Callable[[Any], Expr]] = {
     BooleanTrue: _unknown,
     BooleanFalse: _unknown,
     AppliedUndef: _unknown,
-    **{kind: _named(op) for kind, op in _NAMED.items()},
 }

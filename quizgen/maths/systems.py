@@ -7,13 +7,18 @@ the comparison of what accuracy costs.
 
 from __future__ import annotations
 
+import builtins
+import math
+import operator
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache
+from functools import cache, reduce
 from typing import TypeAlias
 
 from quizgen.errors import MathError
+from quizgen.maths import logic
+from quizgen.maths.operators import CONDITIONS, OPERATORS
 from quizgen.maths.tree import Call, Expr, Num, Sym
 from quizgen.maths.values import AnyNumber
 
@@ -114,30 +119,135 @@ def taken_branch(expr: Expr, env: Env, system: NumberSystem) -> Expr:
     return taken_branch(expr.args[-1], env, system)
 
 
+def functions(system: str, *sources: object, **own: Op) -> dict[str, Op]:
+    """What each operator of the table does in a number system.
+
+    Parameters
+    ----------
+    system : str
+        Its name in the table.
+    *sources : module
+        Where functions are looked up, in order.
+    **own : callable
+        Functions that none of them has, under the name that the table gives.
+    """
+    found = {}
+    for row in OPERATORS.values():
+        if system not in row.absent:
+            name = row.function_in(system)
+            op = own[name] if name in own else _looked_up(name, sources)
+            found[row.name] = _folded(op) if row.folds else op
+    return found
+
+
+def _looked_up(name: str, sources: tuple[object, ...]) -> Op:
+    op: Op = next(getattr(source, name) for source in sources if hasattr(source, name))
+    return op
+
+
+def _folded(op: Op) -> Op:
+    return lambda first, *rest: reduce(op, rest, first)
+
+
 @cache
 def exact() -> NumberSystem:
     """Exact rationals (``flint.fmpq``), and certified balls (``flint.arb``) beyond them."""
-    from quizgen.maths import exact as operators
+    from quizgen.maths import exact as own
     from quizgen.maths.numbers import rational
     from quizgen.maths.precision import with_precision
 
-    return NumberSystem("exact", rational, operators.OPS, guard=with_precision)
+    ops = functions("exact", own, operator, logic, own.BALLS)
+    return NumberSystem("exact", rational, ops, guard=with_precision)
 
 
 @cache
 def floats() -> NumberSystem:
     """Python floats: the fast approximation used by figures."""
-    from quizgen.maths import floats as operators
+    from quizgen.maths import floats as own
 
-    return NumberSystem("float64", float, operators.OPS)
+    return NumberSystem("float64", float, functions("floats", own, math, operator, builtins, logic))
 
 
 @cache
 def singles() -> NumberSystem:
-    """Numbers rounded to float32 after every operation."""
-    from quizgen.maths import floats as operators
+    """Numbers rounded to float32 after every operation; truth values stay."""
+    from quizgen.maths.floats import single
 
-    return NumberSystem("float32", lambda q: operators.single(float(q)), operators.SINGLE_OPS)
+    def rounding(name: str, op: Op) -> Op:
+        return op if name in CONDITIONS else lambda *args: single(op(*args))
+
+    ops = {name: rounding(name, op) for name, op in floats().ops.items()}
+    return NumberSystem("float32", lambda q: single(float(q)), ops)
+
+
+@cache
+def arrays(bits: int) -> NumberSystem:
+    """NumPy arrays of 32 or 64 bits, the formula as it is printed."""
+    import numpy as np
+
+    number = np.float32 if bits == 32 else np.float64
+    own: dict[str, Op] = {
+        "erf": _special("erf", bits),
+        "erfc": _special("erfc", bits),
+        "rounded": lambda a: np.copysign(np.floor(np.abs(a) + number(0.5)), a),
+        "pi": lambda: number(math.pi),
+        "piecewise": _where,
+    }
+    return NumberSystem(
+        f"float{bits} arrays", lambda q: number(float(q)), functions("arrays", operator, np, **own)
+    )
+
+
+def _special(name: str, bits: int) -> Op:
+    """SciPy's function if SciPy is there, else the C library's, element by element."""
+    import numpy as np
+
+    try:
+        import scipy.special
+    except ImportError:
+        slow = np.vectorize(getattr(math, name), otypes=[np.float64])
+        return lambda x: slow(x).astype(np.float32 if bits == 32 else np.float64)
+    function: Op = getattr(scipy.special, name)
+    return function
+
+
+def _where(*args: AnyNumber) -> AnyNumber:
+    import numpy as np
+
+    value = args[-1]
+    for chosen, condition in zip(args[-3::-2], args[-2::-2], strict=True):
+        value = np.where(condition, chosen, value)
+    return value
+
+
+@cache
+def multiprecision() -> NumberSystem:
+    """``mpmath`` at the precision in force."""
+    import mpmath as mp
+
+    own: dict[str, Op] = {
+        "log2": lambda x: mp.log(x) / mp.log(2),
+        "rounded": lambda x: mp.sign(x) * mp.floor(abs(x) + mp.mpf(1) / 2),
+        "mod": lambda a, b: a - b * mp.floor(a / b),
+        "pi": lambda: +mp.pi,
+    }
+    ops = functions("mpmath", operator, mp, builtins, logic, **own)
+    return NumberSystem("mpmath", lambda q: mp.mpf(q.numerator) / q.denominator, ops)
+
+
+@cache
+def symbolic() -> NumberSystem:
+    """SymPy expressions on exact rationals."""
+    import sympy
+
+    own: dict[str, Op] = {
+        "log2": lambda x: sympy.log(x) / sympy.log(2),
+        "log10": lambda x: sympy.log(x) / sympy.log(10),
+        "rounded": lambda x: sympy.sign(x) * sympy.floor(abs(x) + sympy.Rational(1, 2)),
+        "pi": lambda: sympy.pi,
+    }
+    ops = functions("sympy", operator, sympy, **own)
+    return NumberSystem("SymPy", lambda q: sympy.Rational(q.numerator, q.denominator), ops)
 
 
 def evaluate(expr: Expr, env: Env, system: NumberSystem | None = None) -> AnyNumber:

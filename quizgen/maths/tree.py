@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import TypeAlias
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,9 +39,8 @@ class Call:
     args: tuple[Expr, ...]
 
 
-Expr = Num | Sym | Call
-
-RELATIONS = frozenset({"eq", "ne", "lt", "le", "gt", "ge", "and", "or", "not"})
+Expr: TypeAlias = Num | Sym | Call
+"""A formula."""
 
 
 def number(value: int | str | Fraction) -> Num:
@@ -71,4 +71,4 @@ def substitute(expr: Expr, values: Mapping[str, Expr]) -> Expr:
     return expr
 
 
-__all__ = ["RELATIONS", "Call", "Expr", "Num", "Sym", "names", "number", "substitute", "walk"]
+__all__ = ["Call", "Expr", "Num", "Sym", "names", "number", "substitute", "walk"]

@@ -7,10 +7,10 @@ from fractions import Fraction
 from typing import Any
 
 from quizgen.errors import QuizgenError
-from quizgen.maths.systems import compile_expr, exact
+from quizgen.maths.systems import arrays, compile_expr, exact, multiprecision, symbolic
 from quizgen.maths.tree import Expr
-from quizgen.tradeoff import fields
 from quizgen.tradeoff.families import Family
+from quizgen.tradeoff.pairs import fits_pairs, pairs
 from quizgen.tradeoff.rung import DIGITS, Rung, ball_value, to_float
 from quizgen.tradeoff.special import ORACLES, RUNGS
 
@@ -33,7 +33,7 @@ def rungs(family: Family) -> list[Rung]:
     if formula is None:
         return [*RUNGS[family.name](family), _stable(family)]
     found = [_array(family, formula, 32), _array(family, formula, 64), _stable(family)]
-    if fields.fits_pairs(formula):
+    if fits_pairs(formula):
         found.append(_pairs(family, formula))
     if family.rational:
         found.append(_exact(family, formula))
@@ -45,7 +45,7 @@ def rungs(family: Family) -> list[Rung]:
 def _array(family: Family, formula: Expr, bits: int) -> Rung:
     import numpy as np
 
-    compiled = compile_expr(formula, fields.arrays(bits))
+    compiled = compile_expr(formula, arrays(bits))
     number = np.float32 if bits == 32 else np.float64
 
     def run(*columns: Any) -> Any:
@@ -66,7 +66,7 @@ def _stable(family: Family) -> Rung:
 def _pairs(family: Family, formula: Expr) -> Rung:
     from quizgen.arrays.double_double import Pair
 
-    compiled = compile_expr(formula, fields.pairs())
+    compiled = compile_expr(formula, pairs())
 
     def run(*columns: Any) -> Any:
         values = map(Pair, columns)
@@ -94,7 +94,7 @@ def _balls(family: Family, formula: Expr) -> Rung:
 def _multiprecision(family: Family, formula: Expr) -> Rung:
     import mpmath as mp
 
-    compiled = compile_expr(formula, fields.multiprecision())
+    compiled = compile_expr(formula, multiprecision())
 
     def run(inputs: Any) -> Any:
         with mp.workdps(DIGITS):
@@ -116,7 +116,7 @@ def _precise(family: Family) -> Callable[..., Any]:
 def _symbolic(family: Family, formula: Expr) -> Rung:
     import sympy
 
-    compiled = compile_expr(formula, fields.symbolic())
+    compiled = compile_expr(formula, symbolic())
 
     def convert(value: float) -> Any:
         q = rational(value, decimal=family.decimal)
@@ -161,7 +161,7 @@ def oracles(family: Family) -> tuple[Callable[..., Any], Callable[..., Any]]:
     if formula is None:
         return ORACLES[family.name]
     compiled = compile_expr(formula, exact())
-    precise = compile_expr(formula, fields.multiprecision())
+    precise = compile_expr(formula, multiprecision())
     prepare = _environment(family, lambda v: rational(v, decimal=family.decimal))
     convert = _precise(family)
     if family.rational:

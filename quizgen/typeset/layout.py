@@ -10,6 +10,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 from quizgen.errors import RenderError
+from quizgen.maths.operators import Operator, Typed, typed_as
 from quizgen.maths.tree import Call, Expr, Num, Sym
 from quizgen.typeset.build import decimal, negative, number
 from quizgen.typeset.names import name
@@ -41,24 +42,16 @@ from quizgen.typeset.products import between
 
 SIGNS = {"eq": "=", "ne": "≠", "lt": "<", "le": "≤", "gt": ">", "ge": "≥"}
 FENCES = {"abs": "||", "floor": "⌊⌋", "ceil": "⌈⌉"}
-FUNCTIONS: dict[str, Node] = {
-    "ln": Word("ln"),
+HEADS: dict[str, Node] = {
     "log2": Scripts(Word("log"), Number("2")),
     "log10": Scripts(Word("log"), Number("10")),
-    "sin": Word("sin"),
-    "cos": Word("cos"),
-    "tan": Word("tan"),
     "asin": Word("arcsin"),
     "acos": Word("arccos"),
     "atan": Word("arctan"),
-    "atan2": Word("atan2"),
-    "erf": Word("erf"),
-    "erfc": Word("erfc"),
     "sign": Word("sgn"),
-    "round": Word("round"),
-    "min": Word("min"),
-    "max": Word("max"),
 }
+"""Functions that are printed under another name than they are typed."""
+
 _POWER_ON_NAME = frozenset({"sin", "cos", "tan"})
 _OPPOSITES = {"eq": "ne", "ne": "eq", "lt": "ge", "ge": "lt", "gt": "le", "le": "gt"}
 
@@ -287,12 +280,11 @@ def _fence(kind: str) -> Rule:
     return rule
 
 
-def _function(op: str) -> Rule:
-    head = FUNCTIONS[op]
-    counts = {"min": range(1, 99), "max": range(1, 99), "atan2": (2,)}.get(op, (1,))
+def _function(row: Operator) -> Rule:
+    head = HEADS.get(row.name, Word(row.name))
 
     def rule(run: _Layout, args: tuple[Expr, ...]) -> Node:
-        if len(args) not in counts:
+        if not row.least <= len(args) <= row.most:
             raise ValueError
         return Func(head, tuple([run.lay(arg) for arg in args]))
 
@@ -365,6 +357,7 @@ def _pi(_run: _Layout, args: tuple[Expr, ...]) -> Node:
 
 
 _RULES: dict[str, Rule] = {
+    **{row.name: _function(row) for row in typed_as(Typed.FUNCTION)},
     "add": _add,
     "sub": _sub,
     "neg": _neg,
@@ -381,5 +374,4 @@ _RULES: dict[str, Rule] = {
     "or": _join("or"),
     **{op: _relation(sign) for op, sign in SIGNS.items()},
     **{op: _fence(kind) for op, kind in FENCES.items()},
-    **{op: _function(op) for op in FUNCTIONS},
 }

@@ -13,8 +13,8 @@ from click.testing import CliRunner
 
 from quizgen.cli.tradeoff import tradeoff
 from quizgen.locale import languages
-from quizgen.maths.systems import compile_expr
-from quizgen.tradeoff import fields, ladder
+from quizgen.maths.systems import arrays, compile_expr, multiprecision, symbolic
+from quizgen.tradeoff import ladder
 from quizgen.tradeoff.families import BY_NAME, FAMILIES
 from quizgen.tradeoff.knobs import KNOBS, coverage
 from quizgen.tradeoff.measure import QUICK, Bench, bits_of, pareto, steps
@@ -108,13 +108,9 @@ def test_every_field_computes_the_same():
     formula = BY_NAME["far-limit"].formula
     inputs = {"f": 50, "N": 8, "c": 0.03125, "s": 3000}
     expected = 3000 * 10000 / (10000 + 50 - 3000)
-    array = compile_expr(formula, fields.arrays(64))({k: np.float64(v) for k, v in inputs.items()})
-    precise = compile_expr(formula, fields.multiprecision())(
-        {k: mp.mpf(v) for k, v in inputs.items()}
-    )
-    symbol = compile_expr(formula, fields.symbolic())(
-        {k: sympy.Rational(v) for k, v in inputs.items()}
-    )
+    array = compile_expr(formula, arrays(64))({k: np.float64(v) for k, v in inputs.items()})
+    precise = compile_expr(formula, multiprecision())({k: mp.mpf(v) for k, v in inputs.items()})
+    symbol = compile_expr(formula, symbolic())({k: sympy.Rational(v) for k, v in inputs.items()})
     for value in (array, precise, symbol):
         assert float(value) == pytest.approx(expected, rel=1e-12)
 

@@ -2,50 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from dataclasses import replace
 from functools import reduce
 from typing import Any
 
 import sympy
 
 from quizgen.maths.notation import parse
-from quizgen.maths.tree import Call, Expr, Num, Sym
-
-_OPS: dict[str, Callable[..., Any]] = {
-    "add": sympy.Add,
-    "mul": sympy.Mul,
-    "sub": lambda a, b: a - b,
-    "neg": lambda a: -a,
-    "div": lambda a, b: a / b,
-    "pow": lambda a, b: a**b,
-    "log2": lambda a: sympy.log(a) / sympy.log(2),
-    "log10": lambda a: sympy.log(a) / sympy.log(10),
-    "ln": sympy.log,
-    "abs": sympy.Abs,
-    "ceil": sympy.ceiling,
-    "mod": sympy.Mod,
-    "min": sympy.Min,
-    "max": sympy.Max,
-    "pi": lambda: sympy.pi,
-    "round": lambda a: sympy.sign(a) * sympy.floor(abs(a) + sympy.Rational(1, 2)),
-}
-_SAME = frozenset(
-    {
-        "sqrt",
-        "exp",
-        "sin",
-        "cos",
-        "tan",
-        "asin",
-        "acos",
-        "atan",
-        "atan2",
-        "erf",
-        "erfc",
-        "sign",
-        "floor",
-    }
-)
+from quizgen.maths.operators import CONDITIONS
+from quizgen.maths.systems import compile_expr, symbolic
+from quizgen.maths.tree import Expr, names
 
 
 def build(tree: Expr, positive: frozenset[str]) -> Any:
@@ -54,16 +20,15 @@ def build(tree: Expr, positive: frozenset[str]) -> Any:
     Raises
     ------
     KeyError
-        If an operator has no counterpart.
+        If it holds a condition or a choice, which say nothing about a difference.
     """
-    if isinstance(tree, Num):
-        return sympy.Rational(tree.value.numerator, tree.value.denominator)
-    if isinstance(tree, Sym):
-        known = {"positive": True} if tree.name in positive else {"real": True}
-        return sympy.Symbol(tree.name, **known)
-    args = [build(arg, positive) for arg in tree.args]
-    operation = getattr(sympy, tree.op) if tree.op in _SAME else _OPS[tree.op]
-    return operation(*args)
+    ops = {name: op for name, op in symbolic().ops.items() if name not in CONDITIONS}
+    symbols = {n: _symbol(n, positive=n in positive) for n in names(tree)}
+    return compile_expr(tree, replace(symbolic(), ops=ops))(symbols)
+
+
+def _symbol(name: str, *, positive: bool) -> sympy.Symbol:
+    return sympy.Symbol(name, positive=True) if positive else sympy.Symbol(name, real=True)
 
 
 def decide(first: str, second: str, positive: frozenset[str]) -> str:
@@ -78,4 +43,4 @@ def decide(first: str, second: str, positive: frozenset[str]) -> str:
     return "different" if difference.is_nonzero else "unknown"
 
 
-__all__ = ["Call", "build", "decide"]
+__all__ = ["build", "decide"]

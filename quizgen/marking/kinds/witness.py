@@ -22,8 +22,9 @@ from quizgen.marking.specs import Spec as AnySpec
 from quizgen.marking.verdict import Verdict, ambiguous, correct, with_values, wrong
 from quizgen.maths.constants import Scalar, exact_value
 from quizgen.maths.notation import to_text
+from quizgen.maths.operators import CONDITIONS
 from quizgen.maths.precision import working_precision
-from quizgen.maths.tree import RELATIONS, Call, Expr, names
+from quizgen.maths.tree import Call, Expr, names
 
 
 class Spec(AnySpec, kw_only=True):
@@ -55,7 +56,7 @@ class Spec(AnySpec, kw_only=True):
             author(text, self.known())
         for text in (self.predicate, *self.where):
             tree = author(text, self.known())
-            if not isinstance(tree, Call) or tree.op not in RELATIONS:
+            if not isinstance(tree, Call) or tree.op not in CONDITIONS:
                 raise FormulaError(f"{text!r} is not a relation")
         if self.example and {*self.example} != {*self.names()}:
             raise ValueError("example must give every symbol")

@@ -12,7 +12,8 @@ from quizgen.marking.reading.rewrites import Rewrite, Source, normalise
 from quizgen.marking.reading.scalars import moved
 from quizgen.maths.notation import ReadError, double_reading, parse_pieces, to_text, tokens
 from quizgen.maths.notation.names import FUNCTIONS, folded
-from quizgen.maths.tree import RELATIONS, Call, Expr, Num
+from quizgen.maths.operators import CONDITIONS
+from quizgen.maths.tree import Call, Expr, Num
 
 MULTI_ARGUMENT = r"(?:atan2|min|max|mod|piecewise)"
 _SYNONYMS = {
@@ -160,7 +161,7 @@ _E = Call("exp", (Num(Fraction(1)),))
 
 
 def _formula(tree: Expr) -> Expr:
-    if isinstance(tree, Call) and tree.op in RELATIONS:
+    if isinstance(tree, Call) and tree.op in CONDITIONS:
         raise ReadError("not-a-formula", 1)
     return _exponentials(tree)
 

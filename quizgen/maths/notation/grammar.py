@@ -8,6 +8,7 @@ from typing import Any
 
 from quizgen.maths.notation.lexer import Piece, ReadError
 from quizgen.maths.notation.names import FUNCTIONS
+from quizgen.maths.operators import Typed, typed_as
 from quizgen.maths.tree import Call, Expr, Num, Sym
 
 GRAMMAR = r"""
@@ -34,7 +35,7 @@ GRAMMAR = r"""
      | LBAR either RBAR -> bars
 """
 
-_SIGNS = {"PLUS": "add", "MINUS": "sub", "TIMES": "mul", "SLASH": "div"}
+_SIGNS = {row.token: row for row in typed_as(Typed.SIGN)}
 
 
 class _Actions:
@@ -87,12 +88,12 @@ class _Actions:
         result: Expr = args[0]
         run = ""
         for sign, term in zip(args[1::2], args[2::2], strict=True):
-            op = _SIGNS[sign.type]
-            if op == run and op in {"add", "mul"} and isinstance(result, Call):
-                result = Call(op, (*result.args, term))
+            row = _SIGNS[sign.type]
+            if row.name == run and row.folds and isinstance(result, Call):
+                result = Call(row.name, (*result.args, term))
             else:
-                result = Call(op, (result, term))
-            run = op
+                result = Call(row.name, (result, term))
+            run = row.name
         return result
 
     def relation(self, args: list[Any]) -> Expr:

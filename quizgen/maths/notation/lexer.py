@@ -10,6 +10,7 @@ from itertools import pairwise
 
 from quizgen.errors import FormulaError
 from quizgen.maths.notation.names import CONSTANTS, FUNCTIONS, KEYWORDS, folded, spellings, split
+from quizgen.maths.operators import Typed, typed_as
 from quizgen.maths.tree import Num
 
 LARGEST_EXPONENT = 250
@@ -57,42 +58,28 @@ class Piece:
     column: int
 
 
+OPERATORS = {sign: row.token for row in typed_as(Typed.SIGN) for sign in row.signs} | {
+    "(": "LPAR",
+    ")": "RPAR",
+    ",": "COMMA",
+    "√": "ROOT",
+    "|": "BAR",
+}
+"""Spelling to the kind of token."""
+
+RELATIONS = {sign: row.name for row in typed_as(Typed.RELATION) for sign in row.signs}
+"""Spelling of a relation to its name."""
+
+_SIGNS = "|".join(map(re.escape, sorted({*OPERATORS, *RELATIONS}, key=len, reverse=True)))
+
 TOKEN = re.compile(
     r"(?P<space>\s+)"
     r"|(?P<number>(?:\d+\.\d*|\.\d+|\d+)(?:[eE][+-]?\d+)?)"
     r"|(?P<literal>\{[^{}]*\})"
     r"|(?P<quoted>`[^`]+`)"
     r"|(?P<name>[^\W\d_][^\W_]*'*(?:_[^\W_]+'*)*)"
-    r"|(?P<op>\*\*|<=|>=|!=|==|[-+*/^(),<>=|≤≥≠·×√−])"
+    rf"|(?P<op>{_SIGNS})"
 )
-
-OPERATORS = {
-    "+": "PLUS",
-    "-": "MINUS",
-    "−": "MINUS",
-    "*": "TIMES",
-    "·": "TIMES",
-    "×": "TIMES",
-    "/": "SLASH",
-    "^": "POWER",
-    "**": "POWER",
-    "(": "LPAR",
-    ")": "RPAR",
-    ",": "COMMA",
-}
-
-RELATIONS = {
-    "=": "eq",
-    "==": "eq",
-    "!=": "ne",
-    "≠": "ne",
-    "<": "lt",
-    "<=": "le",
-    "≤": "le",
-    ">": "gt",
-    ">=": "ge",
-    "≥": "ge",
-}
 
 _LITERAL = re.compile(r"\{(-?)(\d+)(?:\.(\d*))?(?:/(\d+)(\.?))?\}")
 _ENDS = frozenset({"NUMBER", "NAME", "RPAR", "RBAR", "CONSTANT"})
@@ -145,7 +132,7 @@ def _piece(match: re.Match[str], symbols: frozenset[str] | None, *, loose: bool)
     elif word in RELATIONS:
         yield Piece("RELATION", RELATIONS[word], word, column)
     else:
-        yield Piece(OPERATORS.get(word, "ROOT" if word == "√" else "BAR"), word, word, column)
+        yield Piece(OPERATORS[word], word, word, column)
 
 
 def _named(match: re.Match[str], symbols: frozenset[str] | None, *, loose: bool) -> Iterator[Piece]:
@@ -154,8 +141,8 @@ def _named(match: re.Match[str], symbols: frozenset[str] | None, *, loose: bool)
         yield Piece("NAME", word, word, column)
     elif word in KEYWORDS:
         yield Piece(word.upper(), word, word, column)
-    elif word in CONSTANTS or word == "π":
-        yield Piece("CONSTANT", "pi", word, column)
+    elif word in CONSTANTS:
+        yield Piece("CONSTANT", CONSTANTS[word], word, column)
     elif word in FUNCTIONS and match.string[match.end() :].lstrip().startswith("("):
         yield Piece("FUNCTION", word, word, column)
     elif symbols is None:

@@ -5,35 +5,15 @@ from __future__ import annotations
 import re
 from functools import cache
 
-FUNCTIONS: dict[str, tuple[int, int]] = {
-    "sqrt": (1, 1),
-    "exp": (1, 1),
-    "ln": (1, 1),
-    "log2": (1, 1),
-    "log10": (1, 1),
-    "sin": (1, 1),
-    "cos": (1, 1),
-    "tan": (1, 1),
-    "asin": (1, 1),
-    "acos": (1, 1),
-    "atan": (1, 1),
-    "atan2": (2, 2),
-    "erf": (1, 1),
-    "erfc": (1, 1),
-    "abs": (1, 1),
-    "sign": (1, 1),
-    "floor": (1, 1),
-    "ceil": (1, 1),
-    "round": (1, 1),
-    "mod": (2, 2),
-    "min": (1, 64),
-    "max": (1, 64),
-    "piecewise": (3, 63),
-}
+from quizgen.maths.operators import Typed, typed_as
+
+FUNCTIONS = {row.name: (row.least, row.most) for row in typed_as(Typed.FUNCTION)}
 """Function name to the smallest and largest number of arguments."""
 
-CONSTANTS = frozenset({"pi"})
-KEYWORDS = frozenset({"and", "or", "not"})
+CONSTANTS = {sign: row.name for row in typed_as(Typed.CONSTANT) for sign in row.signs}
+"""Spelling of a constant to its name."""
+
+KEYWORDS = frozenset(row.name for row in typed_as(Typed.WORD))
 
 NAME = re.compile(r"[^\W\d_][^\W_]*'*(?:_[^\W_]+'*)*")
 """A letter, letters and digits, primes, then subscripts: ``f``, ``k_1``, ``p'_x``, ``Delta``."""

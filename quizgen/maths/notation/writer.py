@@ -8,6 +8,7 @@ from functools import partial
 
 from quizgen.errors import FormulaError
 from quizgen.maths.notation.names import FUNCTIONS, plain
+from quizgen.maths.operators import Typed, typed_as
 from quizgen.maths.tree import Call, Expr, Num, Sym
 
 EITHER, BOTH, TRUTH, RELATION, SUM, PRODUCT, POWER, ATOM = range(8)
@@ -15,7 +16,7 @@ EITHER, BOTH, TRUTH, RELATION, SUM, PRODUCT, POWER, ATOM = range(8)
 Leaves = Mapping[str, str]
 """Name of a quantity to what is written in its place."""
 
-_RELATIONS = {"eq": "=", "ne": "!=", "lt": "<", "le": "<=", "gt": ">", "ge": ">="}
+_RELATIONS = {row.name: row.signs[0] for row in typed_as(Typed.RELATION)}
 
 
 def to_text(expr: Expr, leaves: Mapping[str, str] | None = None) -> str:

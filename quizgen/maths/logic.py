@@ -1,0 +1,13 @@
+"""Joining conditions, in every number system whose relations give Python's true and false."""
+
+from __future__ import annotations
+
+
+def both(a: object, b: object) -> bool:
+    """Whether both conditions hold."""
+    return bool(a and b)
+
+
+def either(a: object, b: object) -> bool:
+    """Whether one of the conditions holds."""
+    return bool(a or b)

@@ -1,0 +1,171 @@
+"""Every operator of the table is known wherever formulas go, or is declared absent there."""
+
+from __future__ import annotations
+
+import math
+import subprocess
+import sys
+
+import mpmath
+import pytest
+import sympy
+
+from quizgen.maths import systems
+from quizgen.maths.from_sympy import convert
+from quizgen.maths.notation import parse, to_text
+from quizgen.maths.operators import CONDITIONS, OPERATORS, SYSTEMS
+from quizgen.maths.tree import Call, Sym, number
+from quizgen.tradeoff.pairs import pairs
+from quizgen.typeset import latex, layout, mathml, spoken, typst
+
+BUILT = {
+    "exact": systems.exact(),
+    "floats": systems.floats(),
+    "arrays": systems.arrays(64),
+    "pairs": pairs(),
+    "mpmath": systems.multiprecision(),
+    "sympy": systems.symbolic(),
+}
+
+X, Y = 0.75, 0.375  # exact in binary
+VALUES = {
+    "add": X + Y, "sub": X - Y, "mul": X * Y, "div": 2.0, "neg": -X, "abs": X,
+    "pow": 0.421875, "sqrt": 0.8660254037844386, "exp": 2.117000016612675,
+    "ln": -0.2876820724517809, "log2": -0.4150374992788438, "log10": -0.1249387366082999,
+    "sin": 0.6816387600233341, "cos": 0.7316888688738209, "tan": 0.9315964599440725,
+    "asin": 0.848062078981481, "acos": 0.7227342478134157, "atan": 0.6435011087932844,
+    "atan2": 1.1071487177940904, "erf": 0.7111556336535151, "erfc": 0.28884436634648487,
+    "sign": 1.0, "floor": 0.0, "ceil": 1.0, "round": 1.0, "mod": 0.0, "min": Y, "max": X,
+    "pi": math.pi, "eq": False, "ne": True, "lt": False, "le": False, "gt": True, "ge": True,
+    "and": True, "or": True, "not": False, "piecewise": X,
+}  # fmt: skip
+"""Each operator at (0.75, 0.375), printed by mpmath where it is not arithmetic."""
+
+
+def example(name: str) -> Call:
+    x, y = Sym("x"), Sym("y")
+    more, less = Call("gt", (x, y)), Call("lt", (x, y))
+    special = {
+        "pow": (x, number(3)),
+        "piecewise": (x, more, y),
+        "and": (more, more),
+        "or": (less, more),
+        "not": (more,),
+    }
+    row = OPERATORS[name]
+    return Call(name, special.get(name, (x, y)[: max(row.least, min(2, row.most))]))
+
+
+def close(found, expected) -> bool:
+    if isinstance(expected, bool):
+        return bool(found) is expected
+    high = getattr(found, "high", found)
+    return math.isclose(float(high), expected, rel_tol=1e-14)
+
+
+def runs(name: str, system: str) -> bool:
+    """Whether a system runs an operator: ``piecewise`` runs everywhere that conditions do."""
+    lacking = OPERATORS[name].absent
+    return system not in (lacking - set(SYSTEMS) | {"pairs"} if name == "piecewise" else lacking)
+
+
+def test_examples_cover_the_table():
+    assert set(VALUES) == set(OPERATORS)
+    assert set(BUILT) == set(SYSTEMS)
+
+
+@pytest.mark.parametrize("system", SYSTEMS)
+def test_a_system_knows_what_the_table_says(system):
+    declared = {name for name, row in OPERATORS.items() if system not in row.absent}
+    assert set(BUILT[system].ops) == declared
+
+
+@pytest.mark.parametrize("system", SYSTEMS)
+@pytest.mark.parametrize("name", OPERATORS)
+def test_every_system_finds_the_same_value(name, system):
+    if not runs(name, system):
+        pytest.skip("declared absent")
+    built = BUILT[system]
+    env = {"x": built.constant(number("0.75").value), "y": built.constant(number("0.375").value)}
+    assert close(systems.compile_expr(example(name), built)(env), VALUES[name])
+
+
+@pytest.mark.parametrize("name", ["add", "mul", "min", "max"])
+@pytest.mark.parametrize("system", ["exact", "floats", "arrays", "mpmath", "sympy"])
+def test_operators_of_many_arguments_fold(name, system):
+    built = BUILT[system]
+    args = tuple(number(text) for text in ("3", "-2", "0.5"))
+    expected = {"add": 1.5, "mul": -3.0, "min": -2.0, "max": 3.0}[name]
+    assert close(systems.compile_expr(Call(name, args), built)({}), expected)
+
+
+@pytest.mark.parametrize("name", ["min", "max"])
+@pytest.mark.parametrize("system", ["exact", "floats", "arrays", "mpmath", "sympy"])
+def test_the_least_of_one_is_itself(name, system):
+    assert close(systems.compile_expr(Call(name, (number("0.5"),)), BUILT[system])({}), 0.5)
+
+
+@pytest.mark.parametrize("system", ["exact", "floats", "arrays", "mpmath", "sympy"])
+@pytest.mark.parametrize(("text", "expected"), [("-2.5", -3), ("2.5", 3), ("-0.4", 0)])
+def test_rounding_is_half_away_from_zero_everywhere(system, text, expected):
+    assert close(systems.compile_expr(Call("round", (number(text),)), BUILT[system])({}), expected)
+
+
+@pytest.mark.parametrize("name", OPERATORS)
+def test_what_is_written_reads_as_the_same_tree(name):
+    assert parse(to_text(example(name)), symbols=("x", "y")) == example(name)
+
+
+@pytest.mark.parametrize("name", OPERATORS)
+@pytest.mark.parametrize("sign_or_name", [0, 1, 2])
+def test_every_sign_is_read(name, sign_or_name):
+    row = OPERATORS[name]
+    if sign_or_name >= len(row.signs):
+        pytest.skip("no such spelling")
+    sign = row.signs[sign_or_name]
+    text = {0: sign, 1: f"{sign} x"}.get(row.most, f"x {sign} y")
+    if row.name == "not":
+        text = "not x > y"
+    read = parse("x > y " + sign + " x > y" if row.name in {"and", "or"} else text)
+    assert read.op == name
+
+
+@pytest.mark.parametrize("name", OPERATORS)
+def test_every_printer_writes_it(name):
+    laid_out = layout(example(name))
+    printed = [latex(laid_out), mathml(laid_out), typst(laid_out)]
+    spoken_both = [spoken(laid_out, lang) for lang in ("en", "bn")]
+    assert all(printed)
+    assert all(spoken_both)
+    assert spoken_both[0] != spoken_both[1] or name in {"log2", "log10"}
+
+
+@pytest.mark.parametrize("name", OPERATORS)
+def test_sympy_reads_back_what_it_was_given(name):
+    if name == "piecewise":
+        x, y = sympy.symbols("x y")
+        built = sympy.Piecewise((x, x > y), (y, True))
+    else:
+        env = {n: sympy.Symbol(n, real=True) for n in ("x", "y")}
+        with sympy.evaluate(False):
+            built = systems.compile_expr(example(name), systems.symbolic())(env)
+    env = {"x": mpmath.mpf(X), "y": mpmath.mpf(Y)}
+    again = systems.compile_expr(convert(built), systems.multiprecision())(env)
+    assert close(again, VALUES[name])
+
+
+def test_conditions_give_true_or_false():
+    assert {name for name, value in VALUES.items() if isinstance(value, bool)} == CONDITIONS
+
+
+@pytest.mark.parametrize(("use", "without"), [
+    ("import quizgen.maths.operators", {"flint", "numpy", "sympy", "mpmath", "lark"}),
+    ("from quizgen.maths.systems import floats; floats()", {"numpy", "sympy", "mpmath"}),
+    ("from quizgen.maths.systems import exact; exact()", {"numpy", "sympy", "mpmath"}),
+])  # fmt: skip
+def test_a_number_system_loads_only_its_own_library(use, without):
+    run = subprocess.run(
+        [sys.executable, "-c", f"import sys; {use}; print(*sys.modules)"],
+        capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    assert not without & set(run.stdout.split())
