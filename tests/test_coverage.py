@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import pytest
 
-from quizgen.audit.coverage import INVENTORY, coverage, unknown
+from quizgen.audit.coverage import coverage, unknown
+from quizgen.bank.folder import builtin
 
 
-def test_the_inventory_counts_what_the_curriculum_counts():
-    counts = {group: len(items) for group, items in INVENTORY.items()}
+def test_the_inventory_counts_what_the_curriculum_counts(bank):
+    counts = {group: len(items) for group, items in bank.curriculum.inventory.items()}
     assert counts == {
         "formulas": 46, "worked examples": 18, "trial exam": 6, "mock questions": 51,
         "sections": 24, "figures": 9, "code": 28, "traps": 28, "statements": 3,
@@ -19,7 +20,7 @@ def test_no_template_claims_what_is_not_there(bank):
     assert unknown(bank) == []
 
 
-@pytest.mark.parametrize("group", list(INVENTORY))
+@pytest.mark.parametrize("group", list(builtin().curriculum.inventory))
 def test_nothing_is_left_out(bank, group):
     (row,) = [row for row in coverage(bank) if row.group == group]
     assert row.holes == ()

@@ -13,8 +13,9 @@ from pathlib import Path
 
 import pytest
 
+from quizgen.bank.folder import builtin
 from quizgen.errors import BlueprintError, CodeError
-from quizgen.paper.blueprint import Blueprint, SlotRule, load, shipped
+from quizgen.paper.blueprint import Blueprint, SlotRule, load
 from quizgen.paper.code import parse_code
 from quizgen.paper.form import form_bytes
 from quizgen.paper.key import key_bytes
@@ -187,7 +188,7 @@ def test_the_reference_paper_is_the_notes_own(bank):
     assert rebuild(bank, paper.code).code == paper.code
 
 
-@pytest.mark.parametrize("name", shipped())
+@pytest.mark.parametrize("name", list(builtin().blueprints))
 def test_shipped_blueprints_load(name):
     assert load(name).name == name
 

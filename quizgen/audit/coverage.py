@@ -1,7 +1,7 @@
-"""What of the curriculum the templates cover, and what is still open.
+"""What of its curriculum a bank covers, and what is still open.
 
 Each template names what it covers (``covers = ["F09", "C11b", "W03", "TR07"]``); a figure covers
-itself wherever it is used.
+itself wherever it is used. What there is to cover stands in the bank's ``curriculum.toml``.
 """
 
 from __future__ import annotations
@@ -12,38 +12,8 @@ from dataclasses import dataclass
 
 from quizgen.bank.folder import Bank
 
-
-def _numbered(letter: str, last: int, digits: int = 2) -> tuple[str, ...]:
-    return tuple(f"{letter}{number:0{digits}d}" for number in range(1, last + 1))
-
-
-SUB_PARTS = (
-    "A1a A1b A1c A1d A2 A3 A4a A4b A5 B6a B6b B7a B7b B7c B8 B9a B9b B10a B10b C11a C11b "
-    "C12a C12b C12c C12d C12e C13a C13b C13c C14a C14b C14c C15a C15b D16a D16b D16c "
-    "D17a D17b D17c D18a D18b D18c D18d D18e D19a D19b D19c D20a D20b D20c"
-)
-
-INVENTORY: Mapping[str, tuple[str, ...]] = {
-    "formulas": _numbered("F", 46),
-    "worked examples": _numbered("W", 18),
-    "trial exam": ("Q1a", "Q1b", "Q1c-i", "Q1c-ii", "Q1d", "Q4a"),
-    "mock questions": tuple(SUB_PARTS.split()),
-    "sections": _numbered("S", 24),
-    "figures": tuple(f"FIG{number}" for number in range(1, 10)),
-    "code": _numbered("K", 28),
-    "traps": _numbered("TR", 28),
-    "statements": ("TF1", "TF2", "TF3"),
-}
-"""Group to the names of its items; each of the three statement sets holds six statements."""
-
-BEYOND = re.compile(r"X-[ABCD]\d\d|EC?\d{1,2}")
-"""Items past the notes: additional templates, and corrections of the notes."""
-
-FIGURES = {
-    "pinhole": "FIG1", "distorted_grid": "FIG2", "hsv_edits": "FIG3", "bayer": "FIG4",
-    "noise": "FIG5", "gaussian": "FIG6", "depth_of_field": "FIG7", "luminosity": "FIG8",
-    "normalisation": "FIG9",
-}  # fmt: skip
+_NUMBER = re.compile(r"\d+$")
+_SUB_PART = re.compile(r"(?<=\d)[a-z]$|-.*$")
 
 
 @dataclass(frozen=True)
@@ -66,7 +36,8 @@ def coverage(bank: Bank) -> list[Row]:
     for name in bank.paths:
         for item in _covered(bank, name):
             by_item.setdefault(item, []).append(name)
-    return [_row(group, items, by_item) for group, items in INVENTORY.items()]
+    inventory = bank.curriculum.inventory
+    return [_row(group, items, by_item) for group, items in inventory.items()]
 
 
 def covering(bank: Bank, item: str) -> list[str]:
@@ -78,22 +49,27 @@ def covering(bank: Bank, item: str) -> list[str]:
 def unknown(bank: Bank) -> list[tuple[str, str]]:
     """Template and item wherever a template claims something the curriculum does not have.
 
-    A whole question (``C12``) is known by its sub-parts (``C12a``).
+    A whole question (``C12``, ``Q1c``) is known by its sub-parts (``C12a``, ``Q1c-i``). A bank
+    without a curriculum claims nothing wrongly.
     """
-    items = [item for items in INVENTORY.values() for item in items]
-    whole = {re.sub(r"(?<=\d)[a-z]$|-.*$", "", item) for item in items}
-    known = {*items, *whole}
+    groups, beyond = bank.curriculum.inventory, bank.curriculum.beyond
+    items = [item for group in groups.values() for item in group]
+    known = {*items, *(_SUB_PART.sub("", item) for item in items)}
     return [
         (name, item)
-        for name in bank.paths
+        for name in (bank.paths if groups else ())
         for item in bank.rules(name).covers
-        if item not in known and not BEYOND.fullmatch(item)
+        if item not in known and not _is_beyond(item, beyond)
     ]
+
+
+def _is_beyond(item: str, beyond: tuple[str, ...]) -> bool:
+    return bool(_NUMBER.search(item)) and _NUMBER.sub("", item) in beyond
 
 
 def _covered(bank: Bank, name: str) -> Iterable[str]:
     rules = bank.rules(name)
-    figure = FIGURES.get(rules.figure.name) if rules.figure else None
+    figure = bank.curriculum.figures.get(rules.figure.name) if rules.figure else None
     return {*rules.covers, *([figure] if figure else [])}
 
 

@@ -1,5 +1,8 @@
 """A bank: a folder with ``templates/`` and ``solvers/``, read on demand.
 
+Beside the templates may stand ``bank.toml`` (title, topics), ``blueprints/``, ``cards/`` and
+``curriculum.toml``: what the bank is about.
+
 The built-in bank is the first one; a third party's bank is a folder of the same shape. Text is
 always safe to read. Solvers are Python, so a foreign bank runs its own only when it is trusted.
 """
@@ -16,6 +19,7 @@ from functools import cache, cached_property
 from pathlib import Path
 from types import ModuleType
 
+from quizgen.bank.about import About, Curriculum, in_language, read_struct
 from quizgen.bank.prose import Text, read_text
 from quizgen.bank.template import Rules, Template, check_against_chain, digest_of, read_rules
 from quizgen.errors import BankError, QuizgenError
@@ -69,13 +73,66 @@ class Bank:
         self.trusted = trusted
         self._templates: dict[str, Template] = {}
         self._rules: dict[str, Rules] = {}
-        if not (root / "templates").is_dir():
+        if not self.folder.is_dir():
             raise BankError(f"{root}: no folder 'templates' here")
+
+    @property
+    def folder(self) -> Path:
+        """Where templates and what is about them stand."""
+        return self.root / "templates"
+
+    @cached_property
+    def about(self) -> About:
+        """What ``bank.toml`` says; nothing if there is none."""
+        return read_struct(self.folder / "bank.toml", About)
+
+    @cached_property
+    def curriculum(self) -> Curriculum:
+        """What the bank is to cover; nothing if it does not say."""
+        return read_struct(self.folder / "curriculum.toml", Curriculum)
+
+    @cached_property
+    def languages(self) -> tuple[str, ...]:
+        """Languages that the bank says it is written in, else those of its templates."""
+        if self.about.languages:
+            return self.about.languages
+        found = {lang for name in self.paths for lang in self.written_in(name)}
+        return tuple(lang for lang in languages() if lang in found)
+
+    @cached_property
+    def topics(self) -> tuple[str, ...]:
+        """Topics in the order of ``bank.toml``, else those of the templates."""
+        return tuple(self.about.topics) or tuple(sorted({self.rules(n).topic for n in self.paths}))
+
+    def title(self, lang: str) -> str:
+        """Title of the chapter."""
+        name = self.about.name or self.root.resolve().name
+        return in_language(self.about.title, lang, _titled(name))
+
+    def topic_title(self, topic: str, lang: str) -> str:
+        """Title of a topic."""
+        return in_language(self.about.topics.get(topic, {}), lang, _titled(topic))
+
+    @cached_property
+    def blueprints(self) -> dict[str, Path]:
+        """Name of each blueprint to its file."""
+        return self._beside("blueprints")
+
+    @cached_property
+    def cards(self) -> dict[str, Path]:
+        """Name of each file of card content to the file."""
+        return self._beside("cards")
+
+    def _beside(self, name: str) -> dict[str, Path]:
+        return {path.stem: path for path in sorted((self.folder / name).glob("*.toml"))}
 
     @cached_property
     def paths(self) -> dict[str, Path]:
         """Template name to its folder, in alphabetical order."""
-        found = sorted((self.root / "templates").glob("**/template.toml"))
+        found = sorted(
+            path for path in self.folder.glob("**/template.toml")
+            if path.parent not in {self.folder / "blueprints", self.folder / "cards"}
+        )  # fmt: skip
         names = [path.parent.name for path in found]
         twins = {name for name in names if names.count(name) > 1}
         if twins:
@@ -140,7 +197,7 @@ class Bank:
         close = difflib.get_close_matches(name, self.paths, 3)
         return f"; did you mean {', '.join(close)}?" if close else f" (there are {len(self.paths)})"
 
-    def languages(self, name: str) -> tuple[str, ...]:
+    def written_in(self, name: str) -> tuple[str, ...]:
         """Languages that a template is written in, without reading them."""
         return tuple(path.stem for path in self._prose(name))
 
@@ -179,6 +236,10 @@ class Bank:
     def __len__(self) -> int:
         """How many templates there are."""
         return len(self.paths)
+
+
+def _titled(name: str) -> str:
+    return name.replace("-", " ").replace("_", " ").capitalize()
 
 
 @cache

@@ -18,11 +18,12 @@ from collections.abc import Iterator
 from html import unescape
 from typing import Any
 
+from quizgen.bank.folder import Bank
 from quizgen.cards.deck import Deck
 from quizgen.cards.looks import FONT, NAMES, identity, note_type
 from quizgen.cards.note import Note
 from quizgen.cards.versions import BASE, modified
-from quizgen.locale import word
+from quizgen.locale import FIRST
 
 ROOT = "Quizgen"
 _ZIP_TIME = (1980, 1, 1, 0, 0, 0)
@@ -111,7 +112,7 @@ def database(deck: Deck) -> bytes:
 
 
 def _fill(connection: sqlite3.Connection, deck: Deck) -> None:
-    latest = max((modified(note, deck.seed) for note in deck.notes), default=BASE)
+    latest = max((modified(note, deck.wish.seed) for note in deck.notes), default=BASE)
     connection.execute(
         "INSERT INTO col VALUES (1,?,?,?,11,0,0,0,?,?,?,?,'{}')",
         (BASE, latest * 1000, BASE * 1000, *map(_json, _settings(deck))),
@@ -119,7 +120,7 @@ def _fill(connection: sqlite3.Connection, deck: Deck) -> None:
     notes, cards = _numbers(deck)
     connection.executemany(
         "INSERT INTO notes VALUES (?,?,?,?,-1,?,?,?,?,0,'')",
-        (_note_row(notes[note.key], note, deck.seed) for note in deck.notes),
+        (_note_row(notes[note.key], note, deck.wish.seed) for note in deck.notes),
     )
     connection.executemany(
         "INSERT INTO cards VALUES (?,?,?,?,?,-1,0,0,?,0,0,0,0,0,0,0,0,'')",
@@ -159,7 +160,7 @@ def _note_row(number: int, note: Note, seed: int) -> tuple[Any, ...]:
     fields = note.fields()
     tags = f" {' '.join(note.tags)} "
     checksum = int(hashlib.sha1(fields[0].encode(), usedforsecurity=False).hexdigest()[:8], 16)
-    kind = note_type(note.form)
+    kind = note_type(note.form, note.columns)
     sorted_by = unescape(_TAGS.sub("", fields[kind["sortf"]] or fields[2]))
     return (number, note.guid, kind["id"], modified(note, seed), tags, "\x1f".join(fields),
             sorted_by, checksum)  # fmt: skip
@@ -170,22 +171,24 @@ def _card_rows(
 ) -> Iterator[tuple[Any, ...]]:
     for place, note in enumerate(deck.notes, 1):
         for number in note.cards():
-            yield (cards[note.key, number], notes[note.key], identity(deck_name(note.topic)),
-                   number, modified(note, deck.seed), place)  # fmt: skip
+            home = identity(deck_name(deck.wish.bank, note.topic))
+            yield (cards[note.key, number], notes[note.key], home,
+                   number, modified(note, deck.wish.seed), place)  # fmt: skip
 
 
-def deck_name(topic: str) -> str:
+def deck_name(bank: Bank, topic: str) -> str:
     """Name of a topic's sub-deck: English in every language, so that decks meet in one place."""
-    return f"{ROOT}::{word('en', f'topic.{topic}')}"
+    return f"{ROOT}::{bank.topic_title(topic, FIRST)}"
 
 
 def _settings(deck: Deck) -> tuple[dict[str, Any], ...]:
-    names = [ROOT, *sorted({deck_name(note.topic) for note in deck.notes})]
+    names = [ROOT, *sorted({deck_name(deck.wish.bank, note.topic) for note in deck.notes})]
     decks = {str(identity(name)): _deck(identity(name), name) for name in names}
     decks["1"] = _deck(1, "Default")
-    models = {str(note_type(form)["id"]): note_type(form) for form in NAMES}
+    types = [note_type(form, deck.wish.columns) for form in NAMES]
+    models = {str(kind["id"]): kind for kind in types}
     current = {"curDeck": identity(ROOT), "activeDecks": [identity(ROOT)]}
-    conf = {**current, "curModel": note_type("basic")["id"], "nextPos": 1,
+    conf = {**current, "curModel": types[0]["id"], "nextPos": 1,
             "sortType": "noteFld", "newSpread": 0}  # fmt: skip
     return conf, models, decks, {"1": _options()}
 

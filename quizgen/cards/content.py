@@ -1,35 +1,29 @@
-"""The authored content of the deck: TOML files, checked, with errors that name the place.
+"""The authored content of a bank's deck: TOML files, checked, with errors that name the place.
 
-Sentences are Markdown as in templates, in English and Bangla. Mathematics between dollar signs and
-formula lines are written in the grammar that students type.
+Sentences are Markdown as in templates, in every language of the bank. Mathematics between dollar
+signs and formula lines are written in the grammar that students type.
 """
 
 from __future__ import annotations
 
 import tomllib
 from functools import cache
-from importlib.resources import files
-from typing import Any, Literal, TypeVar
+from typing import Literal, TypeVar
 
 import msgspec
 
+from quizgen.bank.about import in_language
+from quizgen.bank.folder import Bank
 from quizgen.bank.prose import Block, Formula, Inline, Slot, blocks, fill, fill_blocks, inlines
-from quizgen.cards.equations import inline
+from quizgen.cards.equations import Piece, inline
 from quizgen.errors import BankError
 from quizgen.locale import table
 
 Tier = Literal["A", "B", "C", "D"]
 
 
-class Both(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
-    """One sentence or passage in both languages."""
-
-    en: str
-    bn: str
-
-    def of(self, lang: str) -> str:
-        """The passage in one language."""
-        return self.bn if lang == "bn" else self.en
+Passage = dict[str, str]
+"""One sentence or passage: language to text."""
 
 
 class Entry(msgspec.Struct, forbid_unknown_fields=True, frozen=True, kw_only=True):
@@ -47,41 +41,41 @@ class Term(Entry, frozen=True, kw_only=True):
 
     number: int
     group: str
-    term: Both
-    meaning: Both
+    term: Passage
+    meaning: Passage
 
 
 class FormulaEntry(Entry, frozen=True, kw_only=True):
     """A formula: its lines, what the letters mean, where it fails."""
 
-    title: Both
+    title: Passage
     lines: tuple[str, ...]
-    inside: dict[str, dict[str, Any]] = msgspec.field(name="with", default={})
+    inside: dict[str, Piece] = msgspec.field(name="with", default={})
     separate: bool = False
-    about: Both
-    beware: Both
+    about: Passage
+    beware: Passage
 
 
 class Trap(Entry, frozen=True, kw_only=True):
     """A wrong claim or calculation, and the right one."""
 
-    claim: Both
-    right: Both
+    claim: Passage
+    right: Passage
 
 
 class Cheat(Entry, frozen=True, kw_only=True):
     """One entry of the cheat sheet."""
 
-    ask: Both
-    answer: Both
+    ask: Passage
+    answer: Passage
 
 
 class Statement(Entry, frozen=True, kw_only=True):
     """A true or a false statement, and why."""
 
-    text: Both
+    text: Passage
     true: bool
-    why: Both
+    why: Passage
 
 
 class FigureEntry(Entry, frozen=True, kw_only=True):
@@ -90,8 +84,8 @@ class FigureEntry(Entry, frozen=True, kw_only=True):
     figure: str
     values: dict[str, float] = {}
     quiz: bool = True
-    ask: Both
-    answer: Both
+    ask: Passage
+    answer: Passage
 
 
 KINDS: dict[str, type[Entry]] = {
@@ -107,12 +101,7 @@ KINDS: dict[str, type[Entry]] = {
 E = TypeVar("E", bound=Entry)
 
 
-def read(name: str) -> str:
-    """The text of a content file that ships with the package."""
-    return (files("quizgen.cards") / "content" / f"{name}.toml").read_text(encoding="utf-8")
-
-
-def load(source: str, kind: type[E], where: str) -> tuple[E, ...]:
+def load(source: str, kind: type[E], where: str, langs: tuple[str, ...] = ()) -> tuple[E, ...]:
     """Read entries.
 
     Parameters
@@ -123,6 +112,8 @@ def load(source: str, kind: type[E], where: str) -> tuple[E, ...]:
         What the entries are.
     where : str
         Name of the file, for errors.
+    langs : tuple of str
+        Languages that every passage must have.
 
     Raises
     ------
@@ -135,7 +126,7 @@ def load(source: str, kind: type[E], where: str) -> tuple[E, ...]:
         raise BankError(f"{where}: not valid TOML: {error}") from error
     if set(table) != {"entry"}:
         raise BankError(f"{where}: expected [[entry]] and nothing else, found {sorted(table)}")
-    found = tuple(_entry(row, kind, where) for row in table["entry"])
+    found = tuple(_entry(row, kind, where, langs) for row in table["entry"])
     names = [entry.id for entry in found]
     for name in names:
         if names.count(name) > 1:
@@ -143,25 +134,39 @@ def load(source: str, kind: type[E], where: str) -> tuple[E, ...]:
     return found
 
 
-def _entry(row: dict[str, Any], kind: type[E], where: str) -> E:
+def _entry(row: dict[str, object], kind: type[E], where: str, langs: tuple[str, ...]) -> E:
     try:
-        return msgspec.convert(row, kind)
+        entry = msgspec.convert(row, kind)
     except msgspec.ValidationError as error:
         allowed = ", ".join(sorted(field.encode_name for field in msgspec.structs.fields(kind)))
         hint = f" (allowed: {allowed})" if "unknown field" in str(error) else ""
         raise BankError(f"{where}: entry {row.get('id', '?')!r}: {error}{hint}") from error
+    for name in passages(kind):
+        for lang in langs:
+            if lang not in getattr(entry, name):
+                raise BankError(f"{where}: entry {entry.id!r}: {name}.{lang} is missing")
+    return entry
+
+
+def passages(kind: type[Entry]) -> list[str]:
+    """Names of the fields that are written in every language."""
+    return [field.name for field in msgspec.structs.fields(kind) if field.type == Passage]
 
 
 @cache
-def entries(name: str) -> tuple[Any, ...]:
-    """Entries of a content file, read once.
+def entries(bank: Bank, kind: type[E]) -> tuple[E, ...]:
+    """Entries of one kind, read once; none if the bank has no such file.
 
     Raises
     ------
     BankError
         Naming file, entry and key.
     """
-    return load(read(name), KINDS[name], f"{name}.toml")
+    (name,) = (name for name, entry in KINDS.items() if entry is kind)
+    if name not in bank.cards:
+        return ()
+    source = bank.cards[name].read_text(encoding="utf-8")
+    return load(source, kind, f"{name}.toml", bank.languages)
 
 
 def words(lang: str) -> dict[str, str]:
@@ -177,9 +182,9 @@ def passage(entry: Entry, name: str, lang: str) -> tuple[Block, ...]:
     BankError
         Naming entry, field, language and column.
     """
-    both: Both = getattr(entry, name)
+    texts: Passage = getattr(entry, name)
     try:
-        return fill_blocks(blocks(both.of(lang)), _printed, _no_program)
+        return fill_blocks(blocks(in_language(texts, lang, "")), _printed, _no_program)
     except BankError as error:
         raise BankError(f"card {entry.id!r}, {name}.{lang}: {error}") from error
 
@@ -192,9 +197,9 @@ def sentence(entry: Entry, name: str, lang: str) -> tuple[Inline, ...]:
     BankError
         Naming entry, field, language and column.
     """
-    both: Both = getattr(entry, name)
+    texts: Passage = getattr(entry, name)
     try:
-        return fill(inlines(both.of(lang)), _printed)
+        return fill(inlines(in_language(texts, lang, "")), _printed)
     except BankError as error:
         raise BankError(f"card {entry.id!r}, {name}.{lang}: {error}") from error
 

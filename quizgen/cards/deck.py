@@ -12,7 +12,7 @@ from quizgen.cards.note import Note
 from quizgen.cards.versions import version_of
 from quizgen.cards.wish import SEED, Wish
 from quizgen.errors import BankError
-from quizgen.locale import chosen, table
+from quizgen.locale import chosen
 
 
 @dataclass(frozen=True)
@@ -22,13 +22,12 @@ class Deck:
     Parameters
     ----------
     notes : tuple of Note
-    langs : tuple of str
-    seed : int
+    wish : Wish
+        What was asked for.
     """
 
     notes: tuple[Note, ...]
-    langs: tuple[str, ...] = ("en",)
-    seed: int = SEED
+    wish: Wish
 
     @property
     def cards(self) -> int:
@@ -39,11 +38,6 @@ class Deck:
     def media(self) -> Mapping[str, bytes]:
         """Media file name to content, each once."""
         return {picture.file: picture.data for note in self.notes for picture in note.media()}
-
-
-def known_topics() -> tuple[str, ...]:
-    """Topics by which a deck can be narrowed down."""
-    return tuple(table("en")["topic"])
 
 
 def build(
@@ -65,17 +59,18 @@ def build(
     seed : int
         Fixes the numbers of the worked questions.
     bank : Bank, optional
-        Where the questions come from; the built-in bank if left out.
+        Where content and questions come from; the built-in bank if left out.
 
     Raises
     ------
     BankError
         If a topic or a kind is unknown, or content is wrong.
     """
-    _check(topics, known_topics(), "topic")
+    bank = builtin() if bank is None else bank
+    _check(topics, bank.topics, "topic")
     _check(kinds, tuple(KINDS), "kind")
-    wish = Wish(chosen(lang), topics, seed, builtin() if bank is None else bank)
-    return Deck(tuple(_notes(wish, kinds or tuple(KINDS))), wish.langs, seed)
+    wish = Wish(chosen(lang, bank.languages), topics, seed, bank)
+    return Deck(tuple(_notes(wish, kinds or tuple(KINDS))), wish)
 
 
 def _check(names: tuple[str, ...], allowed: tuple[str, ...], what: str) -> None:
@@ -89,4 +84,4 @@ def _notes(wish: Wish, kinds: tuple[str, ...]) -> Iterator[Note]:
         if kind in kinds:
             for note in KINDS[kind](wish):
                 if wish.wants(note.topic):
-                    yield replace(note, version=version_of(note))
+                    yield replace(note, version=version_of(note, wish.bank), columns=wish.columns)

@@ -21,9 +21,8 @@ in the line and is described under ``with``::
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import pairwise
-from typing import Any
 
 from quizgen import typeset
 from quizgen.errors import BankError, FormulaError, RenderError
@@ -33,7 +32,11 @@ from quizgen.question.filling import Maths
 from quizgen.typeset.layout import SIGNS
 from quizgen.typeset.nodes import ATOM, PRODUCT, Big, Func, Ident, Number, Op, Row, Scripts
 
-Inside = Mapping[str, Mapping[str, Any]]
+Piece = Mapping[str, str | tuple[str, ...]]
+"""What describes a piece: one of the words above to a text or several."""
+
+Inside = Mapping[str, Piece]
+"""Letter in a line to the piece it stands for."""
 
 _SIGN = re.compile(r"\s(!=|<=|>=|[=<>≠≤≥∝≈→∈~≪≫⇒])\s")
 _SPELLED = {"!=": "≠", "<=": "≤", ">=": "≥"}
@@ -105,7 +108,7 @@ def inline(expr: Expr) -> Maths:
     return Maths(node, " ".join(_woven([to_text(end) for end in ends], signs)))
 
 
-def piece(table: Mapping[str, Any], inside: Inside) -> Maths:
+def piece(table: Piece, inside: Inside) -> Maths:
     """Print a piece that the grammar does not have.
 
     Raises
@@ -117,6 +120,20 @@ def piece(table: Mapping[str, Any], inside: Inside) -> Maths:
         if name in table:
             return make(table, {k: v for k, v in inside.items() if v is not table})
     raise RenderError(f"unknown piece {dict(table)!r} (there are {', '.join(_PIECES)})")
+
+
+def _text(table: Piece, name: str) -> str:
+    """One text of a description."""
+    (text,) = _texts(table, name)
+    return text
+
+
+def _texts(table: Piece, name: str) -> Sequence[str]:
+    """Texts of a description, of which there may be one."""
+    if name not in table:
+        raise RenderError(f"{name!r} is missing in {dict(table)!r}")
+    given = table[name]
+    return [given] if isinstance(given, str) else given
 
 
 def _part(text: str, inside: Inside) -> Maths:
@@ -133,9 +150,9 @@ def _woven(parts: list[str], signs: list[str]) -> Iterator[str]:
         yield from (sign, part)
 
 
-def _integral(table: Mapping[str, Any], inside: Inside) -> Maths:
-    body, over = _part(table["integral"], inside), table["over"]
-    bounds = [_part(table[end], inside) for end in ("low", "high") if end in table]
+def _integral(table: Piece, inside: Inside) -> Maths:
+    body, over = _part(_text(table, "integral"), inside), _text(table, "over")
+    bounds = [_part(_text(table, end), inside) for end in ("low", "high") if end in table]
     sign = Big("∫", *[bound.node for bound in bounds])
     factors = body.node.items if isinstance(body.node, Row) else (body.node,)
     small = Row((Op(" "), Ident("d"), typeset.name(over)))
@@ -143,34 +160,34 @@ def _integral(table: Mapping[str, Any], inside: Inside) -> Maths:
     return Maths(Row((sign, *factors, small), PRODUCT), f"∫ {ends}{body.typed} d{over}")
 
 
-def _apply(table: Mapping[str, Any], inside: Inside) -> Maths:
-    given = table["to"] if isinstance(table["to"], list) else [table["to"]]
-    parts = [_part(text, inside) for text in given]
-    head = table["apply"]
+def _apply(table: Piece, inside: Inside) -> Maths:
+    parts = [_part(text, inside) for text in _texts(table, "to")]
+    head = _text(table, "apply")
     node = Func(_letter({"letter": head}, inside).node, tuple(part.node for part in parts))
     return Maths(node, f"{head}({', '.join(part.typed for part in parts)})")
 
 
-def _tuple(table: Mapping[str, Any], inside: Inside) -> Maths:
-    parts = [_part(text, inside) for text in table["tuple"]]
+def _tuple(table: Piece, inside: Inside) -> Maths:
+    parts = [_part(text, inside) for text in _texts(table, "tuple")]
     typed = ", ".join(part.typed for part in parts)
     return Maths(typeset.fenced([part.node for part in parts]), f"({typed})")
 
 
-def _interval(table: Mapping[str, Any], inside: Inside) -> Maths:
-    parts = [_part(text, inside) for text in table["interval"]]
-    left, right = table["ends"]
-    typed = f"{left}{', '.join(part.typed for part in parts)}{right}"
-    return Maths(typeset.fenced([part.node for part in parts], table["ends"]), typed)
+def _interval(table: Piece, inside: Inside) -> Maths:
+    parts = [_part(text, inside) for text in _texts(table, "interval")]
+    ends = _text(table, "ends")
+    typed = f"{ends[0]}{', '.join(part.typed for part in parts)}{ends[1]}"
+    return Maths(typeset.fenced([part.node for part in parts], ends), typed)
 
 
-def _bold(table: Mapping[str, Any], inside: Inside) -> Maths:
+def _bold(table: Piece, inside: Inside) -> Maths:
     del inside
-    return Maths(Ident(table["bold"], bold=True), str(table["bold"]))
+    text = _text(table, "bold")
+    return Maths(Ident(text, bold=True), text)
 
 
-def _quadratic(table: Mapping[str, Any], inside: Inside) -> Maths:
-    vector, matrix = (_part(text, inside) for text in table["quadratic"])
+def _quadratic(table: Piece, inside: Inside) -> Maths:
+    vector, matrix = (_part(text, inside) for text in _texts(table, "quadratic"))
     held = typeset.bracketed(vector.node, ATOM)
     inverse = Scripts(matrix.node, None, typeset.negative(Number("1")))
     turned = typeset.power(held, Op("ᵀ"))
@@ -178,19 +195,19 @@ def _quadratic(table: Mapping[str, Any], inside: Inside) -> Maths:
     return Maths(node, f"({vector.typed})^T {matrix.typed}^-1 ({vector.typed})")
 
 
-def _accent(table: Mapping[str, Any], inside: Inside) -> Maths:
+def _accent(table: Piece, inside: Inside) -> Maths:
     del inside
-    name = f"{table['on']}_{table['accent']}"
+    name = f"{_text(table, 'on')}_{_text(table, 'accent')}"
     return Maths(typeset.name(name), name)
 
 
-def _letter(table: Mapping[str, Any], inside: Inside) -> Maths:
+def _letter(table: Piece, inside: Inside) -> Maths:
     del inside
-    text = table["letter"]
+    text = _text(table, "letter")
     return Maths(Ident(text) if len(text) == 1 else typeset.name(text), text)
 
 
-_PIECES: dict[str, Callable[[Mapping[str, Any], Inside], Maths]] = {
+_PIECES: dict[str, Callable[[Piece, Inside], Maths]] = {
     "integral": _integral,
     "apply": _apply,
     "tuple": _tuple,

@@ -8,13 +8,40 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
+import msgspec
+
 from quizgen.cards.content import words
-from quizgen.cards.note import FIELDS
-from quizgen.cards.versions import BASE, STEP, registry
+from quizgen.cards.note import field_name, field_names
+from quizgen.cards.versions import BASE, STEP
+from quizgen.locale import FIRST, language
 
 NAMES = {"basic": "Quizgen", "term": "Quizgen term", "cloze": "Quizgen formula"}
 FONT = "_qg_hind_siliguri.woff2"
 """Bangla font as a media file; the underscore tells Anki that note types use it."""
+
+
+Columns = tuple[str, ...]
+"""Languages that a note type has fields for."""
+
+Sides = list[tuple[str, str, str]]
+"""Name, front and back of each card."""
+
+
+class Listed(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """``looks.toml``: the languages of the plain note types, and version and digest of each."""
+
+    languages: tuple[str, ...]
+    looks: dict[str, tuple[int, str]]
+
+
+@cache
+def listed() -> Listed:
+    """Versions of the note types; ``python -m quizgen.cards.renew`` keeps them."""
+    return msgspec.toml.decode(_file("looks.toml"), type=Listed)
+
+
+def _file(name: str) -> str:
+    return (files("quizgen.cards") / name).read_text(encoding="utf-8")
 
 
 def identity(name: str) -> int:
@@ -25,24 +52,25 @@ def identity(name: str) -> int:
 
 def style() -> str:
     """The style sheet of every note type."""
-    return (files("quizgen.cards") / "card.css").read_text(encoding="utf-8")
+    return _file("card.css")
 
 
-def _both(name: str) -> str:
+def _each(name: str, columns: Columns) -> str:
     """A field in each language that is filled in."""
-    return (
-        f'{{{{#{name}}}}}<div lang="en">{{{{{name}}}}}</div>{{{{/{name}}}}}\n'
-        f'{{{{#{name} bn}}}}<div lang="bn">{{{{{name} bn}}}}</div>{{{{/{name} bn}}}}\n'
+    fields = {lang: field_name(name, lang) for lang in columns}
+    return "".join(
+        _if(field, f'<div lang="{lang}">{{{{{field}}}}}</div>') + "\n"
+        for lang, field in fields.items()
     )
 
 
-def _label(word: str, field: str) -> str:
+def _label(word: str, name: str, columns: Columns) -> str:
     """What is asked, in each language of the note."""
-    en, bn = (words(lang)[word] for lang in ("en", "bn"))
-    return (
-        f'<div class="qg-label">{{{{#{field}}}}}<span lang="en">{en}</span>{{{{/{field}}}}}'
-        f'{{{{#{field} bn}}}}<span lang="bn">{bn}</span>{{{{/{field} bn}}}}</div>\n'
+    asked = "".join(
+        _if(field_name(name, lang), f'<span lang="{lang}">{words(lang)[word]}</span>')
+        for lang in columns
     )
+    return f'<div class="qg-label">{asked}</div>\n'
 
 
 def _if(name: str, text: str) -> str:
@@ -57,65 +85,81 @@ _FOOT = _if("Source", '<footer class="qg-source">{{Source}}</footer>') + "\n"
 _RULE = '<hr id="answer">\n'
 
 
-def _basic() -> list[tuple[str, str, str]]:
-    front = _both("Front") + "{{Figure}}\n"
+def _basic(columns: Columns) -> Sides:
+    front = _each("Front", columns) + "{{Figure}}\n"
     work = _if("Work", '<div class="qg-work">{{Work}}</div>') + "\n"
-    back = f'<div class="qg-answer">{_both("Back")}</div>\n'
-    more = "{{Answer figure}}\n" + _both("More")
+    back = f'<div class="qg-answer">{_each("Back", columns)}</div>\n'
+    more = "{{Answer figure}}\n" + _each("More", columns)
     return [("Question", _card(front), _card(front + _RULE + back + work + more + _FOOT))]
 
 
-def _term() -> list[tuple[str, str, str]]:
-    term = '<div class="qg-term" lang="en">{{Term}}</div>\n'
-    bangla = '<div class="qg-term" lang="bn">{{Term bn}}</div>\n'
-    meaning, known = _both("Meaning"), _if("Term bn", bangla)
-    asked = _label("term", "Meaning") + term
-    named = _label("meaning", "Meaning") + meaning
-    english = f'<div class="qg-label"><span lang="bn">{words("bn")["bangla"]}</span></div>\n'
+def _term(columns: Columns) -> Sides:
+    term = f'<div class="qg-term" lang="{FIRST}">{{{{Term}}}}</div>\n'
+    named = {lang: _named(lang) for lang in columns if lang != FIRST}
+    meaning = _each("Meaning", columns)
+    known = "".join(_if(field_name("Term", lang), text) for lang, text in named.items())
+    asked = _label("term", "Meaning", columns) + term
+    told = _label("meaning", "Meaning", columns) + meaning
     return [
         ("Term", _card(asked), _card(asked + _RULE + meaning + known + _FOOT)),
-        ("Meaning", _card(named), _card(named + _RULE + term + known + _FOOT)),
-        (
-            "Bangla",
-            _if("Term bn", _card(english + bangla)),
-            _card(english + bangla + _RULE + term + meaning + _FOOT),
-        ),
+        ("Meaning", _card(told), _card(told + _RULE + term + known + _FOOT)),
+        *(_translated(lang, text, term + meaning) for lang, text in named.items()),
     ]
 
 
-def _cloze() -> list[tuple[str, str, str]]:
-    front = _label("formula", "Title") + _both("Title") + "{{cloze:Text}}\n"
-    return [("Formula", _card(front), _card(front + _RULE + _both("Extra") + _FOOT))]
+def _named(lang: str) -> str:
+    """The term in another language."""
+    return f'<div class="qg-term" lang="{lang}">{{{{{field_name("Term", lang)}}}}}</div>\n'
+
+
+def _translated(lang: str, named: str, back: str) -> tuple[str, str, str]:
+    """The card that asks for the English term; there is none if the field is empty."""
+    asked = f'<div class="qg-label"><span lang="{lang}">{words(lang)["in_english"]}</span></div>\n'
+    front = _if(field_name("Term", lang), _card(asked + named))
+    return language(lang).english, front, _card(asked + named + _RULE + back + _FOOT)
+
+
+def _cloze(columns: Columns) -> Sides:
+    front = _label("formula", "Title", columns) + _each("Title", columns) + "{{cloze:Text}}\n"
+    return [("Formula", _card(front), _card(front + _RULE + _each("Extra", columns) + _FOOT))]
 
 
 _TEMPLATES = {"basic": _basic, "term": _term, "cloze": _cloze}
 
 
+def name_of(form: str, columns: Columns) -> str:
+    """Name of a note type: short for the languages it was first made for, else with them."""
+    known = listed().languages
+    return NAMES[form] if columns == known else f"{NAMES[form]} ({', '.join(columns)})"
+
+
 @cache
-def note_type(form: str) -> dict[str, Any]:
+def note_type(form: str, columns: Columns) -> dict[str, Any]:
     """One note type in the form in which Anki stores it.
 
     Parameters
     ----------
     form : str
         A key of ``quizgen.cards.note.FIELDS``.
+    columns : tuple of str
+        Languages that it has fields for.
     """
-    templates = _TEMPLATES[form]()
+    templates, fields = _TEMPLATES[form](columns), field_names(form, columns)
     return {
-        "id": identity(NAMES[form]),
-        "name": NAMES[form],
+        "id": identity(name_of(form, columns)),
+        "name": name_of(form, columns),
         "type": int(form == "cloze"),
-        "mod": BASE + STEP * registry().get(f"looks/{form}", (1, ""))[0],
+        "mod": BASE + STEP * listed().looks[form][0],
         "usn": -1,
         "sortf": 1,
         "did": 1,
         "tmpls": [_template(i, *parts) for i, parts in enumerate(templates)],
-        "flds": [_field(i, name) for i, name in enumerate(FIELDS[form])],
+        "flds": [_field(i, name) for i, name in enumerate(fields)],
         "css": style(),
         "latexPre": "",
         "latexPost": "",
         "latexsvg": False,
-        "req": [[i, "any", list(range(1, len(FIELDS[form])))] for i in range(len(templates))],
+        "req": [[i, "any", list(range(1, len(fields)))] for i in range(len(templates))],
         "tags": [],
         "vers": [],
     }
@@ -123,7 +167,8 @@ def note_type(form: str) -> dict[str, Any]:
 
 def digest_of(form: str) -> str:
     """Digest of everything that a note type consists of."""
-    table = {key: value for key, value in note_type(form).items() if key != "mod"}
+    kind = note_type(form, listed().languages)
+    table = {key: value for key, value in kind.items() if key != "mod"}
     return hashlib.sha256(json.dumps(table, sort_keys=True).encode()).hexdigest()[:12]
 
 

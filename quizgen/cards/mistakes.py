@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Literal
 
@@ -22,6 +23,7 @@ from quizgen.cards.kinds.question import Pair, answer, front, once, section_of, 
 from quizgen.cards.note import Blocks, Note
 from quizgen.cards.prose import Label
 from quizgen.cards.versions import template_version
+from quizgen.cards.wish import Wish
 from quizgen.errors import KeyFileError
 from quizgen.locale import chosen
 from quizgen.paper.blueprint import load
@@ -83,7 +85,7 @@ def from_marks(path: Path, lang: str, *, bank: Bank, blueprint: str | None = Non
     bank : Bank
         The bank that the paper was made from.
     blueprint : str, optional
-        The blueprint's file, if it is not one that ships with the package.
+        The blueprint's file, if it is not one of the bank's.
 
     Raises
     ------
@@ -92,34 +94,34 @@ def from_marks(path: Path, lang: str, *, bank: Bank, blueprint: str | None = Non
     CodeError
         If the paper cannot be made again with this installation.
     """
-    langs = chosen(lang)
+    wish = Wish(chosen(lang, bank.languages), bank=bank)
     notes: dict[str, Note] = {}
     seed = 0
     for marked in read_marks(path):
         code = parse_code(marked.code)
         seed = max(seed, 0 if code.is_reference else int(code.seed))
-        paper = rebuild(bank, marked.code, load(blueprint) if blueprint else None)
-        for found in _notes(marked, paper, langs, path):
+        paper = rebuild(bank, marked.code, load(blueprint, bank) if blueprint else None)
+        for found in _notes(marked, paper, wish, path):
             notes.setdefault(found.key, found)
-    return Deck(tuple(notes.values()), langs, seed)
+    return Deck(tuple(notes.values()), replace(wish, seed=seed))
 
 
-def _notes(marked: Marked, paper: Paper, langs: tuple[str, ...], path: Path) -> Iterator[Note]:
+def _notes(marked: Marked, paper: Paper, wish: Wish, path: Path) -> Iterator[Note]:
     items = {item.number: item for item in paper.items}
     for part in marked.parts:
         if part.status in LOOKED_AT:
             if part.question not in items or _template(items[part.question]) != part.template:
                 raise KeyFileError(f"{path}: part {part.id!r} is not in the paper {marked.code}")
-            yield _note(part, items[part.question], langs, path)
+            yield _note(part, items[part.question], wish, path)
 
 
 def _template(item: Item) -> str:
     return item.keys[0].template
 
 
-def _note(part: MarkedPart, item: Item, langs: tuple[str, ...], path: Path) -> Note:
+def _note(part: MarkedPart, item: Item, wish: Wish, path: Path) -> Note:
     drawn = item.keys[0].draw
-    pairs = {lang: put_into_words(drawn, lang, number=item.number) for lang in langs}
+    pairs = {lang: put_into_words(drawn, lang, number=item.number) for lang in wish.langs}
     question, key = next(iter(pairs.values()))
     places = [i for i, one in enumerate(question.parts) if one.field.id == part.id]
     if not places:
@@ -132,15 +134,16 @@ def _note(part: MarkedPart, item: Item, langs: tuple[str, ...], path: Path) -> N
         form="basic",
         topic=question.topic,
         tier=question.tier,
-        section=section_of(rules.covers, question.topic),
+        section=section_of(wish.bank, rules.covers, question.topic),
         refs=(key.template,),
-        langs=langs,
+        langs=wish.langs,
+        columns=wish.columns,
         words={
             "Front": {lang: _front(pair, index, part, lang) for lang, pair in pairs.items()},
             "Back": once({lang: _back(pair, index, part, lang) for lang, pair in pairs.items()}),
         },
         shared=shared(pairs, index),
-        version=template_version(drawn.template),
+        version=template_version(drawn.template, wish.bank),
     )
 
 

@@ -1,8 +1,8 @@
 """A note: one fact to learn, in the languages asked for, and the cards that ask for it.
 
 A note has a *form*. ``basic`` asks a question and gives the answer; ``term`` asks term to meaning,
-meaning to term and Bangla to English; ``cloze`` hides sides of formulas. What stands in which field
-is decided here, once, for Anki and for tables alike.
+meaning to term and every other language to English; ``cloze`` hides sides of formulas. What stands
+in which field is decided here, once, for Anki and for tables alike.
 """
 
 from __future__ import annotations
@@ -13,22 +13,35 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from quizgen.cards.prose import Hole, Picture, Said, html, pictures, plain
+from quizgen.locale import FIRST, language
 
 Blocks = tuple[Any, ...]
 Words = Mapping[str, Blocks]
 """Language to blocks."""
 
-FIELDS: dict[str, tuple[str, ...]] = {
-    "basic": ("Key", "Front", "Front bn", "Figure", "Back", "Back bn", "Work", "Answer figure",
-              "More", "More bn", "Source"),
-    "term": ("Key", "Term", "Term bn", "Meaning", "Meaning bn", "Source"),
-    "cloze": ("Key", "Title", "Title bn", "Text", "Extra", "Extra bn", "Source"),
-}  # fmt: skip
-"""Form to the fields of its note type. English and Bangla have a field each, the rest is shared."""
+SAID = {"basic": ("Front", "Back", "More"), "term": ("Term", "Meaning"),
+        "cloze": ("Title", "Extra")}  # fmt: skip
+"""Form to the fields that every language has for itself."""
 
-BILINGUAL = {"basic": ("Front", "Back", "More"), "term": ("Term", "Meaning"),
-             "cloze": ("Title", "Extra")}  # fmt: skip
-FACES = {"basic": ("Question",), "term": ("Term", "Meaning", "Bangla")}
+FIELDS = {
+    "basic": ("Key", "Front", "Figure", "Back", "Work", "Answer figure", "More", "Source"),
+    "term": ("Key", "Term", "Meaning", "Source"),
+    "cloze": ("Key", "Title", "Text", "Extra", "Source"),
+}
+"""Form to the fields of its note type; those in ``SAID`` come once per language."""
+
+
+def field_name(name: str, lang: str) -> str:
+    """Name of a field in one language: ``Front``, ``Front bn``."""
+    return name if lang == FIRST else f"{name} {lang}"
+
+
+def field_names(form: str, columns: tuple[str, ...]) -> tuple[str, ...]:
+    """Fields of a note type that has fields for these languages, in order."""
+    said = SAID[form]
+    each = [[field_name(name, lang) for lang in columns] if name in said else [name]
+            for name in FIELDS[form]]  # fmt: skip
+    return tuple(field for names in each for field in names)
 
 
 @dataclass(frozen=True)
@@ -48,11 +61,15 @@ class Note:
     refs : tuple of str
         Curriculum ids, as tags.
     words : mapping
-        Field to language to blocks, for the fields in ``BILINGUAL``.
+        Field to language to blocks, for the fields in ``SAID``.
     shared : mapping
         Field to blocks that need no translation (formulas, figures).
     version : int
         Rises when the content changes.
+    langs : tuple of str
+        Languages asked for, the leading one first.
+    columns : tuple of str
+        Languages that the note type has fields for.
     """
 
     key: str
@@ -65,7 +82,8 @@ class Note:
     refs: tuple[str, ...] = ()
     shared: Mapping[str, Blocks] = field(default_factory=dict)
     version: int = 1
-    langs: tuple[str, ...] = ("en",)
+    langs: tuple[str, ...] = (FIRST,)
+    columns: tuple[str, ...] = (FIRST,)
 
     @property
     def guid(self) -> str:
@@ -93,11 +111,8 @@ class Note:
         main = self.langs[0]
         filled |= {name: html(blocks, main) for name, blocks in self.shared.items()}
         for name, words in self.words.items():
-            filled |= {
-                name if lang == "en" else f"{name} {lang}": html(blocks, lang)
-                for lang, blocks in words.items()
-            }
-        return tuple(filled.get(name, "") for name in FIELDS[self.form])
+            filled |= {field_name(name, lang): html(blocks, lang) for lang, blocks in words.items()}
+        return tuple(filled.get(name, "") for name in field_names(self.form, self.columns))
 
     def media(self) -> tuple[Picture, ...]:
         """Pictures on the note."""
@@ -109,7 +124,8 @@ class Note:
             holes = {part.number for part in self.shared["Text"] if isinstance(part, Hole)}
             return tuple(sorted(number - 1 for number in holes))
         if self.form == "term":
-            return (0, 1, 2) if "bn" in self.words["Term"] else (0, 1)
+            asked = [n for n, lang in enumerate(self._others(), 2) if lang in self.words["Term"]]
+            return (0, 1, *asked)
         return (0,)
 
     def sides(self) -> Iterator[tuple[str, Blocks, Blocks]]:
@@ -125,12 +141,16 @@ class Note:
             yield "Question", front, (*self.said("Back"), *shared, *self.said("More"))
 
     def _term_sides(self) -> Iterator[tuple[str, Blocks, Blocks]]:
-        term, meaning = self.words["Term"]["en"], self.said("Meaning")
-        bangla = self.words["Term"].get("bn", ())
-        yield "Term", term, (*meaning, *bangla)
-        yield "Meaning", meaning, (*term, *bangla)
-        if bangla:
-            yield "Bangla", bangla, (*term, *meaning)
+        terms, meaning = self.words["Term"], self.said("Meaning")
+        term, named = terms[FIRST], {lang: terms[lang] for lang in self._others() if lang in terms}
+        known = tuple(block for blocks in named.values() for block in blocks)
+        yield "Term", term, (*meaning, *known)
+        yield "Meaning", meaning, (*term, *known)
+        for lang, asked in named.items():
+            yield language(lang).english, asked, (*term, *meaning)
+
+    def _others(self) -> tuple[str, ...]:
+        return tuple(lang for lang in self.columns if lang != FIRST)
 
     def said(self, name: str) -> Blocks:
         """A field in every language of the note, one after the other."""

@@ -32,6 +32,7 @@ def rows(deck: Deck, *, rich: bool) -> Iterator[tuple[str, ...]]:
         HTML with MathJax instead of plain text.
     """
     for note in deck.notes:
+        home = deck_name(deck.wish.bank, note.topic)
         for name, front, back in note.sides():
             if rich:
                 main = note.langs[0]
@@ -39,7 +40,13 @@ def rows(deck: Deck, *, rich: bool) -> Iterator[tuple[str, ...]]:
             else:
                 sides = (side_text(front, ask=True), side_text(back, ask=False))
             number = f"{note.guid}-{name.lower()}"
-            yield number, deck_name(note.topic), note.kind, *sides, " ".join(note.tags)
+            yield (
+                number,
+                home,
+                note.kind,
+                *sides,
+                " ".join(note.tags),
+            )
 
 
 def tsv(deck: Deck) -> bytes:

@@ -1,9 +1,9 @@
 """Content versions: why a corrected card replaces the old one on re-import.
 
 Anki updates a note only if the incoming one was modified later. A deck that depends on nothing but
-its input cannot use the clock, so every note has a version: ``content/versions.toml`` lists, per
-note, its version and a digest of what stands on it. A test compares the digests; after a change,
-``python -m quizgen.cards.renew`` raises the versions of the notes that changed.
+its input cannot use the clock, so every note has a version: ``cards/versions.toml`` of the bank
+lists, per note, its version and a digest of what stands on it. A test compares the digests; after a
+change, ``python -m quizgen.cards.renew`` raises the versions of the notes that changed.
 
 A worked question counts its template's files instead: a template that is listed with another digest
 counts as one version newer until the list is written again.
@@ -15,9 +15,10 @@ import hashlib
 import tomllib
 from functools import cache
 
+from quizgen.bank.folder import Bank
 from quizgen.bank.template import Template
-from quizgen.cards.content import read
 from quizgen.cards.note import Note
+from quizgen.locale import FIRST
 
 BASE = 1_577_836_800
 """Modification time of version 0, 1 January 2020: earlier than any change a learner makes."""
@@ -34,22 +35,26 @@ Registry = dict[str, tuple[int, str]]
 
 
 @cache
-def registry() -> Registry:
-    """Note key to its version and digest, as committed."""
-    table = tomllib.loads(read(FILE))
+def registry(bank: Bank) -> Registry:
+    """Note key to its version and digest, as the bank lists them; nothing if it has no list."""
+    if FILE not in bank.cards:
+        return {}
+    table = tomllib.loads(bank.cards[FILE].read_text(encoding="utf-8"))
     return {key: (int(version), str(digest)) for key, (version, digest) in table.items()}
 
 
-def version_of(note: Note) -> int:
+def version_of(note: Note, bank: Bank) -> int:
     """Version of a note: as listed, or the one it came with."""
     if note.kind in DRAWN:
         return note.version
-    return registry().get(note.key, (note.version, ""))[0]
+    return registry(bank).get(note.key, (note.version, ""))[0]
 
 
-def template_version(template: Template) -> int:
+def template_version(template: Template, bank: Bank) -> int:
     """Version of a worked question, from the files of its template."""
-    version, digest = registry().get(f"question/{template.origin}", (template.rules.version, ""))
+    version, digest = registry(bank).get(
+        f"question/{template.origin}", (template.rules.version, "")
+    )
     return version + (bool(digest) and digest != template.digest[: len(digest)])
 
 
@@ -64,7 +69,7 @@ def modified(note: Note, seed: int) -> int:
 
 
 def _breadth(langs: tuple[str, ...]) -> int:
-    return 2 if len(langs) > 1 else int(langs != ("en",))
+    return 2 if len(langs) > 1 else int(langs != (FIRST,))
 
 
 def digest_of(note: Note) -> str:

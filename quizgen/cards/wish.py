@@ -8,6 +8,7 @@ from typing import Protocol
 
 from quizgen.bank.folder import Bank, builtin
 from quizgen.cards.note import Note
+from quizgen.locale import FIRST, languages
 
 SEED = 0
 
@@ -25,13 +26,22 @@ class Wish:
     seed : int
         Fixes the numbers of the worked questions.
     bank : Bank
-        Where the questions come from.
+        Where content and questions come from.
     """
 
-    langs: tuple[str, ...] = ("en",)
+    langs: tuple[str, ...] = (FIRST,)
     topics: tuple[str, ...] = ()
     seed: int = SEED
     bank: Bank = field(default_factory=builtin)
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Languages that notes have fields for: the bank's, whichever of them are asked for.
+
+        So a deck in one language and a later one in another meet in the same notes.
+        """
+        held = {FIRST, *self.bank.languages, *self.langs}
+        return tuple(lang for lang in languages() if lang in held)
 
     def wants(self, topic: str) -> bool:
         """Whether a topic is asked for."""

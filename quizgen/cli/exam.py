@@ -14,6 +14,7 @@ from quizgen.errors import CodeError
 from quizgen.locale import FIRST, choices
 
 if TYPE_CHECKING:
+    from quizgen.bank.folder import Bank
     from quizgen.paper.blueprint import Blueprint
     from quizgen.paper.paper import Paper
 
@@ -73,7 +74,7 @@ def _paper(options: Options) -> Paper:
     from quizgen.paper.paper import build, rebuild, reference_paper
 
     bank = open_bank(options)
-    blueprint = _blueprint(options)
+    blueprint = _blueprint(options, bank)
     if options["code"]:
         if options["seed"] is not None or options["lang"]:
             raise CodeError("--code already fixes seed and language; leave --seed and --lang out")
@@ -86,15 +87,15 @@ def _paper(options: Options) -> Paper:
     return build(bank, blueprint, seed, lang, progress=_tell)
 
 
-def _blueprint(options: Options) -> Blueprint:
+def _blueprint(options: Options, bank: Bank) -> Blueprint:
     from quizgen.paper.blueprint import EVERYTHING, load, of_topic, topics
 
     topic, minutes = options["topic"], options["minutes"]
     if topic is None and minutes is None:
-        return load(options["blueprint"])
+        return load(options["blueprint"], bank)
     if topic is not None:
-        checked("--topic", topic, topics())
-    return of_topic(topic or EVERYTHING, minutes or 0)
+        checked("--topic", topic, topics(bank))
+    return of_topic(bank, topic or EVERYTHING, minutes or 0)
 
 
 def _tell(name: str) -> None:

@@ -32,16 +32,21 @@ FIRST = "en"
 """The language that every other one falls back to, and the first in every list."""
 
 BOTH = "both"
-"""The choice of every language at once."""
+"""The choice of every language of a bank at once."""
 
 PLACES: list[Traversable] = [files(__name__)]
 """Folders that hold languages; one from outside is made known by adding its folder."""
 
 
 class Language(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
-    """What ``language.toml`` says: its own name, place in lists, ISO 15924 script."""
+    """What ``language.toml`` says.
+
+    ``name`` is the language in itself, ``english`` in English, ``order`` its place in lists,
+    ``script`` the ISO 15924 code of its letters.
+    """
 
     name: str
+    english: str
     order: int
     script: str
 
@@ -52,12 +57,19 @@ def languages() -> tuple[str, ...]:
 
 
 def choices() -> tuple[str, ...]:
-    """What can be chosen as the language of a paper: one, or all of them."""
+    """What can be chosen as the language of a paper: one, or all that the bank has."""
     return (*languages(), BOTH)
 
 
-def chosen(choice: str) -> tuple[str, ...]:
+def chosen(choice: str, held: tuple[str, ...]) -> tuple[str, ...]:
     """Languages of a choice, the leading one first.
+
+    Parameters
+    ----------
+    choice : str
+        One of ``choices()``.
+    held : tuple of str
+        The languages of the bank: what ``both`` stands for.
 
     Raises
     ------
@@ -65,7 +77,7 @@ def chosen(choice: str) -> tuple[str, ...]:
         Naming the languages there are.
     """
     one_of("language", choice, choices())
-    return languages() if choice == BOTH else (choice,)
+    return held if choice == BOTH else (choice,)
 
 
 @cache

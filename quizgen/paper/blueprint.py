@@ -10,7 +10,7 @@
     count = 5
     points = 2            # marks of each question, shared out over its parts (default: its own)
 
-``reference`` lists the templates that make up the notes' own paper. A topic name (``optics``), a
+``reference`` lists the templates that make up the notes' own paper. A topic's name (``optics``), a
 topic with minutes (``optics.45``) or ``all.90`` is a blueprint without a file: questions of that
 topic, tiers in turn, as many as the time allows.
 """
@@ -19,13 +19,13 @@ from __future__ import annotations
 
 import re
 import tomllib
-from importlib.resources import files
 from pathlib import Path
 
 import msgspec
 
+from quizgen.bank.folder import Bank, builtin
 from quizgen.errors import BlueprintError
-from quizgen.locale import languages, table, word
+from quizgen.locale import languages, word
 
 MOST_QUESTIONS = 200
 
@@ -53,50 +53,53 @@ class Blueprint(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     budget: int = 0
 
 
-def shipped() -> list[str]:
-    """Names of the blueprints that come with the package."""
-    folder = files("quizgen") / "blueprints"
-    return sorted(entry.name.removesuffix(".toml") for entry in folder.iterdir()
-                  if entry.name.endswith(".toml"))  # fmt: skip
-
-
 EVERYTHING = "all"
 
 
-def of_topic(topic: str, minutes: int = 0) -> Blueprint:
+def of_topic(bank: Bank, topic: str, minutes: int = 0) -> Blueprint:
     """Blueprint without a file: a topic (or ``all``), within a time (0: no limit)."""
     name = f"{topic}.{minutes}" if minutes else topic
-    key = "paper.chapter" if topic == EVERYTHING else f"topic.{topic}"
-    title = {lang: f"{word(lang, 'paper.exam')}: {word(lang, key)}" for lang in languages()}
+    title = {lang: f"{word(lang, 'paper.exam')}: {_subject(bank, topic, lang)}"
+             for lang in languages()}  # fmt: skip
     return Blueprint(title, (), None, (), name, name, topic, minutes)
 
 
-def topics() -> list[str]:
-    """Topic names, ``all`` last."""
-    return [*table("en")["topic"], EVERYTHING]
+def _subject(bank: Bank, topic: str, lang: str) -> str:
+    return bank.title(lang) if topic == EVERYTHING else bank.topic_title(topic, lang)
 
 
-def load(name_or_file: str) -> Blueprint:
-    """Load a shipped blueprint by name, a topic, or a file.
+def topics(bank: Bank) -> list[str]:
+    """Topic names of a bank, ``all`` last."""
+    return [*bank.topics, EVERYTHING]
+
+
+def load(name_or_file: str, bank: Bank | None = None) -> Blueprint:
+    """Load a bank's blueprint by name, a topic of the bank, or a file.
+
+    Parameters
+    ----------
+    name_or_file : str
+        For example ``mock``, ``optics.45`` or ``papers/week3.toml``.
+    bank : Bank, optional
+        The built-in bank if left out.
 
     Raises
     ------
     BlueprintError
         Naming file, key and what is allowed.
     """
-    path = Path(name_or_file)
-    topic = re.fullmatch(r"([a-z]+)(?:\.(\d{1,4}))?", name_or_file)
-    if topic and topic[1] in topics():
-        return of_topic(topic[1], int(topic[2] or 0))
-    if name_or_file in shipped():
-        source = (files("quizgen") / "blueprints" / f"{name_or_file}.toml").read_text("utf-8")
-        return _convert(source, name_or_file, f"blueprint {name_or_file}")
+    bank = builtin() if bank is None else bank
+    known = bank.blueprints
+    topic = re.fullmatch(r"(.+?)(?:\.(\d{1,4}))?", name_or_file)
+    if name_or_file not in known and topic and topic[1] in topics(bank):
+        return of_topic(bank, topic[1], int(topic[2] or 0))
+    path = known.get(name_or_file, Path(name_or_file))
     try:
         source = path.read_text(encoding="utf-8")
     except OSError as error:
-        known = ", ".join(shipped())
+        names = ", ".join(known) or "none"
         raise BlueprintError(
-            f"no blueprint {name_or_file!r} (shipped: {known}; or the path of a TOML file)"
+            f"no blueprint {name_or_file!r} (the bank has: {names}; or the path of a TOML file)"
         ) from error
     except UnicodeDecodeError as error:
         raise BlueprintError(f"{path}: {error}") from error

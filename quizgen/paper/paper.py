@@ -109,7 +109,7 @@ def build(
     ChoiceError
         If there is no such language, or the seed is out of range.
     """
-    langs = chosen(choice)
+    langs = chosen(choice, bank.languages)
     drawn = list(_draws(bank, blueprint, checked_seed(seed)))
     code = _code(blueprint, str(seed), choice, drawn)
     items = []
@@ -145,7 +145,7 @@ def rebuild(
         If it is not a code, or the templates behind it have changed since.
     """
     wanted = parse_code(code)
-    plan = blueprint or load(wanted.blueprint)
+    plan = blueprint or load(wanted.blueprint, bank)
     if wanted.is_reference:
         paper = reference_paper(bank, plan, wanted.choice, figures=figures, progress=progress)
     else:
@@ -179,7 +179,7 @@ def reference_paper(
     """
     if not blueprint.reference:
         raise BlueprintError(f"blueprint {blueprint.name!r} lists no reference questions")
-    langs = chosen(choice)
+    langs = chosen(choice, bank.languages)
     templates = [bank.template(name) for name in blueprint.reference]
     drawn = [instance(t, REFERENCE if t.rules.reference is not None else 0) for t in templates]
     items = []

@@ -15,7 +15,7 @@ def fitting(bank: Bank, wish: Wish) -> tuple[str, ...]:
         name for name in bank.paths
         if wish.topic in (None, bank.rules(name).topic)
         and wish.tier in (None, bank.rules(name).tier)
-        and wish.lang in bank.languages(name)
+        and wish.lang in bank.written_in(name)
     )  # fmt: skip
 
 

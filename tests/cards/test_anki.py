@@ -178,10 +178,10 @@ def test_a_second_language_joins_the_same_notes(lang, deck, packed, collection, 
 
 def test_a_new_look_arrives_with_a_re_import(deck, packed, collection, tmp_path, monkeypatch):
     bring_in(collection, packed, tmp_path)
-    better = {**looks.note_type("term"), "css": ".card { color: red; }"}
+    better = {**looks.note_type("term", deck.wish.columns), "css": ".card { color: red; }"}
     better["mod"] += 100_000
     monkeypatch.setattr(
-        apkg, "note_type", lambda form: better if form == "term" else looks.note_type(form)
+        apkg, "note_type", lambda form, of: better if form == "term" else looks.note_type(form, of)
     )
     bring_in(collection, package(deck), tmp_path)
     assert collection.models.by_name("Quizgen term")["css"] == better["css"]

@@ -56,9 +56,9 @@ def swapped(key):
 
 
 def text(note, name):
-    from quizgen.cards.note import FIELDS
+    from quizgen.cards.note import field_names
 
-    return note.fields()[FIELDS["basic"].index(name)]
+    return note.fields()[field_names("basic", note.columns).index(name)]
 
 
 def test_the_mistake_is_on_the_front_and_the_right_way_on_the_back(key, blueprint, bank, tmp_path):
@@ -104,7 +104,7 @@ def test_the_same_mistake_on_two_papers_is_one_note(bank, blueprint, tmp_path):
         name, typed = swapped(key)
         deck = from_marks(marked(key, {name: typed}, tmp_path), "en", bank=bank,
                           blueprint=blueprint)  # fmt: skip
-        assert deck.seed == seed
+        assert deck.wish.seed == seed
         guids |= {note.guid for note in deck.notes if "swapped" in note.key}
     assert len(guids) == 1
 

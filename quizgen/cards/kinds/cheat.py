@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from quizgen.cards.content import entries, passage
+from quizgen.cards.content import Cheat, entries, passage
 from quizgen.cards.note import Note
 from quizgen.cards.wish import Wish
 
 
 def notes(wish: Wish) -> Iterator[Note]:
     """One note per entry of the cheat sheet."""
-    for entry in entries("cheat"):
+    for entry in entries(wish.bank, Cheat):
         yield Note(
             key=f"cheat/{entry.id}",
             kind="cheat",

@@ -10,13 +10,14 @@ from quizgen.cards.content import Term, entries, passage, sentence, words
 from quizgen.cards.note import Blocks, Note
 from quizgen.cards.prose import Label
 from quizgen.cards.wish import Wish
+from quizgen.locale import FIRST
 
 LETTERS = "ABCD"
 
 
 def notes(wish: Wish) -> Iterator[Note]:
     """One note per term; the distractors are its neighbours, in a fixed order."""
-    terms: Sequence[Term] = entries("vocabulary")
+    terms = entries(wish.bank, Term)
     for entry in terms:
         options = choices(entry, terms)
         yield Note(
@@ -65,6 +66,6 @@ def _back(entry: Term, options: list[Term], lang: str) -> Blocks:
 
 
 def _name(entry: Term, lang: str) -> Blocks:
-    if lang == "en":
-        return sentence(entry, "term", "en")
-    return (*sentence(entry, "term", "en"), Words(" – "), *sentence(entry, "term", "bn"))
+    if lang == FIRST:
+        return sentence(entry, "term", lang)
+    return (*sentence(entry, "term", FIRST), Words(" – "), *sentence(entry, "term", lang))

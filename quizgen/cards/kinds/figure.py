@@ -13,7 +13,7 @@ from quizgen.cards.wish import Wish
 
 def notes(wish: Wish) -> Iterator[Note]:
     """One note per figure: the quiz version on the front, the full one on the back."""
-    for entry in entries("figures"):
+    for entry in entries(wish.bank, FigureEntry):
         yield Note(
             key=f"figure/{entry.id}",
             kind="figure",

@@ -18,7 +18,7 @@ from quizgen.typeset.nodes import Row
 
 def notes(wish: Wish) -> Iterator[Note]:
     """One note per formula; a formula of several lines hides them together or one by one."""
-    for entry in entries("formulas"):
+    for entry in entries(wish.bank, FormulaEntry):
         yield Note(
             key=f"formula/{entry.id}",
             kind="formula",

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from quizgen.bank.folder import Bank
 from quizgen.bank.prose import Items, Paragraph, Styled, Words
 from quizgen.bank.template import Template
-from quizgen.cards.content import entries, words
+from quizgen.cards.content import FormulaEntry, Term, entries, words
 from quizgen.cards.note import Blocks, Note
 from quizgen.cards.prose import Display, Fold, Label, Picture, Said
 from quizgen.cards.versions import template_version
@@ -50,7 +51,7 @@ def of_template(template: Template, wish: Wish) -> Iterator[Note]:
             form="basic",
             topic=rules.topic,
             tier=rules.tier,
-            section=section_of(rules.covers, rules.topic),
+            section=section_of(wish.bank, rules.covers, rules.topic),
             refs=tuple(dict.fromkeys((*rules.covers, template.id))),
             langs=wish.langs,
             words={
@@ -61,15 +62,15 @@ def of_template(template: Template, wish: Wish) -> Iterator[Note]:
                 "More": {lang: _more(key, index) for lang, (_, key) in pairs.items()},
             },
             shared=shared(pairs, index),
-            version=template_version(template),
+            version=template_version(template, wish.bank),
         )
 
 
-def section_of(covers: tuple[str, ...], topic: str) -> str:
+def section_of(bank: Bank, covers: tuple[str, ...], topic: str) -> str:
     """Section of the notes that a question belongs to: that of its formula, else of its topic."""
-    formulas = {entry.id: entry.section for entry in entries("formulas")}
+    formulas = {entry.id: entry.section for entry in entries(bank, FormulaEntry)}
     found = [formulas[ref] for ref in covers if ref in formulas]
-    by_topic = [entry.section for entry in entries("vocabulary") if entry.topic == topic]
+    by_topic = [entry.section for entry in entries(bank, Term) if entry.topic == topic]
     return str((found or by_topic or [""])[0])
 
 

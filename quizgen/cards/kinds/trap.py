@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from quizgen.cards.content import entries, passage, words
+from quizgen.cards.content import Trap, entries, passage, words
 from quizgen.cards.note import Note
 from quizgen.cards.prose import Label
 from quizgen.cards.wish import Wish
@@ -12,7 +12,7 @@ from quizgen.cards.wish import Wish
 
 def notes(wish: Wish) -> Iterator[Note]:
     """One note per trap."""
-    for entry in entries("traps"):
+    for entry in entries(wish.bank, Trap):
         yield Note(
             key=f"trap/{entry.id}",
             kind="trap",

@@ -13,7 +13,7 @@ from quizgen.cards.wish import Wish
 
 def notes(wish: Wish) -> Iterator[Note]:
     """One note per statement."""
-    for entry in entries("statements"):
+    for entry in entries(wish.bank, Statement):
         yield Note(
             key=f"truth/{entry.id}",
             kind="truth",

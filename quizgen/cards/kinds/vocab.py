@@ -1,19 +1,20 @@
-"""Vocabulary: term to meaning, meaning to term, Bangla to English."""
+"""Vocabulary: term to meaning, meaning to term, other languages to English."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from quizgen.bank.prose import Paragraph
-from quizgen.cards.content import entries, passage, sentence
+from quizgen.cards.content import Term, entries, passage, sentence
 from quizgen.cards.note import Note
 from quizgen.cards.wish import Wish
+from quizgen.locale import FIRST
 
 
 def notes(wish: Wish) -> Iterator[Note]:
     """One note per term; the English term is always there, because exams use it."""
-    for entry in entries("vocabulary"):
-        shown = ("en", *(lang for lang in wish.langs if lang != "en"))
+    for entry in entries(wish.bank, Term):
+        shown = (FIRST, *(lang for lang in wish.langs if lang != FIRST))
         yield Note(
             key=f"vocab/{entry.id}",
             kind="vocab",

@@ -1,0 +1,89 @@
+"""What a bank says about itself: ``templates/bank.toml`` and ``templates/curriculum.toml``.
+
+Both may be missing: a bank needs nothing but its templates.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import TypeVar
+
+import msgspec
+
+from quizgen.errors import BankError
+from quizgen.locale import FIRST
+
+S = TypeVar("S", bound=msgspec.Struct)
+
+_RANGE = re.compile(r"(\D+)(\d+)\.\.\1(\d+)")
+
+
+class About(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """What ``bank.toml`` says.
+
+    ``languages`` are those it is written in, ``title`` is the chapter's by language, and
+    ``topics`` are its topics in order, each with its title by language.
+    """
+
+    name: str = ""
+    languages: tuple[str, ...] = ()
+    title: dict[str, str] = {}
+    topics: dict[str, dict[str, str]] = {}
+
+
+class Curriculum(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """What there is to cover.
+
+    ``groups`` lists the items of each group, ``F01..F46`` being a row of numbers; ``figures``
+    says which item a figure covers; items past the curriculum are any of ``beyond`` and a number.
+    """
+
+    groups: dict[str, tuple[str, ...]] = {}
+    figures: dict[str, str] = {}
+    beyond: tuple[str, ...] = ()
+
+    @property
+    def inventory(self) -> Mapping[str, tuple[str, ...]]:
+        """Group to the names of its items, rows of numbers written out."""
+        return {
+            group: tuple(item for row in rows for item in _items(row))
+            for group, rows in self.groups.items()
+        }
+
+
+def _items(row: str) -> Iterator[str]:
+    match = _RANGE.fullmatch(row)
+    if match is None:
+        yield row
+        return
+    letters, first, last = match.groups()
+    for number in range(int(first), int(last) + 1):
+        yield f"{letters}{number:0{len(first)}d}"
+
+
+def read_struct(path: Path, kind: type[S]) -> S:
+    """Read one of a bank's files; a missing one is an empty one.
+
+    Raises
+    ------
+    BankError
+        Naming the file and the key.
+    """
+    if not path.is_file():
+        return kind()
+    try:
+        return msgspec.convert(tomllib.loads(path.read_text(encoding="utf-8")), kind)
+    except (OSError, UnicodeDecodeError) as error:
+        raise BankError(f"{path}: {error}") from error
+    except tomllib.TOMLDecodeError as error:
+        raise BankError(f"{path}: not valid TOML: {error}") from error
+    except msgspec.ValidationError as error:
+        raise BankError(f"{path}: {error}") from error
+
+
+def in_language(texts: Mapping[str, str], lang: str, otherwise: str) -> str:
+    """A text in a language, else in English, else something else."""
+    return texts.get(lang) or texts.get(FIRST) or otherwise
