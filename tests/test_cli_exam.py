@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import re
 import subprocess
 import sys
@@ -153,17 +152,29 @@ def test_a_full_disk_leaves_nothing_half_written(tmp_path, monkeypatch):
     assert {p.name: p.read_bytes() for p in tmp_path.iterdir()} == {"a.txt": b"old"}
 
 
-@pytest.mark.skipif(os.name == "nt", reason="signals differ")
-def test_an_interrupted_run_leaves_nothing(tmp_path):
-    import signal
+INTERRUPTED = """
+import signal, sys
+import quizgen.{module} as module
+def stopped(*arguments, **options):
+    signal.raise_signal(signal.SIGINT)
+    raise AssertionError("went on")
+module.{function} = stopped
+from quizgen.cli.main import main
+main(["exam", "--seed", "1", "--blueprint", "trial", "--format", "html", "--out", "o"])
+"""
+"""A run that is interrupted at a certain place."""
 
-    process = subprocess.Popen(
-        [sys.executable, "-m", "quizgen", "exam", "--seed", "1", "--out", "o"], cwd=tmp_path,
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, bufsize=1,
-    )  # fmt: skip
-    process.stderr.read(3)  # the first question is done, nineteen are to come
-    process.send_signal(signal.SIGINT)
-    _, errors = process.communicate(timeout=60)
-    assert process.returncode == 2
-    assert "Traceback" not in errors
-    assert not (tmp_path / "o").exists()
+
+@pytest.mark.parametrize(
+    ("module", "function"),
+    [("paper.paper", "put_into_words"), ("render", "render"), ("files", "_write_synced")],
+    ids=["composing", "rendering", "writing"],
+)
+def test_an_interrupted_run_leaves_nothing(tmp_path, module, function):
+    code = INTERRUPTED.format(module=module, function=function)
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True,
+                          text=True, check=False)  # fmt: skip
+    assert done.returncode == 2
+    assert "interrupted; nothing was written" in done.stderr
+    assert "Traceback" not in done.stderr
+    assert not [path for path in tmp_path.rglob("*") if path.is_file()]

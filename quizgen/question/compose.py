@@ -148,8 +148,9 @@ def put_into_words(
 ) -> tuple[Question, Key]:
     """Compose an instance that has already been drawn."""
     template = drawn.template
-    if lang not in template.texts:
-        raise BankError(f"template {template.id!r} is not written in {lang!r}")
+    if lang not in template.languages:
+        known = ", ".join(template.languages)
+        raise BankError(f"template {template.id!r} is not written in {lang!r} (only in {known})")
     built = tuple(build(drawn, index) for index in range(len(template.rules.part)))
     filler = Filler(drawn, lang, hidden=True)
     question = Question(

@@ -1,0 +1,52 @@
+"""Templates that are wrong in one way each, and what is said about them."""
+
+from __future__ import annotations
+
+import pytest
+
+from quizgen.audit.lint import lint
+from quizgen.bank.folder import Bank
+
+RULES = """
+topic = "colour"
+tier = "A"
+[draw]
+a = { pick = [1, 2, 3] }
+b = { pick = [4, 5, 6] }
+[[part]]
+answer = { kind = "choice", options = { yes = "a < b", no = "a > b" } }
+"""
+ENGLISH = "# T\nWe have {{ a }} and {{ b }}.\n\n## options\n- yes: Yes.\n- no: No.\n"
+
+
+def problems(folder, english, bangla):
+    template = folder / "templates" / "colour" / "one"
+    template.mkdir(parents=True)
+    (template / "template.toml").write_text(RULES)
+    (template / "en.md").write_text(english, "utf-8")
+    (template / "bn.md").write_text(bangla, "utf-8")
+    return lint(Bank(folder).template("one"), 5).problems
+
+
+def test_a_sound_template_has_no_problem(tmp_path):
+    assert problems(tmp_path, ENGLISH, ENGLISH) == []
+
+
+@pytest.mark.parametrize(
+    ("english", "bangla", "odd"),
+    [
+        ("Only {{ a }}.", "Only {{ b }}.", ["a", "b"]),
+        ("{{ a }} and {{ a }}.", "{{ a }} and {{ b }}.", ["b"]),
+        ("{{ a }} and {{ b }}.", "{{ a }}.", ["b"]),
+    ],
+    ids=["as many but others", "one twice", "one less"],
+)
+def test_languages_that_show_other_values_are_told_apart(tmp_path, english, bangla, odd):
+    rest = "\n\n## options\n- yes: Yes.\n- no: No.\n"
+    found = problems(tmp_path, f"# T\n{english}{rest}", f"# T\n{bangla}{rest}")
+    assert found == [f"en.md and bn.md do not show the same values: {odd}"]
+
+
+def test_languages_with_other_options_are_told_apart(tmp_path):
+    found = problems(tmp_path, ENGLISH, ENGLISH.replace("- no: No.", "- not: No."))
+    assert found == ["bn.md: section 'options' differs by ['no', 'not']"]

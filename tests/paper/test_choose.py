@@ -1,0 +1,107 @@
+"""Which templates a paper holds, and how many papers there are: counted by hand."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass, field
+from itertools import combinations
+from types import SimpleNamespace
+
+import pytest
+
+from quizgen.errors import BlueprintError
+from quizgen.paper.blueprint import Blueprint, SlotRule, of_topic
+from quizgen.paper.choose import choose, variety, weights
+
+
+@dataclass
+class Shelf:
+    """Rules without files: name to tier, topic, pool, minutes and what must stand apart."""
+
+    table: dict[str, dict[str, object]]
+    paths: dict[str, None] = field(init=False)
+
+    def __post_init__(self):
+        self.paths = dict.fromkeys(self.table)
+
+    def rules(self, name):
+        default = {"tier": "A", "topic": "optics", "pool": None, "minutes": 5, "apart": ()}
+        return SimpleNamespace(**{**default, **self.table[name]})
+
+    def origin(self, name):
+        return name
+
+
+def plan(*slots):
+    return Blueprint({"en": "x"}, slots, name="x")
+
+
+def test_the_place_and_the_seed_rank_the_templates():
+    shelf = Shelf({name: {} for name in "abcdef"})
+    for seed in range(5):
+        found = choose(shelf, plan(SlotRule(count=1)), seed)
+        ranks = {n: hashlib.sha256(f"choose/{seed}/1/0/{n}".encode()).digest() for n in "abcdef"}
+        assert found == [min(ranks, key=ranks.get)]
+
+
+def test_every_template_is_used_before_one_returns():
+    shelf = Shelf({name: {} for name in "abc"})
+    found = choose(shelf, plan(SlotRule(count=7)), 3)
+    assert sorted(found[:3]) == sorted(found[3:6]) == list("abc")
+
+
+def test_a_template_never_stands_beside_one_that_gives_it_away():
+    shelf = Shelf({"a": {"apart": ("b",)}, "b": {}, "c": {}})
+    for seed in range(20):
+        assert set(choose(shelf, plan(SlotRule(count=2)), seed)) != {"a", "b"}
+        assert len(set(choose(shelf, plan(SlotRule(templates=("a", "b"), count=2)), seed))) == 1
+
+
+def test_a_slot_keeps_to_tier_topic_and_list():
+    shelf = Shelf({"a": {"tier": "B"}, "b": {"topic": "noise"}, "c": {}, "d": {}})
+    assert choose(shelf, plan(SlotRule(tier="B")), 0) == ["a"]
+    assert choose(shelf, plan(SlotRule(topic="noise")), 0) == ["b"]
+    assert choose(shelf, plan(SlotRule(templates=("d",))), 0) == ["d"]
+    with pytest.raises(BlueprintError, match="slot 2: no template has tier C and topic any"):
+        choose(shelf, plan(SlotRule(), SlotRule(tier="C")), 0)
+
+
+def test_a_time_is_filled_and_never_exceeded():
+    shelf = Shelf({f"{t}{n}": {"tier": t, "minutes": 7} for t in "AB" for n in range(4)})
+    found = choose(shelf, of_topic("optics", 30), 1)
+    assert [name[0] for name in found] == ["A", "A", "B", "B"]
+    assert len(set(found)) == 4
+    assert len(choose(shelf, of_topic("all"), 1)) == 8
+    with pytest.raises(BlueprintError, match="fits the time"):
+        choose(shelf, of_topic("optics", 6), 1)
+
+
+@pytest.mark.parametrize(
+    ("pools", "count"), [((3,), 1), ((3,), 2), ((3, 4), 1), ((3, 4), 2), ((2, 3, 4), 2),
+                         ((2, 3), 3), ((3, 3), 5), ((1, 1, 5), 3)],
+)  # fmt: skip
+def test_papers_are_counted_as_sets_of_questions(pools, count):
+    """Every set of distinct questions in which the templates are used as evenly as can be."""
+    questions = [(name, n) for name, pool in enumerate(pools) for n in range(pool)]
+    least, most = count // len(pools), -(-count // len(pools))
+    even = [
+        chosen for chosen in combinations(questions, count)
+        if all(least <= sum(n == name for n, _ in chosen) <= most for name in range(len(pools)))
+    ]  # fmt: skip
+    shelf = Shelf({f"t{n}": {"pool": pool} for n, pool in enumerate(pools)})
+    assert variety(shelf, plan(SlotRule(count=count))) == len(even)
+
+
+def test_slots_multiply_and_a_template_without_numbers_is_one_question():
+    shelf = Shelf(
+        {"a": {"pool": 6, "tier": "A"}, "b": {"tier": "B"}, "c": {"pool": 5, "tier": "C"}}
+    )
+    slots = [SlotRule(tier=tier) for tier in "ABC"]
+    assert variety(shelf, plan(*slots)) == 30
+    assert variety(shelf, plan(slots[1])) == 1
+    assert variety(shelf, of_topic("optics")) == 0
+
+
+def test_the_marks_of_slots_go_to_their_questions():
+    found = weights(plan(SlotRule(count=2, points=4), SlotRule(), SlotRule(points=1.5)))
+    assert [next(found) for _ in range(5)] == [4, 4, None, 1.5, None]

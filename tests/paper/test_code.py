@@ -1,0 +1,103 @@
+"""A paper's code: what it says, what it pins, and what is refused."""
+
+from __future__ import annotations
+
+import hashlib
+import sys
+
+import pytest
+from small_bank import NAME, ONE, copied, fresh
+
+from quizgen.bank.draw import draw
+from quizgen.errors import ChoiceError, CodeError, QuizgenError
+from quizgen.paper.blueprint import load
+from quizgen.paper.code import Code, digest_of, parse_code
+from quizgen.paper.key import key_bytes
+from quizgen.paper.paper import build, rebuild
+
+
+def test_a_code_is_taken_apart_and_put_together():
+    code = parse_code("  my-own-plan-12-both-0a1b2c\n")
+    assert code == Code("my-own-plan", "12", "both", "0a1b2c")
+    assert str(code) == "my-own-plan-12-both-0a1b2c"
+    assert not code.is_reference
+    assert parse_code("mock-reference-en-0a1b2c").is_reference
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", "hello", "mock-12-en", "mock-12-en-0a1b2", "mock-12-en-0a1b2C", "mock-x-en-0a1b2c",
+     "mock--1-en-0a1b2c x", "mock-12345678901-en-0a1b2c", "-12-en-0a1b2c"],
+)  # fmt: skip
+def test_what_is_no_code_is_refused(text):
+    with pytest.raises(CodeError, match="not a paper's code"):
+        parse_code(text)
+
+
+def test_a_language_that_is_not_there_is_named():
+    with pytest.raises(CodeError, match=r"'fr' \(there are en, bn, both\)"):
+        parse_code("mock-12-fr-0a1b2c")
+
+
+def test_the_digest_is_of_engine_blueprint_and_template_files(bank):
+    template = bank.template(NAME)
+    text = f"1\nsource{NAME}:{template.digest}\n"
+    assert digest_of("source", [template]) == hashlib.sha256(text.encode()).hexdigest()[:6]
+
+
+@pytest.mark.parametrize("file", ["template.toml", "en.md", "bn.md", "solver"])
+def test_one_byte_in_a_file_behind_a_template_changes_the_code(tmp_path, file):
+    folder = copied(tmp_path)
+    code = build(fresh(tmp_path), ONE, 7, figures=False).code
+    assert rebuild(fresh(tmp_path), code, ONE, figures=False).code == code
+    solver = tmp_path / "solvers" / "projection" / "perspective.py"
+    path = solver if file == "solver" else folder / file
+    path.write_bytes(path.read_bytes() + b"\n")
+    for name in [name for name in sys.modules if name.startswith("_quizgen_solvers_")]:
+        del sys.modules[name]
+    assert build(fresh(tmp_path), ONE, 7, figures=False).code != code
+    with pytest.raises(CodeError, match="other templates or another version"):
+        rebuild(fresh(tmp_path), code, ONE, figures=False)
+
+
+def test_a_file_beside_the_template_changes_nothing(tmp_path):
+    folder = copied(tmp_path)
+    code = build(fresh(tmp_path), ONE, 7, figures=False).code
+    (folder / "notes.md").write_text("not prose of any language")
+    assert build(fresh(tmp_path), ONE, 7, figures=False).code == code
+
+
+def test_a_value_is_the_documented_hash(bank):
+    """docs/papers.md: origin/version/seed/slot/variable/try, eight bytes, modulo the candidates."""
+    template = bank.template(NAME)
+    listed = {
+        "f": range(2, 7),
+        "p_x": [n for n in range(-15, 16) if n],
+        "p_y": [n for n in range(-15, 16) if n],
+        "p_z": range(2, 13),
+    }
+    for seed in (0, 9, 123456):
+        one = draw(template, seed, 3)
+        for name, values in listed.items():
+            key = f"A3/1/{seed}/3/{name}/{one.tries - 1}"
+            first = int.from_bytes(hashlib.sha256(key.encode()).digest()[:8], "big")
+            assert one.shown[name] == values[first % len(values)], (seed, name)
+
+
+@pytest.mark.parametrize("seed", [-1, 10**9 + 1, "x", "5", 1.0, True, None])
+def test_a_wrong_seed_is_named_with_what_is_allowed(bank, seed):
+    with pytest.raises(ChoiceError, match=r"seed: .*whole numbers from 0 to 1000000000"):
+        build(bank, load("trial"), seed)
+
+
+@pytest.mark.parametrize("choice", ["fr", "", 7, None, ["en"]])
+def test_a_wrong_language_is_named_with_what_is_allowed(bank, choice):
+    with pytest.raises(ChoiceError, match=r"language: .*\(allowed: en, bn, both\)") as caught:
+        build(bank, load("trial"), 1, choice)
+    assert isinstance(caught.value, QuizgenError)
+    assert isinstance(caught.value, ValueError)
+
+
+def test_the_largest_seed_can_be_built_again(bank):
+    paper = build(bank, ONE, 10**9, figures=False)
+    assert key_bytes(rebuild(bank, paper.code, ONE, figures=False)) == key_bytes(paper)

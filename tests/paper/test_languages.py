@@ -1,0 +1,116 @@
+"""A language is a folder: papers, keys, forms and commands take one up without any Python."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+from small_bank import ONE, copied, fresh
+
+from quizgen import locale
+from quizgen.locale import choices, chosen, languages
+from quizgen.paper.blueprint import of_topic
+from quizgen.paper.code import parse_code
+from quizgen.paper.form import form_bytes, read_answers
+from quizgen.paper.key import key_bytes, read_key
+from quizgen.paper.marking import mark_paper
+from quizgen.paper.paper import build, rebuild
+from quizgen.render import KINDS, RENDERERS, render
+
+SHIPPED = Path(locale.__file__).parent
+
+
+def grown(root: Path) -> Path:
+    """A folder with one more language, Pig Latin; its words are the English ones, marked."""
+    folder = root / "locale" / "pig"
+    shutil.copytree(SHIPPED / "en", folder)
+    (folder / "language.toml").write_text('name = "Pig"\norder = 9\nscript = "Latn"\n')
+    words = (folder / "interface.toml").read_text("utf-8")
+    (folder / "interface.toml").write_text(words.replace('"Mock exam"', '"Ockmay examay"'), "utf-8")
+    return folder.parent
+
+
+@pytest.fixture
+def pig(tmp_path, monkeypatch):
+    """A bank that is written in three languages, one of which lies outside the package."""
+    folder = copied(tmp_path)
+    text = (folder / "en.md").read_text("utf-8")
+    (folder / "pig.md").write_text(text.replace("A pinhole camera", "A inholepay"), "utf-8")
+    monkeypatch.setattr(locale, "PLACES", [*locale.PLACES, grown(tmp_path)])
+    return tmp_path
+
+
+def test_a_language_is_found_and_can_be_chosen(pig):
+    assert languages() == ("en", "bn", "pig")
+    assert choices() == ("en", "bn", "pig", "both")
+    assert chosen("pig") == ("pig",)
+    assert chosen("both") == ("en", "bn", "pig")
+    assert of_topic("optics").title["pig"].startswith("Ockmay examay")
+
+
+@pytest.mark.parametrize("choice", ["pig", "both"])
+def test_a_paper_is_made_printed_kept_and_marked_in_it(pig, tmp_path, choice):
+    paper = build(fresh(pig), ONE, 3, choice)
+    assert parse_code(paper.code).choice == choice
+    assert rebuild(fresh(pig), paper.code, ONE).code == paper.code
+    printed = {name: render(paper, kind, name) for name in RENDERERS for kind in KINDS}
+    assert "A inholepay" in printed["html"].decode()
+    assert printed["pdf"].startswith(b"%PDF")
+    key, form = tmp_path / "key.json", tmp_path / "answers.toml"
+    key.write_bytes(key_bytes(paper))
+    form.write_bytes(form_bytes(paper))
+    assert json.loads(key.read_text())["langs"] == list(paper.langs)
+    assert tomllib.loads(form.read_text())["student"]["lang"] == paper.langs[0]
+    result = mark_paper(read_key(key), {"1": "((("}, "pig")
+    assert result.parts[0].verdict.message == mark_paper(
+        read_key(key), {"1": "((("}, "en"
+    ).parts[0].verdict.message  # fmt: skip
+    assert read_answers(form).blank
+
+
+COMMAND = """
+import sys
+from pathlib import Path
+from quizgen import locale
+locale.PLACES.append(Path(sys.argv[1]))
+from quizgen.cli.main import main
+main(sys.argv[2:])
+"""
+
+
+def command(places, *arguments):
+    return subprocess.run([sys.executable, "-c", COMMAND, places, *arguments], text=True,
+                          capture_output=True, check=False, input="!\n" * 9)  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["preview", "point-to-image-plane"],
+        ["practice", "--count", "1", "--fresh"],
+        ["exam", "--topic", "projection", "--format", "html"],
+    ],
+    ids=lambda a: a[0],
+)
+def test_commands_offer_it(pig, tmp_path, arguments, monkeypatch):
+    monkeypatch.setenv("HOME", str(tmp_path))
+    monkeypatch.chdir(tmp_path)
+    bank = ["--lang", "pig", "--bank", str(pig), "--trust"]
+    done = command(str(pig / "locale"), *arguments, *bank)
+    assert done.returncode == 0, done.stderr
+    page = tmp_path / "exam" / "exam.html"
+    assert "A inholepay" in done.stdout + (page.read_text("utf-8") if page.exists() else "")
+
+
+def test_without_its_folder_it_is_refused(tmp_path):
+    done = subprocess.run(
+        [sys.executable, "-m", "quizgen", "exam", "--lang", "pig"],
+        capture_output=True, text=True, check=False, cwd=tmp_path,
+    )  # fmt: skip
+    assert done.returncode == 2
+    assert "'pig' is not one of 'en', 'bn', 'both'" in done.stderr
