@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
-Numbers = NDArray[np.integer[Any]] | NDArray[np.floating[Any]]
+Numbers = NDArray[np.integer] | NDArray[np.floating]
 
 
-def rounded(values: NDArray[np.floating[Any]]) -> NDArray[np.uint8]:
+def rounded(values: NDArray[np.floating]) -> NDArray[np.uint8]:
     """8-bit codes of values in [0, 255]: clipped, halves rounded upward (as OpenCV's demosaicing).
 
     Nothing is truncated (errata EC8) and nothing wraps (errata E21).

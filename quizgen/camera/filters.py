@@ -12,7 +12,6 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import cache
 from types import ModuleType
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,7 +60,7 @@ def everywhere_alike() -> Iterator[None]:
 
 @cache
 def _opencv_remap_is_exact() -> bool:
-    cv2: Any = opencv()
+    cv2 = opencv()
     if cv2 is None:
         return False
     ramp = np.array([[0.0, 1.0], [0.0, 1.0]], np.float32)
@@ -85,7 +84,7 @@ def convolve(image: Image, kernel: NDArray[np.float64]) -> Image:
     kernel : numpy.ndarray
         Odd-sized, non-negative.
     """
-    cv2: Any = opencv()
+    cv2 = opencv()
     if kernel.size == 1:
         return image
     if cv2 is not None and goes_by_slabs(kernel):
@@ -108,7 +107,7 @@ def goes_by_slabs(kernel: NDArray[np.float64]) -> bool:
     return bool(np.count_nonzero(kernel) <= _DIRECT_TAPS)
 
 
-def _convolve_by_slabs(cv2: Any, image: Image, kernel: NDArray[np.float64]) -> Image:
+def _convolve_by_slabs(cv2: ModuleType, image: Image, kernel: NDArray[np.float64]) -> Image:
     """A few kernel rows at a time, so few that OpenCV sums directly."""
     result, reach = np.empty_like(image), kernel.shape[0] // 2
 
@@ -127,7 +126,7 @@ def _rows(image: Image, start: int, stop: int) -> Image:
     return image[np.clip(np.arange(start, stop), 0, len(image) - 1)]
 
 
-def _by_slabs(cv2: Any, rows: Image, kernel: NDArray[np.float64], count: int) -> Image:
+def _by_slabs(cv2: ModuleType, rows: Image, kernel: NDArray[np.float64], count: int) -> Image:
     """``count`` rows of the result from ``count + len(kernel) - 1`` rows."""
     total = np.zeros((count, *rows.shape[1:]), np.float32)
     high = max(1, _DIRECT_AREA // kernel.shape[1])
@@ -189,7 +188,7 @@ def sample(image: Image, x: Image, y: Image) -> Image:
     x, y : numpy.ndarray
         Shape (H', W'), positions in px from the centre of the first pixel.
     """
-    cv2: Any = opencv()
+    cv2 = opencv()
     if cv2 is not None and _opencv_remap_is_exact() and max(image.shape[:2]) < 2**15:
         flags = {"borderMode": cv2.BORDER_REPLICATE}
         found = cv2.remap(image, x, y, cv2.INTER_LINEAR, **flags)
@@ -216,7 +215,7 @@ def _sample_rows(image: Image, x: Image, y: Image) -> Image:
     return np.asarray(above * (1 - down) + below * down, np.float32)
 
 
-def sample_nearest(image: NDArray[Any], x: Image, y: Image) -> NDArray[Any]:
+def sample_nearest(image: Image, x: Image, y: Image) -> Image:
     """Read an image at the pixels nearest to fractional positions."""
     height, width = image.shape[:2]
     column = np.clip(np.floor(x + np.float32(0.5)).astype(np.intp), 0, width - 1)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from quizgen.figures._pen import INK, LINE, THIN, Pen, Point
 from quizgen.png import encode
 
 if TYPE_CHECKING:
+    import numpy as np
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
@@ -16,7 +17,7 @@ Box = tuple[float, float, float, float]
 LETTERS = "ABCD"
 
 
-def place(figure: Figure, pen: Pen, codes: NDArray[Any], box: Box) -> None:
+def place(figure: Figure, pen: Pen, codes: NDArray[np.uint8], box: Box) -> None:
     """Put a photograph into a box of the figure and frame it."""
     from quizgen.figures._picture import Picture
 

@@ -7,11 +7,12 @@ pixels are the same on every machine. An edit of the colours changes the palette
 
 from __future__ import annotations
 
-from colorsys import hsv_to_rgb
 from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
+
+from quizgen.arrays.hsv import to_rgb
 
 Colour = tuple[int, int, int]
 Hsv = tuple[float, float, float]
@@ -46,16 +47,14 @@ _COLOURS: tuple[Hsv, ...] = (
 )
 
 
-def _byte(x: float) -> int:
-    return int(x * 255 + 0.5)
+def _palette() -> tuple[Colour, ...]:
+    hues, saturations, values = np.array(_COLOURS).T
+    channels = np.stack(to_rgb(hues * 360, saturations, values), axis=1)
+    codes = (channels * 255 + 0.5).astype(int).tolist()
+    return tuple((red, green, blue) for red, green, blue in codes)
 
 
-def _rgb(hsv: Hsv) -> Colour:
-    red, green, blue = hsv_to_rgb(*hsv)
-    return (_byte(red), _byte(green), _byte(blue))
-
-
-PALETTE: tuple[Colour, ...] = tuple(_rgb(hsv) for hsv in _COLOURS)
+PALETTE = _palette()
 """Colours of the unedited scene."""
 
 

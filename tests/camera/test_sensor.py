@@ -9,7 +9,10 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from quizgen.camera import Camera, Scene, View, luminosity, pictures, simulate
+from quizgen.arrays.gamma import encode as power_encode
+from quizgen.arrays.gamma import srgb_encode
+from quizgen.arrays.hsv import to_hsv
+from quizgen.camera import Camera, Scene, View, pictures, simulate
 from quizgen.camera.codes import histogram, rounded
 from quizgen.camera.effects import (
     blooming,
@@ -28,7 +31,7 @@ from quizgen.camera.effects.normalisation import stretch_range
 from quizgen.camera.facts import DEVIATIONS, EXCEEDED
 from quizgen.camera.hsv import hsv_to_rgb, rgb_to_hsv
 from quizgen.camera.noise import POISSON_GAP, stream
-from quizgen.camera.power import encode, encode_by_table
+from quizgen.camera.power import encode, encode_by_table, encode_number
 
 
 def flat(level, size=300):
@@ -256,6 +259,28 @@ def test_hsv_against_colorsys():
         assert back == pytest.approx(colour, abs=2e-6)
 
 
+def test_hsv_is_that_of_the_array_functions():
+    """The short way in single precision against the stable one, on the circle of hues."""
+    ours = rgb_to_hsv(colours())[0].astype(float)
+    hue, saturation, value = (np.ma.filled(x, 0.0) for x in to_hsv(*colours()[0].astype(float).T))
+    turn = np.abs(ours[:, 0] - hue)
+    assert np.minimum(turn, 360 - turn).max() < 4e-3
+    assert np.abs(ours[:, 1] - saturation).max() < 2e-6
+    assert np.abs(ours[:, 2] - value).max() < 1e-7
+
+
+@pytest.mark.parametrize(
+    ("gamma", "reference"), [("srgb", srgb_encode), (2.2, lambda x: power_encode(x, 2.2))]
+)
+def test_tone_curves_are_those_of_the_array_functions(gamma, reference):
+    values = np.random.default_rng(1).random(5000).astype(np.float32) ** 3
+    exact = np.asarray(reference(values.astype(float)))
+    assert np.abs(encode(values, gamma) - exact).max() < 3e-7
+    assert [encode_number(float(x), gamma) for x in values[:50]] == pytest.approx(
+        exact[:50], abs=1e-15
+    )
+
+
 def test_hsv_edits_of_the_notes():
     """(0.2, 0.8, 0.4) is 140 deg; +120 deg swaps to (0.4, 0.2, 0.8); S x 0.2 is (0.68, 0.8, 0.72)."""
     colour = np.float32([[[0.2, 0.8, 0.4]]])
@@ -295,19 +320,3 @@ def test_normalisation_of_the_notes():
 def test_histogram_of_codes_has_one_bin_per_level():
     codes = np.arange(256, dtype=np.uint8).reshape(16, 16)
     assert histogram(codes, top=255).tolist() == [1] * 256
-
-
-def test_luminosity():
-    """V(700) = 0.004102: a green line at 555 nm looks 244 times as bright (errata E01)."""
-    assert 1 / luminosity.photopic(700) == pytest.approx(243.8, abs=0.05)
-    assert luminosity.photopic([400, 532, 555]).tolist() == [0.000396, 0.885, 1.0]
-    assert luminosity.scotopic(507) == 1.0
-    assert luminosity.scotopic(780) == 1.39e-7
-    with pytest.raises(ValueError, match="380"):
-        luminosity.photopic(800)
-
-
-def test_luminosity_sums_to_the_published_integral():
-    """Sum of V at 1 nm, 360-830 nm: 106.856917; the 10 nm table misses by its interpolation."""
-    grid = np.arange(380, 781)
-    assert luminosity.photopic(grid).sum() == pytest.approx(106.857, abs=0.15)
