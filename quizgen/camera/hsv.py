@@ -49,13 +49,6 @@ def _hsv_part(colours: Image) -> Image:
     return np.stack([hue, saturation, value], axis=1)
 
 
-def hsv_to_rgb(image: Image) -> Image:
-    """Inverse of `rgb_to_hsv`; any finite hue in degrees, taken modulo 360."""
-    turned = image.copy()
-    np.mod(turned[..., 0], np.float32(360.0), out=turned[..., 0])
-    return _to_rgb(turned)
-
-
 def _to_rgb(image: Image) -> Image:
     """Colours of hues in [0, 720) degrees."""
     cv2 = opencv()

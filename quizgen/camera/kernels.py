@@ -135,9 +135,3 @@ def change(
         paired = np.where((down > 0) & (across > 0), across * jump[0] + down * jump[1], paired)
     elsewhere = 1.0 - kernel[kernel.shape[0] // 2, kernel.shape[1] // 2]
     return float(min((kernel * paired).sum(), elsewhere * span))
-
-
-def radius(kernel: Kernel) -> tuple[float, float]:
-    """Mean distance a kernel fetches light from, along (x, y), in px."""
-    down, across = offsets(kernel)
-    return float((kernel * across).sum()), float((kernel * down).sum())
