@@ -25,7 +25,6 @@ from quizgen.locale import languages
 from quizgen.marking.mark import mark, show
 from quizgen.marking.specs import AnySpec
 from quizgen.maths.numbers import to_float
-from quizgen.paper.marking import SELF_MARKED
 from quizgen.question.compose import identity, put_into_words
 from quizgen.question.contract import Built
 from quizgen.question.filling import plain
@@ -197,7 +196,7 @@ def _marked(one: Draw, parts: list[Built[Any]], lang: str) -> Iterator[str]:
         where = f"seed {one.seed}, {lang}, part {label or '1'}"
         typed = show(part.spec, lang)
         verdict = mark(part.spec, typed, lang=lang, decimal="point")
-        if verdict.verdict != "correct" and verdict.note not in SELF_MARKED:
+        if verdict.verdict != "correct" and not verdict.self_marked:
             yield f"{where}: printed answer {typed!r} is marked {verdict.verdict} ({verdict.note})"
         for trap, wrong in part.mistakes.items():
             yield from _trap_problems(part.spec, trap, show(wrong, lang), where, lang)

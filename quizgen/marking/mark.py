@@ -7,13 +7,13 @@ student types never raises: it becomes a ``Verdict``. Neither SymPy nor NumPy is
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 from quizgen.errors import KeyFileError
-from quizgen.marking.kinds import KINDS, kind_module
+from quizgen.marking.kinds import KINDS
+from quizgen.marking.kinds.contract import Kind
 from quizgen.marking.messages import say
 from quizgen.marking.options import DECIMALS, Context, Options
-from quizgen.marking.specs import AnySpec, decode
+from quizgen.marking.specs import Table, decode
 from quizgen.marking.verdict import Verdict, ambiguous, unreadable, with_words
 from quizgen.maths.notation import ReadError
 
@@ -21,7 +21,7 @@ TWO_READINGS = frozenset({"comma-twice", "two-readings"})
 """Reasons for asking back that are not the learner's slip: the text can be read in two ways."""
 
 
-def load_spec(spec: Mapping[str, Any]) -> AnySpec:
+def load_spec(spec: Table) -> Kind:
     """Read and validate a spec table.
 
     Raises
@@ -32,11 +32,11 @@ def load_spec(spec: Mapping[str, Any]) -> AnySpec:
     name = spec.get("kind")
     if not isinstance(name, str) or name not in KINDS:
         raise KeyFileError(f"spec.kind: unknown kind {name!r}; known: {', '.join(KINDS)}")
-    return decode(kind_module(name).Spec, spec)
+    return decode(KINDS[name], spec)
 
 
 def mark(
-    spec: Mapping[str, Any] | AnySpec,
+    spec: Table | Kind,
     typed: str,
     *,
     lang: str = "en",
@@ -48,8 +48,8 @@ def mark(
 
     Parameters
     ----------
-    spec : mapping
-        The answer's spec: ``{"kind": "number", "value": "20/3", "decimals": 3}``.
+    spec : mapping or Kind
+        The answer's spec: ``{"kind": "number", "value": "20/3", "decimals": 3}``, or its struct.
     typed : str
         What the student typed.
     lang : str
@@ -73,29 +73,27 @@ def mark(
     """
     if decimal not in DECIMALS:
         raise KeyFileError(f"decimal: {decimal!r} is not one of {', '.join(DECIMALS)}")
-    table = load_spec(spec) if isinstance(spec, Mapping) else spec
-    return explained(table, judge(table, typed, Options(lang, decimal, context, settle)), lang)
+    kind = load_spec(spec) if isinstance(spec, Mapping) else spec
+    return explained(kind, judge(kind, typed, Options(lang, decimal, context, settle)), lang)
 
 
-def judge(spec: AnySpec, typed: str, options: Options) -> Verdict:
+def judge(spec: Kind, typed: str, options: Options) -> Verdict:
     """Return the language-free verdict of one answer."""
     try:
-        verdict: Verdict = kind_module(spec.kind).check(spec, typed, options)
+        return spec.judge(typed, options)
     except ReadError as error:
         return _asked_back(error)
-    return verdict
 
 
 def _asked_back(error: ReadError) -> Verdict:
     note = error.code
     if error.code == "unknown-unit" and error.expected:
         note = "unknown-unit-case"
-    fields: dict[str, Any] = {"found": error.found, "expected": error.expected}
     asked = ambiguous if note in TWO_READINGS else unreadable
-    return asked(note, column=error.column or 1, **fields)
+    return asked(note, column=error.column or 1, found=error.found, expected=error.expected)
 
 
-def explained(spec: AnySpec, verdict: Verdict, lang: str) -> Verdict:
+def explained(spec: Kind, verdict: Verdict, lang: str) -> Verdict:
     """Put the verdict's note into words of a language."""
     if not verdict.note and not verdict.cells:
         return verdict
@@ -103,14 +101,14 @@ def explained(spec: AnySpec, verdict: Verdict, lang: str) -> Verdict:
     return with_words(verdict, _sentence(spec, verdict, lang), cells)
 
 
-def _sentence(spec: AnySpec, verdict: Verdict, lang: str) -> str:
+def _sentence(spec: Kind, verdict: Verdict, lang: str) -> str:
     name = verdict.note.removeprefix("trap:")
     if name == verdict.note:
         return say(lang, verdict.note, verdict.fields) if name else ""
     return spec.notes.get(lang, {}).get(name) or say(lang, "trap", verdict.fields)
 
 
-def show(spec: Mapping[str, Any] | AnySpec, lang: str = "en") -> str:
+def show(spec: Table | Kind, lang: str = "en") -> str:
     """Return the key of a spec as it is printed, and as it can be typed back.
 
     Raises
@@ -118,9 +116,8 @@ def show(spec: Mapping[str, Any] | AnySpec, lang: str = "en") -> str:
     KeyFileError
         If the spec is wrong.
     """
-    table = load_spec(spec) if isinstance(spec, Mapping) else spec
-    text: str = kind_module(table.kind).show(table, lang)
-    return text
+    kind = load_spec(spec) if isinstance(spec, Mapping) else spec
+    return kind.show_in(lang)
 
 
 __all__ = ["Context", "Options", "Verdict", "explained", "judge", "load_spec", "mark", "show"]

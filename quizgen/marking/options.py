@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
 
 from quizgen.errors import MathError
 from quizgen.maths.chain import Chain
+from quizgen.maths.values import Values
 
 DECIMALS = ("auto", "point", "comma")
 
@@ -28,11 +27,11 @@ class Context:
     """
 
     chain: Chain
-    given: Mapping[str, Any]
-    earlier: Mapping[str, Any] = field(default_factory=dict)
+    given: Values
+    earlier: Values = field(default_factory=dict)
 
     @cached_property
-    def solved(self) -> dict[str, Any]:
+    def solved(self) -> Values:
         """The right value of every quantity; empty if the chain does not fit the given numbers."""
         try:
             return self.chain.solve(self.given)

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from flint import arb, fmpq
 
 from quizgen.errors import Undecided
+from quizgen.maths.constants import exact_value
 from quizgen.maths.numbers import decimal_text, magnitude, places, round_to
+from quizgen.maths.tolerance import Tolerance
+from quizgen.maths.values import Value
 
 LARGEST_PLAIN = 10**7
 LARGEST_SHOWN = fmpq(10) ** 250
 
 
-def nearest(value: Any, decimals: int) -> fmpq:
+def nearest(value: Value, decimals: int) -> fmpq:
     """Round half away from zero; a ball that straddles a tie is rounded by its midpoint."""
     try:
         return round_to(value, decimals)
@@ -21,12 +22,12 @@ def nearest(value: Any, decimals: int) -> fmpq:
         return round_to(value.mid().fmpq(), decimals)
 
 
-def rounded(value: Any, decimals: int) -> str:
+def rounded(value: Value, decimals: int) -> str:
     """Round and write out: ``rounded(20/3, 3)`` is ``6.667``."""
     return decimal_text(nearest(value, decimals), max(decimals, 0), minus="-")
 
 
-def with_figures(value: Any, figures: int) -> str:
+def with_figures(value: Value, figures: int) -> str:
     """Round to significant figures; very large and small numbers as ``5.05e-4``."""
     power = magnitude(value)
     first = nearest(value, figures - 1 - power)
@@ -36,7 +37,7 @@ def with_figures(value: Any, figures: int) -> str:
     return f"{rounded(first / fmpq(10) ** power, figures - 1)}e{power}"
 
 
-def exact_or_figures(value: Any, figures: int) -> str:
+def exact_or_figures(value: Value, figures: int) -> str:
     """Write an integer or short decimal exactly, anything else with so many figures."""
     if abs(value) > LARGEST_SHOWN:
         return "-∞" if value < 0 else "∞"
@@ -47,4 +48,27 @@ def exact_or_figures(value: Any, figures: int) -> str:
     return with_figures(value, figures)
 
 
-__all__ = ["exact_or_figures", "magnitude", "nearest", "rounded", "with_figures"]
+def shown(tolerance: Tolerance, value: Value, form: str = "") -> str:
+    """Write a key value as far as its tolerance asks."""
+    if form in {"fraction", "lowest"} and isinstance(value, fmpq):
+        return str(value)
+    if tolerance.decimals is not None:
+        return rounded(value, tolerance.decimals)
+    if tolerance.sigfigs is not None:
+        return with_figures(value, tolerance.sigfigs)
+    if tolerance.exact and isinstance(value, fmpq):
+        decimal = places(value) is not None and value.q != 1
+        return exact_or_figures(value, 12) if decimal else str(value)
+    return _for_tolerance(tolerance, value)
+
+
+def _for_tolerance(tolerance: Tolerance, value: Value) -> str:
+    """Write enough figures that rounding takes at most a tenth of the tolerance."""
+    width = tolerance.half_width(value)
+    figures = 4
+    while figures < 30 and value != 0:
+        text = exact_or_figures(value, figures)
+        if not abs(exact_value(text) - value) * 10 > width:
+            return text
+        figures += 1
+    return exact_or_figures(value, figures)

@@ -1,15 +1,19 @@
-"""What all answer specs share: their common fields, and reading them from plain tables."""
+"""What the specifications of all kinds share: their common fields, and writing them as tables."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, TypeVar
+from collections.abc import Mapping, Sequence
+from typing import TypeVar
 
 import msgspec
 
 from quizgen.errors import FormulaError, KeyFileError
 from quizgen.marking.diagnosis.slips import CLOSE
+from quizgen.marking.options import Options
 from quizgen.marking.reading.scalars import Number
+from quizgen.marking.reading.unit_words import plain_unit
+from quizgen.marking.verdict import Verdict
+from quizgen.maths.constants import Scalar, exact_value
 from quizgen.maths.tolerance import Tolerance
 from quizgen.maths.values import Value
 
@@ -17,54 +21,121 @@ Notes = dict[str, dict[str, str]]
 """Language to sentences by trap name."""
 
 
-class Spec(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, omit_defaults=True):
-    """Fields of every kind.
+Table = Mapping[str, object]
+"""A specification as a key stores it."""
 
-    ``traps`` maps a trap's name to the wrong answer it gives (same shape and unit as the key),
-    ``notes`` maps a language to sentences by trap name, ``of`` names the chain's quantities that
-    the answer consists of.
+Shape = TypeVar("Shape", bound="Worded | Measured")
+
+
+class Common:
+    """What every specification answers in the same way, whatever its fields."""
+
+    __slots__ = ()
+    of: list[str] | dict[str, str]
+
+    def quantities(self) -> list[str]:
+        """Names of the chain's quantities, in the order of the values."""
+        return list(self.of.values()) if isinstance(self.of, dict) else self.of
+
+    def value_units(self) -> list[str]:
+        """The unit of each value: the one that the chain shows."""
+        return [""] * len(self.of)
+
+    def judge(self, typed: str, options: Options, /) -> Verdict:
+        """Judge what was typed; each kind says how."""
+        raise NotImplementedError
+
+    def show(self) -> str:
+        """The key as it is printed; each kind says how."""
+        raise NotImplementedError
+
+    def show_in(self, _lang: str, /) -> str:
+        """The key as it is printed; most kinds have one notation for all languages."""
+        return self.show()
+
+
+class Worded(Common, msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
+             forbid_unknown_fields=True):  # fmt: skip
+    """Fields of every kind, and all there are of the kinds whose key is made of words.
+
+    ``traps`` maps a mistake's name to the wrong answer it gives (in the shape and unit of the key,
+    which each kind states), ``notes`` a language to sentences by mistake, ``of`` names the chain's
+    quantities that the answer consists of.
     """
 
     kind: str
-    traps: dict[str, Any] = msgspec.field(default_factory=dict)
-    notes: Notes = msgspec.field(default_factory=dict)
-    of: list[str] | dict[str, str] = msgspec.field(default_factory=list)
-
-    def quantities(self) -> list[str]:
-        """Names of the chain's quantities, in the order of the values."""
-        return _names(self.of)
+    traps: Mapping[str, object] = msgspec.field(default_factory=dict)
+    notes: Notes = {}
+    of: list[str] | dict[str, str] = []
 
     def validate(self) -> None:
-        """Check what types cannot say.
-
-        Raises
-        ------
-        FormulaError
-            If a value cannot be read.
-        ValueError
-            If fields contradict each other.
-        """
+        """Check what types cannot say."""
 
 
-class Measured(Tolerance, kw_only=True, forbid_unknown_fields=True, omit_defaults=True):
-    """Fields of every kind whose key is made of numbers: those of ``Spec``, and the tolerance."""
+class Measured(Common, Tolerance, kw_only=True, frozen=True):
+    """Fields of every kind whose key is made of numbers: those of all, and the tolerance."""
 
     kind: str
-    traps: dict[str, Any] = msgspec.field(default_factory=dict)
+    traps: Mapping[str, Scalar | list[Scalar] | dict[str, Scalar]] = msgspec.field(
+        default_factory=dict
+    )
     notes: Notes = msgspec.field(default_factory=dict)
     of: list[str] | dict[str, str] = msgspec.field(default_factory=list)
 
-    def quantities(self) -> list[str]:
-        """Names of the chain's quantities, in the order of the values."""
-        return _names(self.of)
+
+class OneNumber(Measured, kw_only=True, frozen=True):
+    """One number: ``value``; a trap may give several."""
+
+    value: Scalar
+    traps: dict[str, Scalar | list[Scalar]] = msgspec.field(default_factory=dict)
+
+    def validate(self) -> None:
+        """Check tolerance, value and traps."""
+        super().validate()
+        exact_value(self.value)
+        self.trap_values()
+
+    def value_unit(self) -> str:
+        """The unit that the value is judged in; empty for the one that the chain shows."""
+        return ""
+
+    def value_units(self) -> list[str]:
+        """The unit of the one value."""
+        return [self.value_unit()] * len(self.of)
+
+    def trap_values(self, scale: int = 1) -> list[tuple[str, Value]]:
+        """Every trap's name with each value it can give."""
+        return [
+            (name, exact_value(item) * scale)
+            for name, value in self.traps.items()
+            for item in (value if isinstance(value, list) else [value])
+        ]
 
 
-AnySpec = Spec | Measured
-Shape = TypeVar("Shape", Spec, Measured)
+class Numbers(Measured, kw_only=True, frozen=True):
+    """Several numbers: ``values``; ``unit`` of all; each trap gives as many."""
+
+    values: list[Scalar]
+    unit: str = ""
+    traps: dict[str, list[Scalar]] = msgspec.field(default_factory=dict)
+
+    def validate(self) -> None:
+        """Check tolerance, values, unit and traps."""
+        super().validate()
+        plain_unit(self.unit)
+        for value in (*self.values, *(item for trap in self.traps.values() for item in trap)):
+            exact_value(value)
+
+    def value_units(self) -> list[str]:
+        """The one unit, for each value."""
+        return [self.unit] * len(self.of)
+
+    def keys(self) -> list[Value]:
+        """The values, exactly."""
+        return [exact_value(value) for value in self.values]
 
 
-def _names(of: list[str] | dict[str, str]) -> list[str]:
-    return list(of.values()) if isinstance(of, dict) else of
+AnySpec = Worded | Measured
 
 
 def gives(spec: Tolerance, number: Number, value: Value, target: Value) -> bool:
@@ -76,8 +147,14 @@ def gives(spec: Tolerance, number: Number, value: Value, target: Value) -> bool:
     return bool(rounded and distance <= CLOSE * abs(target))
 
 
-def decode(shape: type[Shape], table: Mapping[str, Any]) -> Shape:
-    """Turn a plain table into the spec of its kind.
+def all_given(spec: Tolerance, numbers: Sequence[Number], targets: Sequence[Value]) -> bool:
+    """Whether each number is its target, within the tolerance or rounded as written."""
+    pairs = zip(numbers, targets, strict=True)
+    return all(gives(spec, number, number.value, target) for number, target in pairs)
+
+
+def decode(shape: type[Shape], table: Table) -> Shape:
+    """Turn a plain table into the specification of its kind.
 
     Raises
     ------
@@ -90,3 +167,9 @@ def decode(shape: type[Shape], table: Mapping[str, Any]) -> Shape:
     except (msgspec.ValidationError, FormulaError, ValueError, TypeError) as error:
         raise KeyFileError(f"spec ({table['kind']}): {error}") from None
     return spec
+
+
+def as_table(spec: Worded | Measured) -> dict[str, object]:
+    """Write a specification as the plain table that a key stores: without what is a default."""
+    table: dict[str, object] = msgspec.to_builtins(spec)
+    return {"kind": spec.kind, **table}

@@ -7,11 +7,16 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
+from quizgen.maths.values import Value
+
 CORRECT = "correct"
 PARTIAL = "partial"
 WRONG = "wrong"
 UNREADABLE = "unreadable"
 AMBIGUOUS = "ambiguous"
+
+SELF_MARKED = frozenset({"self-mark", "self-mark-none"})
+"""Notes on free text, which a person marks."""
 
 FULL, NONE = Fraction(1), Fraction(0)
 HALF = Fraction(1, 2)
@@ -48,14 +53,19 @@ class Verdict:
     read_as: str = ""
     note: str = ""
     message: str = ""
-    fields: Mapping[str, Any] = field(default_factory=dict)
+    fields: Mapping[str, object] = field(default_factory=dict)
     cells: tuple[Verdict, ...] = ()
-    values: tuple[Any, ...] = ()
+    values: tuple[Value | None, ...] = ()
 
     @property
     def graded(self) -> bool:
         """Whether the answer counts; what was not read as meant is asked back."""
         return self.verdict not in {UNREADABLE, AMBIGUOUS}
+
+    @property
+    def self_marked(self) -> bool:
+        """Whether a person has to decide: key points are only suggested."""
+        return self.note in SELF_MARKED
 
     def as_json(self) -> dict[str, Any]:
         """Return the five public members, for JSON."""
@@ -68,41 +78,41 @@ class Verdict:
         }
 
 
-def correct(read_as: str, note: str = "", **fields: Any) -> Verdict:
+def correct(read_as: str, note: str = "", **fields: object) -> Verdict:
     """Full credit."""
     return Verdict(CORRECT, FULL, read_as, note, fields=fields)
 
 
-def partial(credit: Fraction, read_as: str, note: str, **fields: Any) -> Verdict:
+def partial(credit: Fraction, read_as: str, note: str, **fields: object) -> Verdict:
     """Some credit, with the reason."""
     return Verdict(PARTIAL, credit, read_as, note, fields=fields)
 
 
-def wrong(read_as: str, note: str = "", **fields: Any) -> Verdict:
+def wrong(read_as: str, note: str = "", **fields: object) -> Verdict:
     """No credit."""
     return Verdict(WRONG, NONE, read_as, note, fields=fields)
 
 
-def unreadable(note: str, read_as: str = "", **fields: Any) -> Verdict:
+def unreadable(note: str, read_as: str = "", **fields: object) -> Verdict:
     """Asked back: it could not be read."""
     return Verdict(UNREADABLE, NONE, read_as, note, fields=fields)
 
 
-def ambiguous(note: str, read_as: str = "", **fields: Any) -> Verdict:
+def ambiguous(note: str, read_as: str = "", **fields: object) -> Verdict:
     """Asked back: there are two readings, or a person has to decide."""
     return Verdict(AMBIGUOUS, NONE, read_as, note, fields=fields)
 
 
-def shared(credit: Fraction, read_as: str, note: str, **fields: Any) -> Verdict:
+def shared(credit: Fraction, read_as: str, note: str, **fields: object) -> Verdict:
     """Correct, partial or wrong by the share of right pieces."""
     if credit >= 1:
-        return correct(read_as, **fields)
+        return correct(read_as, "", **fields)
     if credit <= 0:
         return wrong(read_as, note, **fields)
     return partial(credit, read_as, note, **fields)
 
 
-def with_values(verdict: Verdict, *values: Any) -> Verdict:
+def with_values(verdict: Verdict, *values: Value | None) -> Verdict:
     """Attach the numbers that were read."""
     return Verdict(
         verdict.verdict,

@@ -25,7 +25,8 @@ ROUNDED, ROUNDED_REL = 0.005, 0.01
 """Half-width and share of the key within which an exact answer may still be meant: two decimals."""
 
 
-class Tolerance(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+class Tolerance(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
+                forbid_unknown_fields=True):  # fmt: skip
     """How near an answer must be: at most one rule, else half a percent of the key.
 
     ``decimals`` and ``sigfigs`` accept ``within`` units (default one) in the last place asked;
@@ -115,7 +116,7 @@ class Tolerance(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
         return bool(low <= value <= high)
 
 
-class AngleTolerance(Tolerance, kw_only=True):
+class AngleTolerance(Tolerance, kw_only=True, frozen=True):
     """Tolerance of an angle in degrees: half a degree unless a rule is stated."""
 
     unstated: ClassVar[tuple[str, Scalar]] = ("abs", "0.5")

@@ -11,17 +11,14 @@ from typing import Any
 from quizgen.errors import FormulaError, KeyFileError, one_of
 from quizgen.locale import languages
 from quizgen.marking.diagnosis.context import base_factor
-from quizgen.marking.kinds import table as table_kind
+from quizgen.marking.kinds.contract import Kind
 from quizgen.marking.mark import explained, judge, load_spec
 from quizgen.marking.options import DECIMALS, Context, Options
-from quizgen.marking.specs import AnySpec
 from quizgen.marking.verdict import Verdict
 from quizgen.paper.key import Key, KeyPart, KeyQuestion, load_key
 
 QUARTER = Fraction(1, 4)
 """Marks are given in quarters of a point."""
-
-SELF_MARKED = frozenset({"self-mark", "self-mark-none"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,7 +176,7 @@ class Marker:
         return _result(self.question, part, typed, explained(spec, verdict, self.options.lang))
 
 
-def _spec(part: KeyPart) -> AnySpec:
+def _spec(part: KeyPart) -> Kind:
     try:
         return load_spec(part.spec)
     except KeyFileError as error:
@@ -187,11 +184,11 @@ def _spec(part: KeyPart) -> AnySpec:
 
 
 def _verdict(
-    question: KeyQuestion, spec: AnySpec, typed: str, options: Options, earlier: dict[str, Any]
+    question: KeyQuestion, spec: Kind, typed: str, options: Options, earlier: dict[str, Any]
 ) -> Verdict:
     """Mark without the question around; only what went wrong is looked at again with it."""
     verdict = judge(spec, typed, options)
-    around = question.chain is not None and spec.of and typed.strip()
+    around = question.chain is not None and spec.quantities() and typed.strip()
     if not around or not verdict.graded or verdict.verdict == "correct":
         return verdict
     context = _context(question, earlier)
@@ -205,29 +202,21 @@ def _context(question: KeyQuestion, earlier: dict[str, Any]) -> Context | None:
         raise KeyFileError(f"key: question {question.number}: chain: {error}") from None
 
 
-def _remember(
-    question: KeyQuestion, spec: AnySpec, verdict: Verdict, earlier: dict[str, Any]
-) -> None:
+def _remember(question: KeyQuestion, spec: Kind, verdict: Verdict, earlier: dict[str, Any]) -> None:
     """Keep the student's own values, in base units, for the parts that follow."""
     if question.chain is None or len(spec.quantities()) != len(verdict.values):
         return
     units = question.chain.units()
-    cells = _cell_specs(spec)
-    for name, value, cell in zip(spec.quantities(), verdict.values, cells, strict=True):
+    triples = zip(spec.quantities(), verdict.values, spec.value_units(), strict=True)
+    for name, value, unit in triples:
         if value is not None and name in units:
-            earlier[name] = value * base_factor(cell, units[name])
-
-
-def _cell_specs(spec: AnySpec) -> list[Any]:
-    if isinstance(spec, table_kind.Spec):
-        return [table_kind.cell(spec, name) for name in spec.values]
-    return [spec] * len(spec.quantities())
+            earlier[name] = value * base_factor(unit or units[name])
 
 
 def _result(question: KeyQuestion, part: KeyPart, typed: str, verdict: Verdict) -> PartResult:
     worth = part.worth()
     marks: Fraction | None = in_quarters(verdict.credit * worth)
-    if verdict.note in SELF_MARKED:
+    if verdict.self_marked:
         marks = None
     return PartResult(part.id, question.number, question.template, typed, worth, verdict, marks)
 

@@ -8,7 +8,7 @@ from enum import Enum
 from quizgen.bank.prose import Inline
 from quizgen.marking.verdict import Verdict
 from quizgen.paper.key import KeyPart
-from quizgen.paper.marking import SELF_MARKED, Marker
+from quizgen.paper.marking import Marker
 from quizgen.practice.state import Outcome
 from quizgen.question.compose import Part
 from quizgen.question.solution import PartSolution
@@ -95,7 +95,7 @@ class Task:
         return Feedback(verdict, then, TRIES - self.tries)
 
     def _next(self, verdict: Verdict) -> Next:
-        self_marked = verdict.note in SELF_MARKED
+        self_marked = verdict.self_marked
         if not verdict.graded and not self_marked:
             return Next.ASK_BACK
         self.tries += 1

@@ -11,12 +11,12 @@ from quizgen.bank.folder import Bank
 from quizgen.errors import BankError
 from quizgen.marking.mark import mark
 from quizgen.maths.numbers import to_float
-from quizgen.question.specs import build
+from quizgen.question.kinds import build
 
 TEMPLATE = """
 topic = "projection"
 tier = "A"
-solver = "perspective"
+solver = "projection/perspective"
 may_vanish = ["forgot-f"]
 [draw]
 f = {{ range = {f} }}
@@ -64,7 +64,7 @@ def test_no_known_mistake_is_marked_right(tmp_path, rounding):
     mine = template(tmp_path, f'kind = "number", of = "p\'_x"{rounding}')
     for seed in range(200):
         drawn = draw(mine, seed)
-        spec = build(drawn, 0)
+        spec = build(drawn, 0).spec
         for trap in mine.chain.traps:
             wrong = to_float(mine.chain.trapped(trap, drawn.values)["p'_x"])
             assert mark(spec, f"{wrong:.9f}").credit == 0, (seed, trap)
@@ -84,7 +84,7 @@ def test_an_angle_without_rounding_keeps_half_a_degree_apart(tmp_path):
     mine = template(tmp_path, 'kind = "angle", of = "p\'_x"', f="[200, 600, 10]")
     for seed in range(200):
         drawn = draw(mine, seed)
-        spec = build(drawn, 0)
+        spec = build(drawn, 0).spec
         for trap in mine.chain.traps:
             wrong = to_float(mine.chain.trapped(trap, drawn.values)["p'_x"])
             assert mark(spec, f"{wrong:.9f}").credit == 0, (seed, trap)

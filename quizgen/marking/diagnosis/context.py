@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
 from flint import arb, fmpq
 
@@ -16,8 +15,10 @@ from quizgen.marking.rounding import nearest
 from quizgen.marking.specs import Measured, gives
 from quizgen.marking.verdict import HALF, Verdict, partial, wrong
 from quizgen.maths.chain import ChainStep
+from quizgen.maths.numbers import rational
 from quizgen.maths.tree import Num
 from quizgen.maths.units import unit
+from quizgen.maths.values import Value
 
 CARRIED = "carried-forward"
 EARLY = "rounded-too-early"
@@ -33,14 +34,14 @@ class Hints:
     context: Context
     target: str
 
-    def carried(self, value: Any) -> Verdict | None:
+    def carried(self, value: Value) -> Verdict | None:
         """Full method marks for a value computed rightly from an own earlier one."""
         result = carry(self.context, self.target)
         if result is None or not gives(self.spec, self.number, value, result / self.factor):
             return None
         return partial(Fraction(1), self.number.read_as, CARRIED)
 
-    def slip(self, value: Any) -> Verdict | None:
+    def slip(self, value: Value) -> Verdict | None:
         """Name the single slip that explains a value."""
         if _early(self.context, self.target, value * self.factor, self.number, self.factor):
             return partial(HALF, self.number.read_as, EARLY)
@@ -72,23 +73,17 @@ def hints_for(
     target = target or (quantities[0] if len(quantities) == 1 else "")
     if target not in context.chain.by_name or target not in context.solved:
         return None
-    return Hints(spec, number, scale * key_factor(spec, context, target), context, target)
+    units = dict(zip(quantities, spec.value_units(), strict=True))
+    factor = base_factor(units[target] or context.chain.by_name[target].unit)
+    return Hints(spec, number, scale * factor, context, target)
 
 
-def key_factor(spec: Measured, context: Context, target: str) -> fmpq:
-    """Base units per unit of the key."""
-    return base_factor(spec, context.chain.by_name[target].unit)
+def base_factor(text: str) -> fmpq:
+    """Base units per unit."""
+    return rational(unit(text).factor)
 
 
-def base_factor(spec: Measured, shown_in: str) -> fmpq:
-    """Base units per unit of the key, for a quantity that the chain shows in a unit."""
-    if getattr(spec, "percent", False):
-        return fmpq(1)
-    factor = unit(getattr(spec, "unit", None) or shown_in).factor
-    return fmpq(factor.numerator, factor.denominator)
-
-
-def carry(context: Context, target: str) -> Any | None:
+def carry(context: Context, target: str) -> Value | None:
     """Recompute a quantity from the student's own earlier values.
 
     None if there is nothing to carry: no earlier value is wrong, one is zero, the result is the
@@ -109,20 +104,20 @@ def carry(context: Context, target: str) -> Any | None:
     return None if trivial else result
 
 
-def _same(context: Context, name: str, value: Any) -> bool:
+def _same(context: Context, name: str, value: Value) -> bool:
     return name not in context.solved or _agree(value, context.solved[name])
 
 
-def _agree(a: Any, b: Any) -> bool:
+def _agree(a: Value, b: Value) -> bool:
     return bool(abs(a - b) <= fmpq(1, 10**9) * abs(b))
 
 
-def _constant(value: Any) -> Num:
+def _constant(value: Value) -> Num:
     exact = value.mid().fmpq() if isinstance(value, arb) else value
     return Num(Fraction(int(exact.p), int(exact.q)))
 
 
-def _early(context: Context, target: str, value: Any, number: Number, factor: fmpq) -> bool:
+def _early(context: Context, target: str, value: Value, number: Number, factor: fmpq) -> bool:
     """Whether rounding the intermediate results to two or three figures gives the value."""
     if abs(value - context.solved[target]) > fmpq(1, 50) * abs(context.solved[target]):
         return False
@@ -134,13 +129,12 @@ def _early(context: Context, target: str, value: Any, number: Number, factor: fm
 
 
 def _rounds(
-    context: Context, target: str, value: Any, slack: fmpq, upstream: frozenset[str], places: int
+    context: Context, target: str, value: Value, slack: fmpq, upstream: frozenset[str], places: int
 ) -> bool:
     chain = context.chain
     steps = []
     for name in upstream:
-        found = unit(chain.by_name[name].unit).factor
-        factor = fmpq(found.numerator, found.denominator)
+        factor = base_factor(chain.by_name[name].unit)
         rounded = nearest(context.solved[name] / factor, places) * factor
         steps.append(ChainStep(name, _constant(rounded)))
     try:
@@ -151,7 +145,7 @@ def _rounds(
 
 
 def _slip(
-    number: Number, value: Any, factor: fmpq, context: Context, target: str
+    number: Number, value: Value, factor: fmpq, context: Context, target: str
 ) -> Verdict | None:
     base = float(value * factor)
     half = 0.5001 * 10.0**-number.places * float(factor)

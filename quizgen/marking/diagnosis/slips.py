@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from flint import arb, fmpq
 
 from quizgen.marking.reading.scalars import Number
 from quizgen.maths.numbers import magnitude, to_float
+from quizgen.maths.values import Value
 
 CLOSE = fmpq(1, 200)
 """Relative distance within which a slip is said to explain a number."""
@@ -34,12 +34,12 @@ FACTORS = {
 _TENS = {power: fmpq(10) ** power for power in range(-19, 20)}
 
 
-def close(value: Any, target: Any) -> bool:
+def close(value: Value, target: Value) -> bool:
     """Whether two values agree within half a percent of the target."""
     return bool(abs(value - target) <= CLOSE * abs(target))
 
 
-def power_of_ten(value: Any, key: Any) -> int:
+def power_of_ten(value: Value, key: Value) -> int:
     """Exponent k if the value is 10^k times the key, else 0."""
     if value == 0 or key == 0:
         return 0
@@ -48,7 +48,7 @@ def power_of_ten(value: Any, key: Any) -> int:
     return power if power and close(value, key * _TENS[power]) else 0
 
 
-def slip(number: Number, value: Any, key: Any) -> tuple[str, dict[str, Any]]:
+def slip(number: Number, value: Value, key: Value) -> tuple[str, dict[str, object]]:
     """Explain a wrong number by one generic slip.
 
     Returns
@@ -70,7 +70,7 @@ def slip(number: Number, value: Any, key: Any) -> tuple[str, dict[str, Any]]:
     return _factor(value, key)
 
 
-def _power_note(number: Number, key: Any, power: int) -> tuple[str, dict[str, Any]]:
+def _power_note(number: Number, key: Value, power: int) -> tuple[str, dict[str, object]]:
     if number.form == "scientific" and power == -2 * magnitude(key):
         return "exponent-sign", {}
     if power == 2 and 0 < key <= 1:
@@ -78,7 +78,7 @@ def _power_note(number: Number, key: Any, power: int) -> tuple[str, dict[str, An
     return "power-of-ten", {"power": power}
 
 
-def _factor(value: Any, key: Any) -> tuple[str, dict[str, Any]]:
+def _factor(value: Value, key: Value) -> tuple[str, dict[str, object]]:
     for name, factor in FACTORS.items():
         if close(value, key * factor):
             return "factor", {"factor": name}

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 from flint import fmpq
 
@@ -15,6 +14,7 @@ from quizgen.marking.reading.scalars import Number, Readings
 from quizgen.marking.specs import gives
 from quizgen.marking.verdict import HALF, Verdict, ambiguous, correct, partial, wrong
 from quizgen.maths.tolerance import Tolerance
+from quizgen.maths.values import Value
 
 Judge = Callable[[Number], Verdict]
 
@@ -62,13 +62,13 @@ class Asked:
     """
 
     spec: Tolerance
-    key: Any
-    traps: Sequence[tuple[str, Any]] = ()
+    key: Value
+    traps: Sequence[tuple[str, Value]] = ()
     form: str = ""
     hints: Hints | None = None
 
 
-def judge_value(asked: Asked, number: Number, value: Any, read_as: str = "") -> Verdict:
+def judge_value(asked: Asked, number: Number, value: Value, read_as: str = "") -> Verdict:
     """Judge a value that stands in the key's unit; ``number`` says how it was written."""
     read_as = read_as or number.read_as
     if asked.spec.accepts(value, asked.key):
@@ -86,7 +86,7 @@ def judge_value(asked: Asked, number: Number, value: Any, read_as: str = "") -> 
     )
 
 
-def _slipped(asked: Asked, number: Number, value: Any, read_as: str) -> Verdict:
+def _slipped(asked: Asked, number: Number, value: Value, read_as: str) -> Verdict:
     diagnosed = asked.hints.slip(value) if asked.hints else None
     if diagnosed is not None:
         return replace(diagnosed, read_as=read_as)
@@ -94,14 +94,16 @@ def _slipped(asked: Asked, number: Number, value: Any, read_as: str) -> Verdict:
     return wrong(read_as, note, **fields)
 
 
-def whole_enough(spec: Tolerance, number: Number, value: Any, key: Any) -> bool:
+def whole_enough(spec: Tolerance, number: Number, value: Value, key: Value) -> bool:
     """Whether an exact whole number was given as a decimal within 0.01 of it."""
     if not spec.exact or number.form != "decimal" or not isinstance(key, fmpq):
         return False
     return bool(key.q == 1 and key != 0 and abs(value - key) <= fmpq(1, 100))
 
 
-def trapped(spec: Tolerance, number: Number, value: Any, traps: Iterable[tuple[str, Any]]) -> str:
+def trapped(
+    spec: Tolerance, number: Number, value: Value, traps: Iterable[tuple[str, Value]]
+) -> str:
     """Name of the nearest known mistake that gives the value, or an empty text."""
     hits = [(abs(value - trap), name) for name, trap in traps if gives(spec, number, value, trap)]
     if not hits:
@@ -141,7 +143,9 @@ def _figures(spec: Tolerance, number: Number, asked: int, read_as: str) -> Verdi
     return correct(read_as, "more-digits" if 99 > least > asked else "")
 
 
-def _coarse(spec: Tolerance, number: Number, value: Any, key: Any, read_as: str) -> Verdict | None:
+def _coarse(
+    spec: Tolerance, number: Number, value: Value, key: Value, read_as: str
+) -> Verdict | None:
     """Right value with too few digits: rounded correctly, but not as far as asked."""
     if not number.places or number.figures[1] < 2 or number.form != "decimal":
         return None

@@ -1,34 +1,43 @@
-"""The one table of answer kinds: a module each, with ``Spec``, ``check`` and ``show``."""
+"""The answer kinds: one module each, with a ``Spec`` that keeps to ``contract.Kind``."""
 
 from __future__ import annotations
 
-from functools import cache
-from importlib import import_module
-from types import ModuleType
+from quizgen.marking.kinds import (
+    angle,
+    choice,
+    code,
+    expression,
+    gap,
+    interval,
+    match,
+    number,
+    order,
+    point,
+    quantity,
+    sets,
+    table,
+    text,
+    witness,
+)
+from quizgen.marking.specs import Measured, Worded
 
-KINDS = {
-    "number": "number",
-    "quantity": "quantity",
-    "angle": "angle",
-    "point": "point",
-    "table": "table",
-    "set": "sets",
-    "interval": "interval",
-    "expression": "expression",
-    "choice": "choice",
-    "multi": "choice",
-    "tf": "choice",
-    "match": "match",
-    "order": "order",
-    "gap": "gap",
-    "witness": "witness",
-    "code": "code",
-    "text": "text",
+KINDS: dict[str, type[Worded | Measured]] = {
+    "number": number.Spec,
+    "quantity": quantity.Spec,
+    "angle": angle.Spec,
+    "point": point.Spec,
+    "table": table.Spec,
+    "set": sets.Spec,
+    "interval": interval.Spec,
+    "expression": expression.Spec,
+    "choice": choice.Spec,
+    "multi": choice.Spec,
+    "tf": choice.Spec,
+    "match": match.Spec,
+    "order": order.Spec,
+    "gap": gap.Spec,
+    "witness": witness.Spec,
+    "code": code.Spec,
+    "text": text.Spec,
 }
-"""Kind to the module in this folder."""
-
-
-@cache
-def kind_module(kind: str) -> ModuleType:
-    """Import the module of a kind on first use."""
-    return import_module(f"quizgen.marking.kinds.{KINDS[kind]}")
+"""Every kind and the shape of its specification."""

@@ -2,34 +2,35 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from flint import arb, fmpq
 
 from quizgen.marking.diagnosis.context import hints_for
 from quizgen.marking.diagnosis.slips import close
 from quizgen.marking.judging.number import Asked, judge_value, resolve
-from quizgen.marking.kinds.number import shown, trap_values, without_name
 from quizgen.marking.options import Options
+from quizgen.marking.reading.named import without_name
 from quizgen.marking.reading.quantities import TypedQuantity, split_quantity
 from quizgen.marking.reading.rewrites import normalise
 from quizgen.marking.reading.scalars import Number, read_source
-from quizgen.marking.specs import Measured
+from quizgen.marking.rounding import shown
+from quizgen.marking.specs import OneNumber
 from quizgen.marking.verdict import Verdict, with_values, wrong
 from quizgen.maths.constants import Scalar, exact_value
 from quizgen.maths.tolerance import AngleTolerance
 from quizgen.maths.units import shown as shown_unit
+from quizgen.maths.values import Value
 
 DEGREES = (("deg", 1),)
 
 
-class Spec(Measured, kw_only=True):
+class Spec(OneNumber, kw_only=True, frozen=True):
     """Angle: ``value`` in degrees; ``period`` (default 360, 0 for none).
 
     Without a tolerance half a degree is accepted. A bare number counts as degrees.
     """
 
-    value: Scalar
     period: Scalar = 360
 
     unstated: ClassVar[tuple[str, Scalar]] = AngleTolerance.unstated
@@ -37,16 +38,17 @@ class Spec(Measured, kw_only=True):
     def validate(self) -> None:
         """Check tolerance, value, period and traps."""
         super().validate()
-        exact_value(self.value)
         exact_value(self.period)
-        trap_values(self)
 
+    def judge(self, typed: str, options: Options, /) -> Verdict:
+        """Judge a typed angle."""
+        quantity = split_quantity(without_name(normalise(typed)))
+        readings = read_source(quantity.number, options.decimal)
+        return resolve(readings, lambda n: _judge(self, n, quantity, options), self.decimals)
 
-def check(spec: Spec, typed: str, options: Options) -> Verdict:
-    """Judge a typed angle."""
-    quantity = split_quantity(without_name(normalise(typed)))
-    readings = read_source(quantity.number, options.decimal)
-    return resolve(readings, lambda n: _judge(spec, n, quantity, options), spec.decimals)
+    def show(self) -> str:
+        """Return the key as printed and as it can be typed back."""
+        return f"{shown(self, exact_value(self.value))}°"
 
 
 def _judge(spec: Spec, number: Number, quantity: TypedQuantity, options: Options) -> Verdict:
@@ -71,15 +73,15 @@ def _echo(number: Number, quantity: TypedQuantity) -> str:
     return f"{number.read_as}°" if text in {"deg", "°"} else f"{number.read_as} {text}"
 
 
-def _on_circle(spec: Spec, number: Number, value: Any, read_as: str, options: Options) -> Verdict:
+def _on_circle(spec: Spec, number: Number, value: Value, read_as: str, options: Options) -> Verdict:
     key = exact_value(spec.value)
-    traps = [(name, around(spec, trap, value)) for name, trap in trap_values(spec)]
+    traps = [(name, around(spec, trap, value)) for name, trap in spec.trap_values()]
     hints = hints_for(spec, number, fmpq(1), options)
     asked = Asked(spec, around(spec, key, value), traps, hints=hints)
     return judge_value(asked, number, value, read_as)
 
 
-def around(spec: Spec, target: Any, value: Any) -> Any:
+def around(spec: Spec, target: Value, value: Value) -> Value:
     """Return the representative of a target on the circle that is nearest to a value."""
     period = exact_value(spec.period)
     if period == 0:
@@ -89,10 +91,5 @@ def around(spec: Spec, target: Any, value: Any) -> Any:
     return target + period * fmpq((exact + fmpq(1, 2)).floor())
 
 
-def _radians(spec: Spec, value: Any) -> bool:
+def _radians(spec: Spec, value: Value) -> bool:
     return close(value * 180 / arb.pi(), exact_value(spec.value)) and value != 0
-
-
-def show(spec: Spec, lang: str) -> str:  # noqa: ARG001 - one notation in all languages
-    """Return the key as printed and as it can be typed back."""
-    return f"{shown(spec, exact_value(spec.value))}°"

@@ -7,16 +7,16 @@ from fractions import Fraction
 
 import msgspec
 
+from quizgen.locale import word
 from quizgen.marking.echo import safe
 from quizgen.marking.judging.wording import fold
 from quizgen.marking.options import Options
-from quizgen.marking.reading.rewrites import normalise
+from quizgen.marking.reading.rewrites import BANGLA_LETTERS, normalise
 from quizgen.marking.reading.scalars import ReadError
-from quizgen.marking.specs import Spec as AnySpec
+from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, correct, partial, wrong
 
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
-_BANGLA = str.maketrans("কখগঘঙচছজঝঞ", "ABCDEFGHIJ")
 _TRUE = frozenset(
     {"true", "t", "yes", "y", "right", "correct", "wahr", "w", "ja", "j", "richtig", "r"}
     | {"সত্য", "হ্যাঁ", "হ্যা", "ঠিক", "সঠিক", "স", "1", "✓", "✔"}
@@ -28,7 +28,7 @@ _FALSE = frozenset(
 _FILLERS = re.compile(r"\b(?:and|und|or|option|answer|ans|এবং|ও|উত্তর)\b", re.IGNORECASE)
 
 
-class Spec(AnySpec, kw_only=True):
+class Spec(Worded, kw_only=True, frozen=True):
     """Choice: ``options``; ``correct`` = positions from 1.
 
     ``multi`` gives credit for right minus wrong crosses when ``negative``, else all or nothing
@@ -38,30 +38,41 @@ class Spec(AnySpec, kw_only=True):
     correct: list[int]
     options: list[str] = msgspec.field(default_factory=list)
     negative: bool = True
+    traps: dict[str, int | list[int]] = msgspec.field(default_factory=dict)
+
+    def choices(self) -> list[str]:
+        """What there is to choose from."""
+        return self.options or (["true", "false"] if self.kind == "tf" else [])
 
     def validate(self) -> None:
         """Positions must exist; ``choice`` and ``tf`` have one right option."""
-        if self.kind == "tf" and not self.options:
-            self.options = ["true", "false"]
-        if not self.options or not all(1 <= i <= len(self.options) for i in self.correct):
+        count = len(self.choices())
+        if not count or not all(1 <= i <= count for i in self.correct):
             raise ValueError("correct holds positions from 1 within options")
         if self.kind != "multi" and len(self.correct) != 1:
             raise ValueError("exactly one option can be correct")
 
+    def judge(self, typed: str, _options: Options, /) -> Verdict:
+        """Judge chosen options."""
+        if len(typed) > 1000:
+            raise ReadError("too-long", 1001, "1000")
+        if self.kind == "tf":
+            return _judge_one(self, _truth(self, typed))
+        whole = _by_text(self, typed)
+        if self.kind == "choice":
+            chosen = [whole] if whole else _positions(self, typed)
+            if len(chosen) > 1:
+                raise ReadError("one-option", 1, safe(typed))
+            return _judge_one(self, chosen[0])
+        return _judge_many(self, [whole] if whole else _positions(self, typed))
 
-def check(spec: Spec, typed: str, options: Options) -> Verdict:  # noqa: ARG001 - no numbers in it
-    """Judge chosen options."""
-    if len(typed) > 1000:
-        raise ReadError("too-long", 1001, "1000")
-    if spec.kind == "tf":
-        return _judge_one(spec, _truth(spec, typed))
-    whole = _by_text(spec, typed)
-    if spec.kind == "choice":
-        chosen = [whole] if whole else _positions(spec, typed)
-        if len(chosen) > 1:
-            raise ReadError("one-option", 1, safe(typed))
-        return _judge_one(spec, chosen[0])
-    return _judge_many(spec, [whole] if whole else _positions(spec, typed))
+    def show(self) -> str:
+        """Return the letters of the right options, or the word for true or false."""
+        return _echo(self, self.correct)
+
+    def show_in(self, lang: str, /) -> str:
+        """Return the same with the word for true or false in a language."""
+        return word(lang, f"ask.{self.show()}") if self.kind == "tf" else self.show()
 
 
 def _truth(spec: Spec, typed: str) -> int:
@@ -78,13 +89,13 @@ def _truth(spec: Spec, typed: str) -> int:
 
 def _by_text(spec: Spec, typed: str) -> int:
     folded = fold(typed)
-    hits = [i + 1 for i, option in enumerate(spec.options) if fold(option) == folded]
+    hits = [i + 1 for i, option in enumerate(spec.choices()) if fold(option) == folded]
     return hits[0] if len(hits) == 1 else 0
 
 
 def _positions(spec: Spec, typed: str) -> list[int]:
     source = normalise(re.sub(r"[\r\n]+", ",", typed.strip()), keep_x=True, longest=1000)
-    text = source.text.translate(_BANGLA)
+    text = source.text.translate(BANGLA_LETTERS)
     marks = re.findall(r"[A-Za-z]+|\d+|[^\s,;.&+()/|:]", _FILLERS.sub(" ", text))
     found = [position for mark in marks for position in _mark(spec, mark)]
     if not found:
@@ -95,13 +106,13 @@ def _positions(spec: Spec, typed: str) -> list[int]:
 def _mark(spec: Spec, mark: str) -> list[int]:
     """Positions of one mark: ``B``, ``2`` or several letters run together."""
     positions = [int(mark)] if mark.isdigit() else [LETTERS.find(c.upper()) + 1 for c in mark]
-    if not all(1 <= position <= len(spec.options) for position in positions):
+    if not all(1 <= position <= len(spec.choices()) for position in positions):
         raise ReadError("option-expected", 1, mark, _range(spec))
     return positions
 
 
 def _range(spec: Spec) -> list[str]:
-    return list(LETTERS[: len(spec.options)])
+    return list(LETTERS[: len(spec.choices())])
 
 
 def _judge_one(spec: Spec, chosen: int) -> Verdict:
@@ -136,11 +147,3 @@ def _echo(spec: Spec, chosen: list[int]) -> str:
     if spec.kind == "tf":
         return ("true", "false")[chosen[0] - 1]
     return ", ".join(LETTERS[i - 1] for i in sorted(chosen))
-
-
-def show(spec: Spec, lang: str) -> str:
-    """Return the letters of the right options, or the word for true or false."""
-    if spec.kind == "tf":
-        words = {"bn": ("সত্য", "মিথ্যা")}.get(lang, ("true", "false"))
-        return words[spec.correct[0] - 1]
-    return ", ".join(LETTERS[i - 1] for i in sorted(spec.correct))

@@ -10,15 +10,36 @@ from quizgen.marking.echo import safe
 from quizgen.marking.options import Options
 from quizgen.marking.reading.rewrites import LONGEST_PROSE, REWRITES, Source, refuse_invisible
 from quizgen.marking.reading.scalars import ReadError
-from quizgen.marking.specs import Spec as AnySpec
+from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, correct, wrong
 
 
-class Spec(AnySpec, kw_only=True):
+class Spec(Worded, kw_only=True, frozen=True):
     """Code: ``output``; ``also`` = other outputs that count (another library version)."""
 
     output: str
     also: list[str] = msgspec.field(default_factory=list)
+    traps: dict[str, str] = msgspec.field(default_factory=dict)
+
+    def judge(self, typed: str, _options: Options, /) -> Verdict:
+        """Judge typed program output."""
+        if len(typed) > LONGEST_PROSE:
+            raise ReadError("too-long", LONGEST_PROSE + 1, str(LONGEST_PROSE))
+        source = Source.of(typed)
+        for name in ("direction marks around", "blanks", "digits", "minus and dashes"):
+            source = source.sub(*REWRITES[name])
+        refuse_invisible(source, "\r\n")
+        given = folded(source.text)
+        if not given:
+            raise ReadError("no-answer", 1)
+        for output in (self.output, *self.also):
+            if given == folded(output):
+                return correct(safe(given))
+        return wrong(safe(given), _note(self, given))
+
+    def show(self) -> str:
+        """Return the output."""
+        return self.output
 
 
 _INSIDE = re.compile(r"\s*([\[\](){},:=])\s*")
@@ -31,26 +52,9 @@ def folded(text: str) -> str:
     return "\n".join(_INSIDE.sub(r"\1", line) for line in joined.split("\n"))
 
 
-def check(spec: Spec, typed: str, options: Options) -> Verdict:  # noqa: ARG001 - exact text
-    """Judge typed program output."""
-    if len(typed) > LONGEST_PROSE:
-        raise ReadError("too-long", LONGEST_PROSE + 1, str(LONGEST_PROSE))
-    source = Source.of(typed)
-    for name in ("direction marks around", "blanks", "digits", "minus and dashes"):
-        source = source.sub(*REWRITES[name])
-    refuse_invisible(source, "\r\n")
-    given = folded(source.text)
-    if not given:
-        raise ReadError("no-answer", 1)
-    for output in (spec.output, *spec.also):
-        if given == folded(output):
-            return correct(safe(given))
-    return wrong(safe(given), _note(spec, given))
-
-
 def _note(spec: Spec, given: str) -> str:
     for name, output in spec.traps.items():
-        if given == folded(str(output)):
+        if given == folded(output):
             return f"trap:{name}"
     wanted = folded(spec.output)
     if given.casefold() == wanted.casefold():
@@ -68,8 +72,3 @@ def _same_numbers(given: str, wanted: str) -> bool:
     if not numbers[0] or len(numbers[0]) != len(numbers[1]) or len(given) > 400:
         return False
     return all(float(a) == float(b) for a, b in zip(*numbers, strict=True))
-
-
-def show(spec: Spec, lang: str) -> str:  # noqa: ARG001 - program output
-    """Return the output."""
-    return spec.output

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import lru_cache
-from typing import Any
 
+import msgspec
 from flint import arb, fmpq
 
 from quizgen.errors import FormulaError
@@ -14,20 +13,22 @@ from quizgen.marking.judging.proving import proved_equal
 from quizgen.marking.judging.sampling import Comparison, Domain, agree, compare
 from quizgen.marking.judging.settling import settle_equal
 from quizgen.marking.options import Options
-from quizgen.marking.reading.formulas import Formula, read_formula
+from quizgen.marking.reading.formulas import Formula, author, read_formula
 from quizgen.marking.rounding import exact_or_figures
-from quizgen.marking.specs import Spec as AnySpec
+from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, ambiguous, correct, wrong
 from quizgen.maths.constants import exact_value
-from quizgen.maths.notation import parse, to_text
+from quizgen.maths.notation import to_text
 from quizgen.maths.tree import Expr, names
+from quizgen.maths.values import Value
 
 
-class Spec(AnySpec, kw_only=True):
+class Spec(Worded, kw_only=True, frozen=True):
     """Expression: ``value``; ``symbols`` = {name: "real", "positive" or [low, high]}."""
 
     value: str
     symbols: dict[str, Domain]
+    traps: dict[str, str] = msgspec.field(default_factory=dict)
 
     def validate(self) -> None:
         """Check the key, its names and the domains."""
@@ -40,6 +41,18 @@ class Spec(AnySpec, kw_only=True):
         for trap in self.traps.values():
             author(trap, tuple(self.symbols))
 
+    def judge(self, typed: str, options: Options, /) -> Verdict:
+        """Judge a typed formula."""
+        formula = read_formula(typed, self.symbols, options.decimal)
+        verdict = _judge(self, formula.tree, options)
+        if formula.other is None or formula.doubt is None:
+            return verdict
+        return _choose(self, formula, verdict, options)
+
+    def show(self) -> str:
+        """Return the key as it can be typed."""
+        return to_text(author(self.value, tuple(self.symbols)))
+
 
 def _check_domain(name: str, domain: Domain) -> None:
     if isinstance(domain, str):
@@ -47,28 +60,6 @@ def _check_domain(name: str, domain: Domain) -> None:
             raise ValueError(f"symbols.{name}: {domain!r} is not real, positive or [low, high]")
     elif len(domain) != 2 or not exact_value(domain[0]) < exact_value(domain[1]):
         raise ValueError(f"symbols.{name}: [low, high] needs low < high")
-
-
-@lru_cache(maxsize=2048)
-def author(text: str, symbols: tuple[str, ...]) -> Expr:
-    """Parse an author's formula once."""
-    return parse(text, symbols=symbols)
-
-
-def check(spec: Spec, typed: str, options: Options) -> Verdict:
-    """Judge a typed formula."""
-    formula = read_formula(typed, spec.symbols, options.decimal)
-    verdict = _judge(spec, formula.tree, options)
-    if formula.other is None or formula.doubt is None:
-        return verdict
-    return _choose(spec, formula, verdict, options)
-
-
-def _choose(spec: Spec, formula: Formula, verdict: Verdict, options: Options) -> Verdict:
-    if formula.other is None or formula.doubt is None or (formula.doubt.native and verdict.credit):
-        return verdict
-    echoes = (formula.read_as, to_text(formula.other))
-    return settle(verdict, _judge(spec, formula.other, options), formula.doubt, echoes)
 
 
 def _judge(spec: Spec, tree: Expr, options: Options) -> Verdict:
@@ -85,6 +76,13 @@ def _judge(spec: Spec, tree: Expr, options: Options) -> Verdict:
         ground = "proved" if proved_equal(key, tree) else found.ground
         return correct(read_as, ground=ground, points=found.points)
     return _wrong(spec, tree, found, read_as)
+
+
+def _choose(spec: Spec, formula: Formula, verdict: Verdict, options: Options) -> Verdict:
+    if formula.other is None or formula.doubt is None or (formula.doubt.native and verdict.credit):
+        return verdict
+    echoes = (formula.read_as, to_text(formula.other))
+    return settle(verdict, _judge(spec, formula.other, options), formula.doubt, echoes)
 
 
 def _settled(key: Expr, tree: Expr, spec: Spec, found: Comparison) -> Comparison:
@@ -111,12 +109,7 @@ def _missing(spec: Spec, tree: Expr) -> str:
     return "name-missing" if key - names(tree) else ""
 
 
-def _short(value: Any) -> str:
+def _short(value: Value) -> str:
     if isinstance(value, fmpq) and value.q < 1000:
         return str(value)
     return exact_or_figures(value.mid().fmpq() if isinstance(value, arb) else value, 4)
-
-
-def show(spec: Spec, lang: str) -> str:  # noqa: ARG001 - one notation in all languages
-    """Return the key as it can be typed."""
-    return to_text(author(spec.value, tuple(spec.symbols)))

@@ -12,11 +12,11 @@ from quizgen.marking.judging.wording import fold, nearest_terms
 from quizgen.marking.options import Options
 from quizgen.marking.reading.rewrites import Source, refuse_invisible
 from quizgen.marking.reading.scalars import ReadError
-from quizgen.marking.specs import Spec as AnySpec
+from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, ambiguous, correct, shared, unreadable, wrong
 
 
-class Spec(AnySpec, kw_only=True):
+class Spec(Worded, kw_only=True, frozen=True):
     """Gap: ``accept`` = synonyms per gap; ``among`` = the topic's other terms.
 
     The first synonym of a gap is the one shown. A single gap may be given as a plain list.
@@ -36,27 +36,34 @@ class Spec(AnySpec, kw_only=True):
         if not self.accept or not all(self.gaps()):
             raise ValueError("accept needs at least one word per gap")
 
+    def judge(self, typed: str, _options: Options, /) -> Verdict:
+        """Judge typed words, one per gap."""
+        gaps = self.gaps()
+        words = _words(typed, len(gaps))
+        if len(words) != len(gaps):
+            raise ReadError("item-count", 1, str(len(words)), [str(len(gaps))])
+        cells = [_one(self, gap, word) for gap, word in zip(gaps, words, strict=True)]
+        read_as = "; ".join(cell.read_as for cell in cells)
+        stopped = next((cell for cell in cells if cell.verdict == "ambiguous"), None)
+        if stopped is not None:
+            return ambiguous(stopped.note, read_as, **stopped.fields)
+        if len(cells) == 1:
+            return cells[0]
+        return _together(cells, read_as)
+
+    def show(self) -> str:
+        """Return the words as printed, in Latin letters if there are such."""
+        return self.show_in("en")
+
+    def show_in(self, lang: str, /) -> str:
+        """Return the words as printed: in Bangla a Bangla synonym if there is one."""
+        return "; ".join(_shown(gap, lang) for gap in self.gaps())
+
 
 _JOINERS = "\u200c\u200d"
 _STRONG = re.compile(r"[;\n|]")
 _WEAK = re.compile(r"[;\n|,/]|\s→\s")
 _NUMBERED = re.compile(r"^\s*(?:\(?[\d০-৯]{1,2}[).:]|[a-hA-H][).:])\s*")
-
-
-def check(spec: Spec, typed: str, options: Options) -> Verdict:  # noqa: ARG001 - words only
-    """Judge typed words, one per gap."""
-    gaps = spec.gaps()
-    words = _words(typed, len(gaps))
-    if len(words) != len(gaps):
-        raise ReadError("item-count", 1, str(len(words)), [str(len(gaps))])
-    cells = [_one(spec, gap, word) for gap, word in zip(gaps, words, strict=True)]
-    read_as = "; ".join(cell.read_as for cell in cells)
-    stopped = next((cell for cell in cells if cell.verdict == "ambiguous"), None)
-    if stopped is not None:
-        return ambiguous(stopped.note, read_as, **stopped.fields)
-    if len(cells) == 1:
-        return cells[0]
-    return _together(cells, read_as)
 
 
 def _words(typed: str, count: int) -> list[str]:
@@ -102,11 +109,6 @@ def _together(cells: list[Verdict], read_as: str) -> Verdict:
     if credit == 1 and any(cell.note == "spelling" for cell in cells):
         return correct(read_as, "spelling", typed="")
     return verdict
-
-
-def show(spec: Spec, lang: str) -> str:
-    """Return the words as printed: in Bangla a Bangla synonym if there is one."""
-    return "; ".join(_shown(gap, lang) for gap in spec.gaps())
 
 
 def _shown(gap: list[str], lang: str) -> str:

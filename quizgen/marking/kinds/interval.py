@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
 from quizgen.marking.options import Options
 from quizgen.marking.reading.literals import pointed
@@ -14,10 +13,10 @@ from quizgen.marking.reading.scalars import ReadError, read_source
 from quizgen.marking.rounding import exact_or_figures
 from quizgen.marking.specs import Measured
 from quizgen.marking.verdict import HALF, Verdict, correct, partial, wrong
-from quizgen.maths.constants import exact_value
+from quizgen.maths.values import Value
 
 
-class Spec(Measured, kw_only=True):
+class Spec(Measured, kw_only=True, frozen=True):
     """Interval: ``value`` such as ``]0,1]`` or ``(0, inf)``."""
 
     value: str
@@ -27,13 +26,33 @@ class Spec(Measured, kw_only=True):
         super().validate()
         read(self.value, "point")
 
+    def judge(self, typed: str, options: Options, /) -> Verdict:
+        """Judge a typed interval: bounds first, then brackets."""
+        interval, read_as = read(typed, options.decimal)
+        key, _ = read(self.value, "point")
+        low = _same(self, interval.low, key.low)
+        high = _same(self, interval.high, key.high)
+        if not (low and high):
+            note = "bound-left" if high else "bound-right" if low else "bounds"
+            return wrong(read_as, note)
+        left = interval.closed_low == key.closed_low
+        right = interval.closed_high == key.closed_high
+        if left and right:
+            return correct(read_as)
+        note = "bracket-right" if left else "bracket-left" if right else "brackets"
+        return partial(HALF if left or right else Fraction(1, 4), read_as, note)
+
+    def show(self) -> str:
+        """Return the key as printed and as it can be typed back."""
+        return read(self.value, "point")[1]
+
 
 @dataclass(frozen=True, slots=True)
 class Interval:
     """Bounds (None for infinity) and whether they belong to it."""
 
-    low: Any
-    high: Any
+    low: Value | None
+    high: Value | None
     closed_low: bool
     closed_high: bool
 
@@ -99,7 +118,7 @@ def _chain(source: Source, decimal: str) -> Interval:
     return Interval(low, high, closed_low, closed_high)
 
 
-def _bound(source: Source, decimal: str) -> Any:
+def _bound(source: Source, decimal: str) -> Value | None:
     source = source.strip()
     if _INFINITE.fullmatch(source.text):
         return None
@@ -116,32 +135,7 @@ def _echo(interval: Interval) -> str:
     )
 
 
-def check(spec: Spec, typed: str, options: Options) -> Verdict:
-    """Judge a typed interval: bounds first, then brackets."""
-    interval, read_as = read(typed, options.decimal)
-    key, _ = read(spec.value, "point")
-    low = _same(spec, interval.low, key.low)
-    high = _same(spec, interval.high, key.high)
-    if not (low and high):
-        note = "bound-left" if high else "bound-right" if low else "bounds"
-        return wrong(read_as, note)
-    left = interval.closed_low == key.closed_low
-    right = interval.closed_high == key.closed_high
-    if left and right:
-        return correct(read_as)
-    note = "bracket-right" if left else "bracket-left" if right else "brackets"
-    return partial(HALF if left or right else Fraction(1, 4), read_as, note)
-
-
-def _same(spec: Spec, value: Any, key: Any) -> bool:
+def _same(spec: Spec, value: Value | None, key: Value | None) -> bool:
     if value is None or key is None:
         return value is None and key is None
     return spec.accepts(value, key)
-
-
-def show(spec: Spec, lang: str) -> str:  # noqa: ARG001 - one notation in all languages
-    """Return the key as printed and as it can be typed back."""
-    return read(spec.value, "point")[1]
-
-
-__all__ = ["Interval", "Spec", "check", "exact_value", "read", "show"]

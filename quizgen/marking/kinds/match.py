@@ -5,24 +5,26 @@ from __future__ import annotations
 import re
 from fractions import Fraction
 
+import msgspec
+
 from quizgen.marking.echo import safe
 from quizgen.marking.judging.wording import fold
 from quizgen.marking.options import Options
-from quizgen.marking.reading.rewrites import normalise
+from quizgen.marking.reading.rewrites import BANGLA_LETTERS, normalise
 from quizgen.marking.reading.scalars import ReadError
-from quizgen.marking.specs import Spec as AnySpec
+from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, correct, shared
 
-_BANGLA = str.maketrans("কখগঘঙচছজঝঞ", "ABCDEFGHIJ")
 _SEPARATORS = re.compile(r"[\s,;.|]+")
 _ARROWS = re.compile(r"\s*(?:->|=>|→|↔|<->|--|[-:=>()])+\s*")
 
 
-class Spec(AnySpec, kw_only=True):
+class Spec(Worded, kw_only=True, frozen=True):
     """Match: ``pairs`` = {left label: right label}; ``reuse`` allows a right label twice."""
 
     pairs: dict[str, str]
     reuse: bool = False
+    traps: dict[str, dict[str, str]] = msgspec.field(default_factory=dict)
 
     def validate(self) -> None:
         """There must be pairs."""
@@ -33,27 +35,30 @@ class Spec(AnySpec, kw_only=True):
         """Whether a right label may be used more than once."""
         return self.reuse or len(set(self.pairs.values())) < len(self.pairs)
 
+    def judge(self, typed: str, _options: Options, /) -> Verdict:
+        """Judge typed pairs."""
+        if len(typed) > 1000:
+            raise ReadError("too-long", 1001, "1000")
+        found = _pairs(self, typed)
+        read_as = " ".join(f"{safe(left)}{safe(right)}" for left, right in found.items())
+        right = sum(self.pairs[left] == chosen for left, chosen in found.items())
+        if right == len(self.pairs):
+            return correct(read_as)
+        missed = tuple(left for left, wanted in self.pairs.items() if found.get(left) != wanted)
+        note = "pairs-missing" if all(name not in found for name in missed) else "pairs"
+        trap = _trap(self, found)
+        return shared(
+            Fraction(right, len(self.pairs)),
+            read_as,
+            trap or note,
+            right=right,
+            of=len(self.pairs),
+            names=missed,
+        )
 
-def check(spec: Spec, typed: str, options: Options) -> Verdict:  # noqa: ARG001 - labels only
-    """Judge typed pairs."""
-    if len(typed) > 1000:
-        raise ReadError("too-long", 1001, "1000")
-    found = _pairs(spec, typed)
-    read_as = " ".join(f"{safe(left)}{safe(right)}" for left, right in found.items())
-    right = sum(spec.pairs[left] == chosen for left, chosen in found.items())
-    if right == len(spec.pairs):
-        return correct(read_as)
-    missed = tuple(left for left, wanted in spec.pairs.items() if found.get(left) != wanted)
-    note = "pairs-missing" if all(name not in found for name in missed) else "pairs"
-    trap = _trap(spec, found)
-    return shared(
-        Fraction(right, len(spec.pairs)),
-        read_as,
-        trap or note,
-        right=right,
-        of=len(spec.pairs),
-        names=missed,
-    )
+    def show(self) -> str:
+        """Return the pairs as they can be typed."""
+        return ", ".join(f"{left}:{right}" for left, right in self.pairs.items())
 
 
 def _trap(spec: Spec, found: dict[str, str]) -> str:
@@ -65,7 +70,7 @@ def _trap(spec: Spec, found: dict[str, str]) -> str:
 
 def _pairs(spec: Spec, typed: str) -> dict[str, str]:
     source = normalise(re.sub(r"[\r\n]+", " ", typed.strip()), keep_x=True, longest=1000)
-    text = source.text.translate(_BANGLA)
+    text = source.text.translate(BANGLA_LETTERS)
     left = {fold(label): label for label in spec.pairs}
     right = {fold(label): label for label in spec.pairs.values()}
     found: dict[str, str] = {}
@@ -105,8 +110,3 @@ def _place(
     if chosen in found.values() and not spec.repeats():
         raise ReadError("used-twice", 1, chosen)
     found[name] = chosen
-
-
-def show(spec: Spec, lang: str) -> str:  # noqa: ARG001 - labels are the same in all languages
-    """Return the pairs as they can be typed."""
-    return ", ".join(f"{left}:{right}" for left, right in spec.pairs.items())

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import re
-from typing import Any, Literal
+from typing import Literal
 
 from flint import fmpq
 
 from quizgen.marking.diagnosis.context import hints_for
 from quizgen.marking.judging.number import Asked, judge_value, resolve
+from quizgen.marking.kinds import quantity
 from quizgen.marking.options import Options
+from quizgen.marking.reading.named import without_name
 from quizgen.marking.reading.quantities import split_quantity
 from quizgen.marking.reading.rewrites import Source, normalise
 from quizgen.marking.reading.scalars import (
@@ -19,15 +21,16 @@ from quizgen.marking.reading.scalars import (
     quick,
     read_source,
 )
-from quizgen.marking.rounding import exact_or_figures, rounded, with_figures
-from quizgen.marking.specs import Measured
+from quizgen.marking.rounding import shown
+from quizgen.marking.specs import OneNumber
 from quizgen.marking.verdict import Verdict, unreadable, with_values
-from quizgen.maths.constants import Scalar, exact_value
+from quizgen.maths.constants import exact_value
 from quizgen.maths.units import shown as shown_unit
 from quizgen.maths.units import unit
+from quizgen.maths.values import Value
 
 
-class Spec(Measured, kw_only=True):
+class Spec(OneNumber, kw_only=True, frozen=True):
     """Number: ``value``; ``form`` = fraction, lowest, decimal; ``percent``; ``notation``.
 
     With ``percent`` the value is the fraction, tolerances and ``accept`` are in percent, and
@@ -35,7 +38,6 @@ class Spec(Measured, kw_only=True):
     as 8. With ``unit`` (printed beside the field) the unit may be typed or left out.
     """
 
-    value: Scalar
     form: Literal["", "fraction", "lowest", "decimal"] = ""
     percent: bool = False
     unit: str = ""
@@ -44,29 +46,30 @@ class Spec(Measured, kw_only=True):
     def validate(self) -> None:
         """Check tolerance, value and traps."""
         super().validate()
-        exact_value(self.value)
         unit(self.unit)
-        for trap in self.traps.values():
-            for item in trap if isinstance(trap, list) else [trap]:
-                exact_value(item)
 
+    def value_unit(self) -> str:
+        """The unit printed beside the field; a percentage stands for a plain fraction."""
+        return "1" if self.percent else self.unit
 
-def check(spec: Spec, typed: str, options: Options) -> Verdict:
-    """Judge a typed number."""
-    if spec.unit:
-        return _with_unit(spec, typed, options)
-    readings = quick(typed, options.decimal) or _read(spec, typed, options)
-    return resolve(readings, lambda n: _judge(spec, n, options), spec.decimals)
+    def judge(self, typed: str, options: Options, /) -> Verdict:
+        """Judge a typed number."""
+        if self.unit:
+            return _with_unit(self, typed, options)
+        readings = quick(typed, options.decimal) or _read(self, typed, options)
+        return resolve(readings, lambda n: _judge(self, n, options), self.decimals)
+
+    def show(self) -> str:
+        """Return the key as printed and as it can be typed back."""
+        value = exact_value(self.value) * (100 if self.percent else 1)
+        unit_text = "%" if self.percent else shown_unit(self.unit)
+        return f"{shown(self, value, self.form)} {unit_text}".rstrip()
 
 
 def _with_unit(spec: Spec, typed: str, options: Options) -> Verdict:
     """Judge as a quantity whose unit need not be typed."""
-    from quizgen.marking.kinds import quantity
-
-    fields = {
-        name: getattr(spec, name) for name in quantity.Spec.__struct_fields__ if name != "bare"
-    }
-    return quantity.check(quantity.Spec(**fields, bare=True), typed, options)
+    fields = {n: getattr(spec, n) for n in quantity.Spec.__struct_fields__ if n != "bare"}
+    return quantity.Spec(**fields, bare=True).judge(typed, options)
 
 
 def _judge(spec: Spec, number: Number, options: Options) -> Verdict:
@@ -87,12 +90,12 @@ def _judge_percent(spec: Spec, number: Number, options: Options) -> Verdict:
     return second if second.credit or trapped else first
 
 
-def _judge_as(spec: Spec, number: Number, value: Any, options: Options) -> Verdict:
+def _judge_as(spec: Spec, number: Number, value: Value, options: Options) -> Verdict:
     scale = 100 if spec.percent else 1
     asked = Asked(
         spec,
         exact_value(spec.value) * scale,
-        trap_values(spec, scale),
+        spec.trap_values(scale),
         spec.form,
         hints_for(spec, number, fmpq(1, scale), options),
     )
@@ -100,18 +103,8 @@ def _judge_as(spec: Spec, number: Number, value: Any, options: Options) -> Verdi
     return with_values(verdict, value / scale)
 
 
-def trap_values(spec: Measured, scale: Any = 1) -> list[tuple[str, Any]]:
-    """Every trap's name with each value it can give."""
-    return [
-        (name, exact_value(item) * scale)
-        for name, value in spec.traps.items()
-        for item in (value if isinstance(value, list) else [value])
-    ]
-
-
 _LENS = re.compile(r"[fFƒ] ?/? ?(?=\d)|1 ?: ?(?=\d)")
 _RATIO = re.compile(r"(?<=\d) ?: ?(?=\d)")
-_NAMED = re.compile(r"[^\W\d_][^\W_]*'*(?:_[^\W_]+'*)* ?(?:=|≈|:|:=) ?")
 
 
 def _read(spec: Spec, typed: str, options: Options) -> Readings:
@@ -133,12 +126,6 @@ def _refuse_unit(source: Source) -> None:
         raise ReadError("unit-not-asked", source.column(0), quantity.unit.text)
 
 
-def without_name(source: Source) -> Source:
-    """Drop a leading ``u =``."""
-    match = _NAMED.match(source.text)
-    return source.cut(match.end()) if match and match.end() < len(source.text) else source
-
-
 def _without_lens(spec: Spec, source: Source) -> Source:
     """Read ``f/2.8`` and, where it cannot be a ratio, ``1:2.8`` as the f-number 2.8.
 
@@ -149,44 +136,3 @@ def _without_lens(spec: Spec, source: Source) -> Source:
     if match is None or (ratio and not re.search(r"[.,]\d", source.text)):
         return source.sub(_RATIO, lambda _m: "/")
     return source.cut(match.end())
-
-
-def show(spec: Spec, lang: str) -> str:  # noqa: ARG001 - one notation in all languages
-    """Return the key as printed and as it can be typed back."""
-    value = exact_value(spec.value) * (100 if spec.percent else 1)
-    unit_text = "%" if spec.percent else shown_unit(spec.unit)
-    return f"{shown(spec, value, spec.form)} {unit_text}".rstrip()
-
-
-def shown(spec: Measured, value: Any, form: str = "") -> str:
-    """Write a key value as far as its tolerance asks."""
-    if form in {"fraction", "lowest"} and isinstance(value, fmpq):
-        return str(value)
-    if spec.decimals is not None:
-        return rounded(value, spec.decimals)
-    if spec.sigfigs is not None:
-        return with_figures(value, spec.sigfigs)
-    if spec.exact and isinstance(value, fmpq):
-        decimal = _terminates(value) and value.q != 1
-        return exact_or_figures(value, 12) if decimal else str(value)
-    return _for_tolerance(spec, value)
-
-
-def _terminates(value: fmpq) -> bool:
-    rest = int(value.q)
-    for prime in (2, 5):
-        while rest % prime == 0:
-            rest //= prime
-    return rest == 1
-
-
-def _for_tolerance(spec: Measured, value: Any) -> str:
-    """Write enough figures that rounding takes at most a tenth of the tolerance."""
-    width = spec.half_width(value)
-    figures = 4
-    while figures < 30 and value != 0:
-        text = exact_or_figures(value, figures)
-        if not abs(exact_value(text) - value) * 10 > width:
-            return text
-        figures += 1
-    return exact_or_figures(value, figures)

@@ -10,16 +10,15 @@ import msgspec
 from quizgen.marking.echo import safe
 from quizgen.marking.judging.wording import fold
 from quizgen.marking.options import Options
-from quizgen.marking.reading.rewrites import normalise
+from quizgen.marking.reading.rewrites import BANGLA_LETTERS, normalise
 from quizgen.marking.reading.scalars import ReadError
-from quizgen.marking.specs import Spec as AnySpec
+from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, correct, shared
 
 MOST_STEPS = 40
-_BANGLA = str.maketrans("কখগঘঙচছজঝঞ", "ABCDEFGHIJ")
 
 
-class Spec(AnySpec, kw_only=True):
+class Spec(Worded, kw_only=True, frozen=True):
     """Order: ``steps``; ``before`` = [[a, b], ...]; ``distractors`` that must stay out.
 
     Without ``before`` the listed order is the only one. Steps are typed by their labels.
@@ -45,6 +44,38 @@ class Spec(AnySpec, kw_only=True):
             return self.before
         return list(zip(self.steps, self.steps[1:], strict=False))
 
+    def judge(self, typed: str, _options: Options, /) -> Verdict:
+        """Judge a typed order."""
+        if len(typed) > 1000:
+            raise ReadError("too-long", 1001, "1000")
+        chosen = _labels(self, typed)
+        read_as = " ".join(safe(label) for label in chosen)
+        later = followers(self)
+        steps = [label for label in chosen if label in later]
+        intruders = [label for label in chosen if label not in later]
+        line = first_wrong(self, chosen, later)
+        if line == 0 and len(steps) == len(self.steps):
+            return correct(read_as)
+        kept = len(steps) - conflicts(steps, later)
+        total = max(len(self.steps) - 1, 1)
+        credit = max(Fraction(kept - 1 - len(intruders), total), Fraction(0))
+        note = "order-distractor" if intruders else "order-missing" if line == 0 else "order-line"
+        if line == 0:
+            line = len(chosen) + 1
+        elif note == "order-distractor":
+            line = chosen.index(intruders[0]) + 1
+        return shared(min(credit, Fraction(9, 10)), read_as, note, line=line)
+
+    def show(self) -> str:
+        """Return one right order."""
+        later = followers(self)
+        rest, shown = list(self.steps), list[str]()
+        while rest:
+            step = next(s for s in rest if not any(s in later[other] for other in rest))
+            rest.remove(step)
+            shown.append(step)
+        return " ".join(shown)
+
 
 def followers(spec: Spec) -> dict[str, set[str]]:
     """Every step that must come later than a step (closed under chains)."""
@@ -56,29 +87,6 @@ def followers(spec: Spec) -> dict[str, set[str]]:
             if middle in later[step]:
                 later[step] |= later[middle]
     return later
-
-
-def check(spec: Spec, typed: str, options: Options) -> Verdict:  # noqa: ARG001 - labels only
-    """Judge a typed order."""
-    if len(typed) > 1000:
-        raise ReadError("too-long", 1001, "1000")
-    chosen = _labels(spec, typed)
-    read_as = " ".join(safe(label) for label in chosen)
-    later = followers(spec)
-    steps = [label for label in chosen if label in later]
-    intruders = [label for label in chosen if label not in later]
-    line = first_wrong(spec, chosen, later)
-    if line == 0 and len(steps) == len(spec.steps):
-        return correct(read_as)
-    kept = len(steps) - conflicts(steps, later)
-    total = max(len(spec.steps) - 1, 1)
-    credit = max(Fraction(kept - 1 - len(intruders), total), Fraction(0))
-    note = "order-distractor" if intruders else "order-missing" if line == 0 else "order-line"
-    if line == 0:
-        line = len(chosen) + 1
-    elif note == "order-distractor":
-        line = chosen.index(intruders[0]) + 1
-    return shared(min(credit, Fraction(9, 10)), read_as, note, line=line)
 
 
 def first_wrong(spec: Spec, chosen: list[str], later: dict[str, set[str]]) -> int:
@@ -131,18 +139,7 @@ def _labels(spec: Spec, typed: str) -> list[str]:
 
 
 def _known(word: str, known: dict[str, str]) -> str:
-    label = known.get(fold(word)) or known.get(fold(word.translate(_BANGLA)))
+    label = known.get(fold(word)) or known.get(fold(word.translate(BANGLA_LETTERS)))
     if label is None:
         raise ReadError("label-expected", 1, safe(word), list(known.values()))
     return label
-
-
-def show(spec: Spec, lang: str) -> str:  # noqa: ARG001 - labels are the same in all languages
-    """Return one right order."""
-    later = followers(spec)
-    rest, shown = list(spec.steps), list[str]()
-    while rest:
-        step = next(s for s in rest if not any(s in later[other] for other in rest))
-        rest.remove(step)
-        shown.append(step)
-    return " ".join(shown)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
-from typing import Any
 
 import msgspec
 from flint import fmpq
@@ -12,26 +11,25 @@ from flint import fmpq
 from quizgen.marking.diagnosis.context import CARRIED, hints_for
 from quizgen.marking.diagnosis.slips import close
 from quizgen.marking.judging.number import Asked, judge_value, settle
-from quizgen.marking.kinds.number import shown
 from quizgen.marking.options import Options
 from quizgen.marking.reading.lists import read_list
 from quizgen.marking.reading.named import reordered
-from quizgen.marking.reading.quantities import split_quantity
+from quizgen.marking.reading.quantities import read_all, split_quantity
 from quizgen.marking.reading.rewrites import Source
-from quizgen.marking.reading.scalars import Number, ReadError, read_source
-from quizgen.marking.reading.unit_words import TypedUnit, plain_unit
-from quizgen.marking.specs import Measured, gives
+from quizgen.marking.reading.scalars import Number, ReadError
+from quizgen.marking.reading.unit_words import TypedUnit
+from quizgen.marking.rounding import shown
+from quizgen.marking.specs import Numbers, all_given
 from quizgen.marking.verdict import Verdict, correct, partial, shared, with_values, wrong
-from quizgen.maths.constants import Scalar, exact_value
+from quizgen.maths.constants import exact_value
 from quizgen.maths.units import shown as shown_unit
+from quizgen.maths.values import Value
 
 
-class Spec(Measured, kw_only=True):
+class Spec(Numbers, kw_only=True, frozen=True):
     """Point: ``values``; ``names`` of the coordinates; ``unit`` of all; ``up_to_scale``."""
 
-    values: list[Scalar]
     names: list[str] = msgspec.field(default_factory=list)
-    unit: str = ""
     up_to_scale: bool = False
 
     def validate(self) -> None:
@@ -39,24 +37,25 @@ class Spec(Measured, kw_only=True):
         super().validate()
         if not self.values or (self.names and len(self.names) != len(self.values)):
             raise ValueError("values must not be empty, names as many as values")
-        plain_unit(self.unit)
         if any(len(trap) != len(self.values) for trap in self.traps.values()):
             raise ValueError("a trap needs as many values as the point")
-        for value in (*self.values, *(item for trap in self.traps.values() for item in trap)):
-            exact_value(value)
 
+    def judge(self, typed: str, options: Options, /) -> Verdict:
+        """Judge typed coordinates."""
+        items, tail = read_list(typed, len(self.values), options.decimal)
+        items = reordered(items, self.names, ReadError("item-count", 1))
+        unit = _unit(tail)
+        first, second, doubt = read_all(items, self.unit, unit, options.decimal)
+        verdict = _judge(self, first, options)
+        if second is None or doubt is None or (doubt.native and verdict.credit):
+            return verdict
+        echoes = (_echo(self, first), _echo(self, second))
+        return settle(verdict, _judge(self, second, options), doubt, echoes)
 
-def check(spec: Spec, typed: str, options: Options) -> Verdict:
-    """Judge typed coordinates."""
-    items, tail = read_list(typed, len(spec.values), options.decimal)
-    items = reordered(items, spec.names, ReadError("item-count", 1))
-    unit = _unit(tail)
-    first, second, doubt = read_all(items, spec.unit, unit, options.decimal)
-    verdict = _judge(spec, first, options)
-    if second is None or doubt is None or (doubt.native and verdict.credit):
-        return verdict
-    echoes = (_echo(spec, first), _echo(spec, second))
-    return settle(verdict, _judge(spec, second, options), doubt, echoes)
+    def show(self) -> str:
+        """Return the key as printed and as it can be typed back."""
+        inside = "; ".join(shown(self, key) for key in self.keys())
+        return f"({inside}) {shown_unit(self.unit)}".rstrip()
 
 
 def _unit(tail: Source) -> TypedUnit | None:
@@ -67,35 +66,6 @@ def _unit(tail: Source) -> TypedUnit | None:
     return quantity.unit
 
 
-def read_all(
-    items: list[Source], asked: str, unit: TypedUnit | None, decimal: str
-) -> tuple[list[Number], list[Number] | None, Any]:
-    """Read every item in the asked unit; both readings if one item has two."""
-    first, second, doubt = [], [], None
-    for item in items:
-        quantity = split_quantity(item)
-        scale = _scale(quantity.unit or unit, asked, item)
-        readings = read_source(quantity.number, decimal)
-        first.append(_scaled(readings.main, scale))
-        second.append(_scaled(readings.other or readings.main, scale))
-        doubt = doubt or readings.doubt
-    return first, second if doubt else None, doubt
-
-
-def _scale(unit: TypedUnit | None, asked: str, item: Source) -> Any:
-    if unit is None:
-        return fmpq(1)
-    wanted = plain_unit(asked)
-    if unit.dimension != wanted.dimension:
-        code = "unit-not-asked" if not wanted.dimension else "unit-other"
-        raise ReadError(code, item.column(0), shown_unit(unit.text), [shown_unit(asked)])
-    return unit.factor / wanted.factor
-
-
-def _scaled(number: Number, scale: Any) -> Number:
-    return number if scale == 1 else replace(number, value=number.value * scale)
-
-
 def _echo(spec: Spec, numbers: list[Number]) -> str:
     inside = "; ".join(number.read_as for number in numbers)
     return f"({inside}) {shown_unit(spec.unit)}".rstrip()
@@ -104,13 +74,13 @@ def _echo(spec: Spec, numbers: list[Number]) -> str:
 def _judge(spec: Spec, numbers: list[Number], options: Options) -> Verdict:
     values = [number.value for number in numbers]
     read_as = _echo(spec, numbers)
-    keys = [exact_value(value) for value in spec.values]
+    keys = spec.keys()
     if spec.up_to_scale:
         return _up_to_scale(spec, values, keys, read_as)
     return with_values(_coordinates(spec, numbers, keys, read_as, options), *values)
 
 
-def _up_to_scale(spec: Spec, values: list[Any], keys: list[Any], read_as: str) -> Verdict:
+def _up_to_scale(spec: Spec, values: list[Value], keys: list[Value], read_as: str) -> Verdict:
     """Compare homogeneous coordinates: scaled by the key's largest, or all zero."""
     if all(value == 0 for value in values):
         return wrong(read_as, "all-zero")
@@ -123,7 +93,7 @@ def _up_to_scale(spec: Spec, values: list[Any], keys: list[Any], read_as: str) -
 
 
 def _coordinates(
-    spec: Spec, numbers: list[Number], keys: list[Any], read_as: str, options: Options
+    spec: Spec, numbers: list[Number], keys: list[Value], read_as: str, options: Options
 ) -> Verdict:
     cells = tuple(_cell(spec, i, numbers[i], keys[i], options) for i in range(len(keys)))
     if all(cell.credit == 1 for cell in cells):
@@ -137,30 +107,28 @@ def _coordinates(
     return replace(_hint(spec, numbers, keys, cells, read_as), cells=cells)
 
 
-def _cell(spec: Spec, index: int, number: Number, key: Any, options: Options) -> Verdict:
+def _cell(spec: Spec, index: int, number: Number, key: Value, options: Options) -> Verdict:
     target = spec.quantities()[index] if len(spec.of) == len(spec.values) else ""
     hints = hints_for(spec, number, fmpq(1), options, target) if target else None
     return judge_value(Asked(spec, key, hints=hints), number, number.value)
 
 
 def _trap(spec: Spec, numbers: list[Number]) -> str:
-    for name, wrong_values in spec.traps.items():
-        pairs = zip(numbers, wrong_values, strict=True)
-        if all(gives(spec, n, n.value, exact_value(target)) for n, target in pairs):
+    for name, values in spec.traps.items():
+        if all_given(spec, numbers, [exact_value(value) for value in values]):
             return name
     return ""
 
 
 def _hint(
-    spec: Spec, numbers: list[Number], keys: list[Any], cells: tuple[Verdict, ...], read_as: str
+    spec: Spec, numbers: list[Number], keys: list[Value], cells: tuple[Verdict, ...], read_as: str
 ) -> Verdict:
     """Swapped axes, signs, or which coordinate is right."""
     values = [number.value for number in numbers]
-    turned = zip(numbers, reversed(keys), strict=True)
-    if all(gives(spec, n, n.value, key) for n, key in turned):
+    if all_given(spec, numbers, keys[::-1]):
         return wrong(read_as, "swapped")
     missed = [i for i, cell in enumerate(cells) if cell.credit < 1]
-    note, fields = "coordinate", dict[str, Any]()
+    note, fields = "coordinate", dict[str, object]()
     if all(keys[i] != 0 and close(-values[i], keys[i]) for i in missed):
         note = "coordinate-sign"
     elif len(missed) == len(cells):
@@ -171,14 +139,14 @@ def _hint(
 _SHARED = frozenset({"power-of-ten", "factor", "reciprocal", "percent-slip"})
 
 
-def _common(cells: tuple[Verdict, ...]) -> tuple[str, dict[str, Any]]:
+def _common(cells: tuple[Verdict, ...]) -> tuple[str, dict[str, object]]:
     """Return the slip that all coordinates share."""
     slips = {(cell.note, tuple(cell.fields.items())) for cell in cells}
     note, fields = slips.pop()
     return (note, dict(fields)) if not slips and note in _SHARED else ("", {})
 
 
-def _credit(keys: list[Any], cells: tuple[Verdict, ...]) -> Fraction:
+def _credit(keys: list[Value], cells: tuple[Verdict, ...]) -> Fraction:
     """Share of right coordinates; a zero in the key earns nothing by itself."""
     counted = [cell.credit for key, cell in zip(keys, cells, strict=True) if key != 0]
     if counted and all(credit == 1 for credit in counted):
@@ -189,9 +157,3 @@ def _credit(keys: list[Any], cells: tuple[Verdict, ...]) -> Fraction:
 def _names(spec: Spec, missed: list[int]) -> tuple[str, ...]:
     names = spec.names or [str(i + 1) for i in range(len(spec.values))]
     return tuple(names[i] for i in missed)
-
-
-def show(spec: Spec, lang: str) -> str:  # noqa: ARG001 - one notation in all languages
-    """Return the key as printed and as it can be typed back."""
-    inside = "; ".join(shown(spec, exact_value(value)) for value in spec.values)
-    return f"({inside}) {shown_unit(spec.unit)}".rstrip()

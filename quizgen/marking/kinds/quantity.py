@@ -2,47 +2,50 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from flint import fmpq
 
-from quizgen.errors import FormulaError
 from quizgen.marking.diagnosis.context import hints_for
 from quizgen.marking.diagnosis.slips import close, power_of_ten
 from quizgen.marking.judging.number import Asked, judge_value, resolve
-from quizgen.marking.kinds.number import shown, trap_values, without_name
 from quizgen.marking.options import Options
+from quizgen.marking.reading.named import without_name
 from quizgen.marking.reading.quantities import TypedQuantity, split_quantity
 from quizgen.marking.reading.rewrites import normalise
 from quizgen.marking.reading.scalars import Number, read_source
 from quizgen.marking.reading.unit_words import TypedUnit, plain_unit
-from quizgen.marking.specs import Measured
+from quizgen.marking.rounding import shown
+from quizgen.marking.specs import OneNumber
 from quizgen.marking.verdict import HALF, Verdict, partial, with_values, wrong
-from quizgen.maths.constants import Scalar, exact_value
+from quizgen.maths.constants import exact_value
 from quizgen.maths.units import shown as shown_unit
+from quizgen.maths.values import Value
 
 
-class Spec(Measured, kw_only=True):
+class Spec(OneNumber, kw_only=True, frozen=True):
     """Quantity: ``value`` in ``unit``; with ``bare`` the unit is printed beside the field."""
 
-    value: Scalar
     unit: str
     bare: bool = False
 
     def validate(self) -> None:
         """Check tolerance, value, unit and traps."""
         super().validate()
-        exact_value(self.value)
         plain_unit(self.unit)
-        trap_values(self)
 
+    def value_unit(self) -> str:
+        """The unit of the key."""
+        return self.unit
 
-def check(spec: Spec, typed: str, options: Options) -> Verdict:
-    """Judge a typed quantity."""
-    source = without_name(normalise(typed))
-    quantity = split_quantity(source)
-    readings = read_source(quantity.number, options.decimal)
-    return resolve(readings, lambda n: _judge(spec, n, quantity, options), spec.decimals)
+    def judge(self, typed: str, options: Options, /) -> Verdict:
+        """Judge a typed quantity."""
+        source = without_name(normalise(typed))
+        quantity = split_quantity(source)
+        readings = read_source(quantity.number, options.decimal)
+        return resolve(readings, lambda n: _judge(self, n, quantity, options), self.decimals)
+
+    def show(self) -> str:
+        """Return the key as printed and as it can be typed back."""
+        return f"{shown(self, exact_value(self.value))} {shown_unit(self.unit)}".strip()
 
 
 def _judge(spec: Spec, number: Number, quantity: TypedQuantity, options: Options) -> Verdict:
@@ -57,12 +60,12 @@ def _judge(spec: Spec, number: Number, quantity: TypedQuantity, options: Options
     return _prefix(spec, number, value, quantity.unit, verdict)
 
 
-def judge_unit(spec: Spec, number: Number, value: Any, options: Options, read_as: str) -> Verdict:
+def judge_unit(spec: Spec, number: Number, value: Value, options: Options, read_as: str) -> Verdict:
     """Judge a value that stands in the key's unit."""
     asked = Asked(
         spec,
         exact_value(spec.value),
-        trap_values(spec),
+        spec.trap_values(),
         hints=hints_for(spec, number, fmpq(1), options),
     )
     verdict = judge_value(asked, number, value, read_as)
@@ -95,7 +98,9 @@ def _clash(spec: Spec, number: Number, typed: TypedUnit, read_as: str) -> Verdic
     return with_values(wrong(read_as, note, given=shown_unit(typed.text), asked=asked), None)
 
 
-def _prefix(spec: Spec, number: Number, value: Any, typed: TypedUnit, verdict: Verdict) -> Verdict:
+def _prefix(
+    spec: Spec, number: Number, value: Value, typed: TypedUnit, verdict: Verdict
+) -> Verdict:
     """Name a wrong power of ten as a slip of the prefix."""
     key = exact_value(spec.value)
     if verdict.note == "factor" and spec.unit == "dB":
@@ -109,7 +114,7 @@ def _prefix(spec: Spec, number: Number, value: Any, typed: TypedUnit, verdict: V
     return with_values(wrong(verdict.read_as, note, **fields), *verdict.values)
 
 
-def _decibel(value: Any, key: Any, verdict: Verdict) -> Verdict:
+def _decibel(value: Value, key: Value, verdict: Verdict) -> Verdict:
     if close(value * 2, key):
         return with_values(wrong(verdict.read_as, "decibel-ten"), *verdict.values)
     if close(value, key * 2):
@@ -117,7 +122,7 @@ def _decibel(value: Any, key: Any, verdict: Verdict) -> Verdict:
     return verdict
 
 
-def _logarithm(spec: Spec, value: Any, read_as: str) -> Verdict | None:
+def _logarithm(spec: Spec, value: Value, read_as: str) -> Verdict | None:
     """Report a ratio given where decibels were asked."""
     if spec.unit != "dB" or not value > 0:
         return None
@@ -126,11 +131,3 @@ def _logarithm(spec: Spec, value: Any, read_as: str) -> Verdict | None:
         if abs(float(value) - 10 ** (key / per_decade)) <= 0.005 * float(value):
             return wrong(read_as, "ratio-for-decibel")
     return None
-
-
-def show(spec: Spec, lang: str) -> str:  # noqa: ARG001 - one notation in all languages
-    """Return the key as printed and as it can be typed back."""
-    return f"{shown(spec, exact_value(spec.value))} {shown_unit(spec.unit)}".strip()
-
-
-__all__ = ["FormulaError", "Spec", "check", "judge_unit", "show"]

@@ -4,48 +4,39 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from flint import fmpq
-
-from quizgen.marking.kinds.number import shown
-from quizgen.marking.kinds.point import read_all
 from quizgen.marking.options import Options
 from quizgen.marking.reading.lists import read_list
+from quizgen.marking.reading.quantities import read_all
 from quizgen.marking.reading.scalars import Number
-from quizgen.marking.reading.unit_words import plain_unit
-from quizgen.marking.specs import Measured, gives
+from quizgen.marking.rounding import shown
+from quizgen.marking.specs import Numbers, gives
 from quizgen.marking.verdict import Verdict, correct, shared, wrong
-from quizgen.maths.constants import Scalar, exact_value
+from quizgen.maths.constants import exact_value
+from quizgen.maths.values import Value
 
 
-class Spec(Measured, kw_only=True):
+class Spec(Numbers, kw_only=True, frozen=True):
     """Set: ``values``; ``unit`` of all."""
 
-    values: list[Scalar]
-    unit: str = ""
+    def judge(self, typed: str, options: Options, /) -> Verdict:
+        """Judge a typed set."""
+        numbers: list[Number] = []
+        if typed.strip() not in _EMPTY:
+            items, _ = read_list(typed, None, options.decimal)
+            numbers, _, _ = read_all(items, self.unit, None, options.decimal)
+        read_as = "{" + "; ".join(number.read_as for number in numbers) + "}"
+        return _judge(self, numbers, read_as)
 
-    def validate(self) -> None:
-        """Check tolerance, elements, unit and traps."""
-        super().validate()
-        plain_unit(self.unit)
-        for value in (*self.values, *(item for trap in self.traps.values() for item in trap)):
-            exact_value(value)
+    def show(self) -> str:
+        """Return the key as printed and as it can be typed back."""
+        return "{" + "; ".join(shown(self, key) for key in self.keys()) + "}"
 
 
 _EMPTY = frozenset({"{}", "∅", "{ }", "()", "empty", "leer", "শূন্য"})
 
 
-def check(spec: Spec, typed: str, options: Options) -> Verdict:
-    """Judge a typed set."""
-    numbers: list[Number] = []
-    if typed.strip() not in _EMPTY:
-        items, _ = read_list(typed, None, options.decimal)
-        numbers, _, _ = read_all(items, spec.unit, None, options.decimal)
-    read_as = "{" + "; ".join(number.read_as for number in numbers) + "}"
-    return _judge(spec, numbers, read_as)
-
-
 def _judge(spec: Spec, numbers: list[Number], read_as: str) -> Verdict:
-    keys = [exact_value(value) for value in spec.values]
+    keys = spec.keys()
     found, extra, twice = _matched(spec, numbers, keys)
     if len(found) == len(keys) and not extra:
         return correct(read_as, "duplicates" if twice else "")
@@ -58,7 +49,7 @@ def _judge(spec: Spec, numbers: list[Number], read_as: str) -> Verdict:
     return shared(credit, read_as, note, right=len(found), of=len(keys))
 
 
-def _matched(spec: Spec, numbers: list[Number], keys: list[fmpq]) -> tuple[set[int], int, bool]:
+def _matched(spec: Spec, numbers: list[Number], keys: list[Value]) -> tuple[set[int], int, bool]:
     """Elements found, elements that do not belong, and whether one came twice."""
     found: set[int] = set()
     extra, twice = 0, False
@@ -73,12 +64,7 @@ def _matched(spec: Spec, numbers: list[Number], keys: list[fmpq]) -> tuple[set[i
     return found, extra, twice
 
 
-def _covers(spec: Spec, numbers: list[Number], wanted: list[fmpq]) -> bool:
+def _covers(spec: Spec, numbers: list[Number], wanted: list[Value]) -> bool:
     return len(numbers) == len(wanted) and all(
         any(gives(spec, n, n.value, value) for n in numbers) for value in wanted
     )
-
-
-def show(spec: Spec, lang: str) -> str:  # noqa: ARG001 - one notation in all languages
-    """Return the key as printed and as it can be typed back."""
-    return "{" + "; ".join(shown(spec, exact_value(value)) for value in spec.values) + "}"

@@ -15,14 +15,21 @@ from quizgen.marking.reading.lists import read_list
 from quizgen.marking.reading.named import find_name, split_name
 from quizgen.marking.reading.rewrites import Source
 from quizgen.marking.reading.scalars import ReadError
-from quizgen.marking.specs import AnySpec, Measured, decode
+from quizgen.marking.specs import Measured, decode
 from quizgen.marking.verdict import Verdict, ambiguous, correct, partial, shared, with_values, wrong
 from quizgen.maths.constants import Scalar
+from quizgen.maths.tolerance import RULES
 
-CELLS = {"number": number, "quantity": quantity, "angle": angle}
+Cell = number.Spec | quantity.Spec | angle.Spec
+
+CELLS: dict[str, type[Cell]] = {
+    "number": number.Spec,
+    "quantity": quantity.Spec,
+    "angle": angle.Spec,
+}
 
 
-class Spec(Measured, kw_only=True):
+class Spec(Measured, kw_only=True, frozen=True):
     """Table: ``values`` (name to value); ``units`` (name to unit); ``cells`` (name to a table).
 
     A cell is a number with the table's tolerance unless ``cells`` says otherwise:
@@ -32,6 +39,7 @@ class Spec(Measured, kw_only=True):
     values: dict[str, Scalar]
     units: dict[str, str] = msgspec.field(default_factory=dict)
     cells: dict[str, dict[str, Any]] = msgspec.field(default_factory=dict)
+    traps: dict[str, dict[str, Scalar]] = msgspec.field(default_factory=dict)
 
     def validate(self) -> None:
         """Check tolerance and every cell."""
@@ -41,22 +49,42 @@ class Spec(Measured, kw_only=True):
         for name in (*self.units, *self.cells):
             if name not in self.values:
                 raise ValueError(f"no value is named {name!r}")
-        for trap, wrong_values in self.traps.items():
-            if not isinstance(wrong_values, Mapping):
-                raise TypeError(f"trap {trap!r} must be a table of names and values")
         for name in self.values:
             cell(self, name)
 
+    def judge(self, typed: str, options: Options, /) -> Verdict:
+        """Judge each cell."""
+        names = list(self.values)
+        placed = _placed(typed, names, options.decimal)
+        cells = [_one(self, name, placed.get(name), options) for name in names]
+        stopped = next((c for c in cells if c.verdict == "ambiguous"), None)
+        read_as = "; ".join(
+            f"{name} = {c.read_as}" for name, c in zip(names, cells, strict=True) if c.read_as
+        )
+        if stopped is not None:
+            return ambiguous(stopped.note, stopped.read_as, **stopped.fields)
+        trap = _trap(self, placed, options) if any(c.credit < 1 for c in cells) else ""
+        verdict = _together(names, cells, read_as, trap)
+        values = tuple(c.values[0] if c.values else None for c in cells)
+        return with_values(replace(verdict, cells=tuple(cells)), *values)
 
-_INHERITED = ("decimals", "sigfigs", "rel", "abs", "exact", "within", "strict")
-_TOLERANCES = frozenset({"decimals", "sigfigs", "rel", "abs", "exact"})
+    def show(self) -> str:
+        """Return the key as printed and as it can be typed back."""
+        return "; ".join(f"{name} = {cell(self, name).show()}" for name in self.values)
+
+    def value_units(self) -> list[str]:
+        """The unit of each cell."""
+        return [cell(self, name).value_unit() for name in self.values]
 
 
-def cell(spec: Spec, name: str) -> AnySpec:
+_INHERITED = (*RULES, "within", "strict")
+
+
+def cell(spec: Spec, name: str) -> Cell:
     """Return the spec of one cell."""
     own = spec.cells.get(name, {})
     table: dict[str, Any] = {"kind": "number", "value": spec.values[name]}
-    if not _TOLERANCES & own.keys():
+    if not {*RULES} & own.keys():
         table |= {key: getattr(spec, key) for key in _INHERITED}
     if spec.units.get(name):
         table["unit"] = spec.units[name]
@@ -68,24 +96,7 @@ def cell(spec: Spec, name: str) -> AnySpec:
         table.pop("unit", None)
     if table["kind"] not in CELLS:
         raise ValueError(f"cells.{name}: kind is one of {', '.join(CELLS)}")
-    return decode(CELLS[table["kind"]].Spec, table)
-
-
-def check(spec: Spec, typed: str, options: Options) -> Verdict:
-    """Judge each cell."""
-    names = list(spec.values)
-    placed = _placed(typed, names, options.decimal)
-    cells = [_one(spec, name, placed.get(name), options) for name in names]
-    stopped = next((c for c in cells if c.verdict == "ambiguous"), None)
-    read_as = "; ".join(
-        f"{name} = {c.read_as}" for name, c in zip(names, cells, strict=True) if c.read_as
-    )
-    if stopped is not None:
-        return ambiguous(stopped.note, stopped.read_as, **stopped.fields)
-    trap = _trap(spec, placed, options) if any(c.credit < 1 for c in cells) else ""
-    verdict = _together(names, cells, read_as, trap)
-    values = tuple(c.values[0] if c.values else None for c in cells)
-    return with_values(replace(verdict, cells=tuple(cells)), *values)
+    return decode(CELLS[table["kind"]], table)
 
 
 def _placed(typed: str, names: list[str], decimal: str) -> dict[str, Source]:
@@ -109,8 +120,7 @@ def _placed(typed: str, names: list[str], decimal: str) -> dict[str, Source]:
 def _one(spec: Spec, name: str, item: Source | None, options: Options) -> Verdict:
     if item is None:
         return wrong("", "missing", names=(name,))
-    sub = cell(spec, name)
-    verdict: Verdict = CELLS[sub.kind].check(sub, item.text, options)
+    verdict = cell(spec, name).judge(item.text, options)
     if verdict.verdict == "unreadable":
         raise ReadError(verdict.note, item.column(0), verdict.read_as)
     return verdict
@@ -138,7 +148,7 @@ def _gives(spec: Spec, trap: str, placed: Mapping[str, Source], options: Options
         if name not in placed:
             return False
         wrong_cell = cell(replace_values(spec, name, values.get(name, spec.values[name])), name)
-        if CELLS[wrong_cell.kind].check(wrong_cell, placed[name].text, options).credit < 1:
+        if wrong_cell.judge(placed[name].text, options).credit < 1:
             return False
     return True
 
@@ -146,12 +156,3 @@ def _gives(spec: Spec, trap: str, placed: Mapping[str, Source], options: Options
 def replace_values(spec: Spec, name: str, value: Scalar) -> Spec:
     """The same table with another value in one cell and no known mistakes."""
     return msgspec.structs.replace(spec, values={**spec.values, name: value}, traps={})
-
-
-def show(spec: Spec, lang: str) -> str:
-    """Return the key as printed and as it can be typed back."""
-    shown = []
-    for name in spec.values:
-        sub = cell(spec, name)
-        shown.append(f"{name} = {CELLS[sub.kind].show(sub, lang)}")
-    return "; ".join(shown)

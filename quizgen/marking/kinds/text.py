@@ -12,11 +12,11 @@ from quizgen.marking.judging.wording import budget, fold
 from quizgen.marking.options import Options
 from quizgen.marking.reading.rewrites import LONGEST_PROSE, Source, refuse_invisible
 from quizgen.marking.reading.scalars import ReadError
-from quizgen.marking.specs import Spec as AnySpec
+from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, ambiguous
 
 
-class Spec(AnySpec, kw_only=True):
+class Spec(Worded, kw_only=True, frozen=True):
     """Text: ``points`` = key points, each a list of words of which one must occur.
 
     ``points`` may be a table from a point's name to its words. ``needed`` of them (default: all)
@@ -38,30 +38,33 @@ class Spec(AnySpec, kw_only=True):
         if not self.points or len(self.groups()) != len(self.points) or not all(self.points):
             raise ValueError("every key point needs at least one word")
 
+    def judge(self, typed: str, _options: Options, /) -> Verdict:
+        """Suggest which key points a text contains."""
+        if len(typed) > LONGEST_PROSE:
+            raise ReadError("too-long", LONGEST_PROSE + 1, str(LONGEST_PROSE))
+        if not typed.strip():
+            raise ReadError("no-answer", 1)
+        refuse_invisible(Source.of(typed.strip("\u200e\u200f\ufeff")), "\r\n\t\u200c\u200d")
+        words = [fold(word) for word in _WORD.findall(typed)]
+        groups = self.groups()
+        found = [name for name, terms in groups.items() if any(_occurs(t, words) for t in terms)]
+        missing = [name for name in groups if name not in found]
+        note = "self-mark" if found else "self-mark-none"
+        return ambiguous(
+            note,
+            safe(" ".join(typed.split()), 80),
+            right=len(found),
+            of=self.needed or len(groups),
+            found=tuple(found),
+            missing=tuple(missing),
+        )
+
+    def show(self) -> str:
+        """Return the key points."""
+        return "; ".join(self.groups())
+
 
 _WORD = re.compile(r"[^\s.,;:!?()\"।/]+")
-
-
-def check(spec: Spec, typed: str, options: Options) -> Verdict:  # noqa: ARG001 - words only
-    """Suggest which key points a text contains."""
-    if len(typed) > LONGEST_PROSE:
-        raise ReadError("too-long", LONGEST_PROSE + 1, str(LONGEST_PROSE))
-    if not typed.strip():
-        raise ReadError("no-answer", 1)
-    refuse_invisible(Source.of(typed.strip("\u200e\u200f\ufeff")), "\r\n\t\u200c\u200d")
-    words = [fold(word) for word in _WORD.findall(typed)]
-    groups = spec.groups()
-    found = [name for name, terms in groups.items() if any(_occurs(t, words) for t in terms)]
-    missing = [name for name in groups if name not in found]
-    note = "self-mark" if found else "self-mark-none"
-    return ambiguous(
-        note,
-        safe(" ".join(typed.split()), 80),
-        right=len(found),
-        of=spec.needed or len(groups),
-        found=tuple(found),
-        missing=tuple(missing),
-    )
 
 
 def _occurs(term: str, words: list[str]) -> bool:
@@ -80,8 +83,3 @@ def _alike(word: str, wanted: str) -> bool:
         return True
     slips = budget(wanted)
     return OSA.distance(word, wanted, score_cutoff=slips) <= slips
-
-
-def show(spec: Spec, lang: str) -> str:  # noqa: ARG001 - the key points stand as written
-    """Return the key points."""
-    return "; ".join(spec.groups())

@@ -11,23 +11,23 @@ import msgspec
 
 from quizgen.errors import FormulaError
 from quizgen.marking.judging.sampling import BITS, Domain, compiled
-from quizgen.marking.kinds.expression import author
 from quizgen.marking.options import Options
-from quizgen.marking.reading.lists import _depth, unbracketed
+from quizgen.marking.reading.formulas import author
+from quizgen.marking.reading.lists import depth, unbracketed
 from quizgen.marking.reading.named import find_name, name_key, split_name
 from quizgen.marking.reading.rewrites import Source, normalise
 from quizgen.marking.reading.scalars import Number, ReadError, read_source
 from quizgen.marking.rounding import exact_or_figures
-from quizgen.marking.specs import Spec as AnySpec
+from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, ambiguous, correct, with_values, wrong
 from quizgen.maths.constants import Scalar, exact_value
 from quizgen.maths.notation import to_text
 from quizgen.maths.operators import CONDITIONS
 from quizgen.maths.precision import working_precision
-from quizgen.maths.tree import Call, Expr, names
+from quizgen.maths.tree import Call, Expr
 
 
-class Spec(AnySpec, kw_only=True):
+class Spec(Worded, kw_only=True, frozen=True):
     """Witness: ``predicate`` to satisfy; ``symbols`` to give; ``where`` = constraints.
 
     ``symbols`` is a list of names, or a table from names to ``real``, ``positive`` or
@@ -61,20 +61,25 @@ class Spec(AnySpec, kw_only=True):
         if self.example and {*self.example} != {*self.names()}:
             raise ValueError("example must give every symbol")
 
+    def judge(self, typed: str, options: Options, /) -> Verdict:
+        """Test a typed example."""
+        numbers = _numbers(self, typed, options.decimal)
+        env = {name: number.value for name, number in numbers.items()}
+        read_as = "; ".join(f"{name} = {number.read_as}" for name, number in numbers.items())
+        with working_precision(BITS):
+            verdict = _tested(self, _extended(self, env), read_as)
+        return with_values(verdict, *env.values())
+
+    def show(self) -> str:
+        """Return one right example if there is one, else what an example must satisfy."""
+        if self.example:
+            return "; ".join(f"{name} = {self.example[name]}" for name in self.names())
+        return "; ".join((self.predicate, *self.where))
+
 
 @lru_cache(maxsize=1024)
 def _compiled(text: str, symbols: tuple[str, ...]) -> Any:
     return compiled(author(text, symbols))
-
-
-def check(spec: Spec, typed: str, options: Options) -> Verdict:
-    """Test a typed example."""
-    numbers = _numbers(spec, typed, options.decimal)
-    env = {name: number.value for name, number in numbers.items()}
-    read_as = "; ".join(f"{name} = {number.read_as}" for name, number in numbers.items())
-    with working_precision(BITS):
-        verdict = _tested(spec, _extended(spec, env), read_as)
-    return with_values(verdict, *env.values())
 
 
 def _extended(spec: Spec, env: dict[str, Any]) -> dict[str, Any]:
@@ -163,7 +168,7 @@ def _alone(item: Source, count: int) -> list[Source]:
     """Cut values that stand in a row without separators of their own: ``0.2 0.3``."""
     for separator in (re.compile(r" +"), re.compile(r",")):
         parts = _cut(item, separator)
-        if len(parts) == count and _depth(item.text, len(item.text)) == 0:
+        if len(parts) == count and depth(item.text, len(item.text)) == 0:
             return parts
     return [item]
 
@@ -185,7 +190,7 @@ def _items(source: Source) -> Iterator[tuple[str, Source]]:
 def _cut(source: Source, separator: re.Pattern[str]) -> list[Source]:
     start, pieces = 0, []
     for match in separator.finditer(source.text):
-        if _depth(source.text, match.start()) == 0:
+        if depth(source.text, match.start()) == 0:
             pieces.append(source.cut(start, match.start()).strip())
             start = match.end()
     pieces.append(source.cut(start).strip(" ,"))
@@ -222,13 +227,3 @@ def _parts(inner: Source) -> list[Source]:
         if separator.search(inner.text):
             return _cut(inner, separator)
     return [inner]
-
-
-def show(spec: Spec, lang: str) -> str:  # noqa: ARG001 - a relation reads the same everywhere
-    """Return one right example if there is one, else what an example must satisfy."""
-    if spec.example:
-        return "; ".join(f"{name} = {spec.example[name]}" for name in spec.names())
-    return "; ".join((spec.predicate, *spec.where))
-
-
-__all__ = ["Spec", "check", "names", "show"]

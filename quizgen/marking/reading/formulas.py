@@ -6,11 +6,12 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 
 from quizgen.marking.reading.literals import Doubt, pointed
 from quizgen.marking.reading.rewrites import Rewrite, Source, normalise
 from quizgen.marking.reading.scalars import moved
-from quizgen.maths.notation import ReadError, double_reading, parse_pieces, to_text, tokens
+from quizgen.maths.notation import ReadError, double_reading, parse, parse_pieces, to_text, tokens
 from quizgen.maths.notation.names import FUNCTIONS, folded
 from quizgen.maths.operators import CONDITIONS
 from quizgen.maths.tree import Call, Expr, Num
@@ -184,3 +185,9 @@ def _meant(error: ReadError, declared: frozenset[str]) -> ReadError:
     if error.found in FUNCTIONS:
         return ReadError("bracket-missing", error.column or 1, error.found)
     return ReadError(error.code, error.column or 1, error.found, same or sorted(declared))
+
+
+@lru_cache(maxsize=2048)
+def author(text: str, symbols: tuple[str, ...]) -> Expr:
+    """Parse an author's formula once."""
+    return parse(text, symbols=symbols)

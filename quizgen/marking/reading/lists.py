@@ -101,7 +101,7 @@ def _parts(source: Source, separator: re.Pattern[str]) -> Iterator[Source]:
     """Cut at separators outside brackets; empty pieces at the ends are dropped."""
     start, pieces = 0, []
     for match in separator.finditer(source.text):
-        if _depth(source.text, match.start()) == 0:
+        if depth(source.text, match.start()) == 0:
             pieces.append(source.cut(start, match.start()).strip())
             start = match.end()
     pieces.append(source.cut(start).strip())
@@ -113,6 +113,7 @@ def _parts(source: Source, separator: re.Pattern[str]) -> Iterator[Source]:
         yield piece
 
 
-def _depth(text: str, end: int) -> int:
+def depth(text: str, end: int) -> int:
+    """Brackets that are open at a position."""
     before = text[:end]
     return sum(before.count(b) for b in "([{") - sum(before.count(b) for b in ")]}")

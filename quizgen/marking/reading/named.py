@@ -56,3 +56,12 @@ def reordered(items: list[Source], names: list[str], error: ReadError) -> list[S
     if len(placed) != len(names):
         raise error
     return [placed[name] for name in names]
+
+
+_LEADING = re.compile(r"[^\W\d_][^\W_]*'*(?:_[^\W_]+'*)* ?(?:=|≈|:|:=) ?")
+
+
+def without_name(source: Source) -> Source:
+    """Drop a leading ``u =``."""
+    match = _LEADING.match(source.text)
+    return source.cut(match.end()) if match and match.end() < len(source.text) else source

@@ -69,6 +69,9 @@ class Source:
 
 Rewrite = tuple[re.Pattern[str], Callable[[re.Match[str]], str]]
 
+BANGLA_LETTERS = str.maketrans("কখগঘঙচছজঝঞ", "ABCDEFGHIJ")
+"""Letters that count options in Bangla, and the Latin ones in the same places."""
+
 _SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻", "0123456789+-")
 _SUBSCRIPTS = str.maketrans("₀₁₂₃₄₅₆₇₈₉ₓᵢ", "0123456789xi")
 _APPROXIMATE = r"ca\.|approx(?:\.|imately)?|about|circa|etwa|ungefähr|rund|প্রায়|প্রায়"
@@ -110,10 +113,7 @@ REWRITES: dict[str, Rewrite] = {
     "subscripts": (re.compile(r"[₀-₉ₓᵢ]+"), lambda m: m[0].translate(_SUBSCRIPTS)),
     "vulgar fractions": (re.compile(r"(\d*) ?([¼-¾⅐-⅞])"), _fraction),
     "about": (_ABOUT, lambda _m: ""),
-    "x between numbers": (
-        re.compile(r"(?<=[\d)])(?<!^0)(?<![^\d.,]0) *[xXхХ] *(?=\d)"),
-        lambda _m: "*",
-    ),
+    "x between numbers": (_X, lambda _m: "*"),
 }
 """Name to pattern and replacement, in the order they are applied."""
 
