@@ -2,55 +2,90 @@
 
 from __future__ import annotations
 
-from functools import cache
+from collections.abc import Sequence
+from functools import cache, singledispatch
 from importlib.resources import files
-from typing import Any
 
 import jinja2
 from markupsafe import Markup, escape
 
 from quizgen import typeset
-from quizgen.bank.prose import Code, CodeBlock, Items, Paragraph, Styled, Table, Words
+from quizgen.bank.prose import (
+    Block,
+    Code,
+    CodeBlock,
+    Inline,
+    Items,
+    Paragraph,
+    Styled,
+    Table,
+    Words,
+)
 from quizgen.locale import marks, word
 from quizgen.paper.paper import Paper
 from quizgen.question.filling import Maths
 from quizgen.render import fonts
 
 
-def inline(parts: Any, lang: str) -> Markup:
+@singledispatch
+def inline(part: Inline | tuple[Inline, ...], lang: str) -> Markup:
     """Inlines as HTML."""
-    if isinstance(parts, tuple):
-        return Markup("").join(inline(part, lang) for part in parts)
-    if isinstance(parts, Words):
-        return escape(parts.text)
-    if isinstance(parts, Maths):
-        return Markup(typeset.mathml(parts.node, lang))
-    if isinstance(parts, Code):
-        return Markup("<code>{}</code>").format(parts.text)
-    if isinstance(parts, Styled):
-        return Markup("<{0}>{1}</{0}>").format(Markup(parts.style), inline(parts.children, lang))
-    raise TypeError(type(parts).__name__)
+    raise TypeError(f"no HTML for {type(part).__name__} ({lang})")
 
 
-def block(part: Any, lang: str) -> Markup:
+@inline.register(tuple)
+def _inlines(parts: tuple[Inline, ...], lang: str) -> Markup:
+    return Markup("").join(inline(part, lang) for part in parts)
+
+
+@inline.register
+def _words(part: Words, _lang: str) -> Markup:
+    return escape(part.text)
+
+
+@inline.register
+def _maths(part: Maths, lang: str) -> Markup:
+    return Markup(typeset.mathml(part.node, lang))
+
+
+@inline.register
+def _code(part: Code, _lang: str) -> Markup:
+    return Markup("<code>{}</code>").format(part.text)
+
+
+@inline.register
+def _styled(part: Styled, lang: str) -> Markup:
+    return Markup("<{0}>{1}</{0}>").format(Markup(part.style), inline(part.children, lang))
+
+
+@singledispatch
+def block(part: Block, lang: str) -> Markup:
     """A block as HTML."""
-    if isinstance(part, Paragraph):
-        return Markup("<p>{}</p>").format(inline(part.children, lang))
-    if isinstance(part, CodeBlock):
-        return Markup('<pre tabindex="0"><code>{}</code></pre>').format(part.text)
-    if isinstance(part, Items):
-        tag = Markup("ol" if part.ordered else "ul")
-        items = Markup("").join(
-            Markup("<li>{}</li>").format(blocks(item, lang, tight=True)) for item in part.items
-        )
-        return Markup("<{0}>{1}</{0}>").format(tag, items)
-    if isinstance(part, Table):
-        return _table(part, lang)
-    raise TypeError(type(part).__name__)
+    raise TypeError(f"no HTML for {type(part).__name__} ({lang})")
 
 
+@block.register
+def _paragraph(part: Paragraph, lang: str) -> Markup:
+    return Markup("<p>{}</p>").format(inline(part.children, lang))
+
+
+@block.register
+def _code_block(part: CodeBlock, _lang: str) -> Markup:
+    return Markup('<pre tabindex="0"><code>{}</code></pre>').format(part.text)
+
+
+@block.register
+def _items(part: Items, lang: str) -> Markup:
+    tag = Markup("ol" if part.ordered else "ul")
+    items = Markup("").join(
+        Markup("<li>{}</li>").format(blocks(item, lang, tight=True)) for item in part.items
+    )
+    return Markup("<{0}>{1}</{0}>").format(tag, items)
+
+
+@block.register
 def _table(part: Table, lang: str) -> Markup:
-    def row(cells: Any) -> Markup:
+    def row(cells: tuple[tuple[Inline, ...], ...]) -> Markup:
         tags = [Markup("<td>{}</td>").format(inline(cell, lang)) for cell in cells]
         return Markup("<tr>{}</tr>").format(Markup("").join(tags))
 
@@ -59,7 +94,7 @@ def _table(part: Table, lang: str) -> Markup:
     return Markup("<table><thead><tr>{}</tr></thead><tbody>{}</tbody></table>").format(head, body)
 
 
-def _head_cell(cell: Any, lang: str) -> Markup:
+def _head_cell(cell: tuple[Inline, ...], lang: str) -> Markup:
     """A head cell; a lone formula is spelled out for listeners, and empty is no head."""
     if not cell:
         return Markup("<td></td>")
@@ -70,7 +105,7 @@ def _head_cell(cell: Any, lang: str) -> Markup:
     return Markup("<th>{}</th>").format(inline(cell, lang))
 
 
-def blocks(parts: Any, lang: str, *, tight: bool = False) -> Markup:
+def blocks(parts: Sequence[Block], lang: str, *, tight: bool = False) -> Markup:
     """Blocks as HTML; ``tight`` drops the paragraph around a single sentence."""
     if tight and len(parts) == 1 and isinstance(parts[0], Paragraph):
         return inline(parts[0].children, lang)

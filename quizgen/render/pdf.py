@@ -5,12 +5,22 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable
 from datetime import UTC, datetime
-from functools import cache
+from functools import cache, singledispatch
 from importlib.resources import files
 from typing import Any, Final
 
 from quizgen import typeset
-from quizgen.bank.prose import Code, CodeBlock, Items, Paragraph, Styled, Table, Words
+from quizgen.bank.prose import (
+    Block,
+    Code,
+    CodeBlock,
+    Inline,
+    Items,
+    Paragraph,
+    Styled,
+    Table,
+    Words,
+)
 from quizgen.errors import RenderError
 from quizgen.locale import marks, word
 from quizgen.paper.paper import Item, Paper
@@ -29,20 +39,36 @@ def string(text: str) -> str:
     return json.dumps(text, ensure_ascii=False).replace("\\/", "/")
 
 
-def inline(parts: Any, lang: str) -> str:
+@singledispatch
+def inline(part: Inline | tuple[Inline, ...], lang: str) -> str:
     """Inlines as Typst markup."""
-    if isinstance(parts, tuple):
-        return "".join(inline(part, lang) for part in parts)
-    if isinstance(parts, Words):
-        return f"#{string(parts.text)};"
-    if isinstance(parts, Maths):
-        return equation(parts, lang, block=False)
-    if isinstance(parts, Code):
-        return f"#raw({string(parts.text)});"
-    if isinstance(parts, Styled):
-        name = "emph" if parts.style == "em" else "strong"
-        return f"#{name}[{inline(parts.children, lang)}];"
-    raise TypeError(type(parts).__name__)
+    raise TypeError(f"no Typst for {type(part).__name__} ({lang})")
+
+
+@inline.register(tuple)
+def _inlines(parts: tuple[Inline, ...], lang: str) -> str:
+    return "".join(inline(part, lang) for part in parts)
+
+
+@inline.register
+def _plain(part: Words, _lang: str) -> str:
+    return f"#{string(part.text)};"
+
+
+@inline.register
+def _maths(part: Maths, lang: str) -> str:
+    return equation(part, lang, block=False)
+
+
+@inline.register
+def _code(part: Code, _lang: str) -> str:
+    return f"#raw({string(part.text)});"
+
+
+@inline.register
+def _styled(part: Styled, lang: str) -> str:
+    name = "emph" if part.style == "em" else "strong"
+    return f"#{name}[{inline(part.children, lang)}];"
 
 
 def equation(maths: Maths, lang: str, *, block: bool) -> str:
@@ -53,25 +79,38 @@ def equation(maths: Maths, lang: str, *, block: bool) -> str:
     return f"#math.equation(alt: {spoken}, block: {str(block).lower()}, {body});"
 
 
-def blocks(parts: Iterable[Any], lang: str) -> str:
+def blocks(parts: Iterable[Block], lang: str) -> str:
     """Blocks as Typst markup."""
     return "\n\n".join(_block(part, lang) for part in parts)
 
 
-def _block(part: Any, lang: str) -> str:
-    if isinstance(part, Paragraph):
-        return inline(part.children, lang)
-    if isinstance(part, CodeBlock):
-        return f"#raw({string(part.text)}, block: true);"
-    if isinstance(part, Items):
-        name = "enum" if part.ordered else "list"
-        return f"#{name}({', '.join(f'[{blocks(item, lang)}]' for item in part.items)});"
-    if isinstance(part, Table):
-        cells = [cell for row in (part.head, *part.rows) for cell in row]
-        head = ", ".join(f"[{inline(cell, lang)}]" for cell in part.head)
-        rest = ", ".join(f"[{inline(cell, lang)}]" for cell in cells[len(part.head) :])
-        return f"#table(columns: {len(part.head)}, table.header({head}), {rest});"
-    raise TypeError(type(part).__name__)
+@singledispatch
+def _block(part: Block, lang: str) -> str:
+    raise TypeError(f"no Typst for {type(part).__name__} ({lang})")
+
+
+@_block.register
+def _paragraph(part: Paragraph, lang: str) -> str:
+    return inline(part.children, lang)
+
+
+@_block.register
+def _code_block(part: CodeBlock, _lang: str) -> str:
+    return f"#raw({string(part.text)}, block: true);"
+
+
+@_block.register
+def _items(part: Items, lang: str) -> str:
+    name = "enum" if part.ordered else "list"
+    return f"#{name}({', '.join(f'[{blocks(item, lang)}]' for item in part.items)});"
+
+
+@_block.register
+def _table(part: Table, lang: str) -> str:
+    cells = [cell for row in (part.head, *part.rows) for cell in row]
+    head = ", ".join(f"[{inline(cell, lang)}]" for cell in part.head)
+    rest = ", ".join(f"[{inline(cell, lang)}]" for cell in cells[len(part.head) :])
+    return f"#table(columns: {len(part.head)}, table.header({head}), {rest});"
 
 
 def _in(lang: str, body: str) -> str:

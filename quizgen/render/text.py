@@ -2,41 +2,81 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Iterable, Iterator
+from functools import singledispatch
+from itertools import chain
 
-from quizgen.bank.prose import Code, CodeBlock, Items, Paragraph, Styled, Table, Words
+from quizgen.bank.prose import (
+    Block,
+    Code,
+    CodeBlock,
+    Inline,
+    Items,
+    Paragraph,
+    Styled,
+    Table,
+    Words,
+)
 from quizgen.locale import word
 from quizgen.paper.paper import Item
 from quizgen.question.filling import Maths
 from quizgen.question.solution import PartSolution
 
 
-def inline(parts: Any) -> str:
+@singledispatch
+def inline(part: Inline | tuple[Inline, ...]) -> str:
     """Inlines as text; formulas as they would be typed."""
-    if isinstance(parts, tuple):
-        return "".join(inline(part) for part in parts)
-    if isinstance(parts, Words | Code):
-        return parts.text
-    if isinstance(parts, Styled):
-        return inline(parts.children)
-    if isinstance(parts, Maths):
-        return parts.typed
-    raise TypeError(type(parts).__name__)
+    raise TypeError(type(part).__name__)
 
 
-def blocks(parts: Any) -> Iterator[str]:
+@inline.register(tuple)
+def _inlines(parts: tuple[Inline, ...]) -> str:
+    return "".join(map(inline, parts))
+
+
+@inline.register
+def _plain(part: Words | Code) -> str:
+    return part.text
+
+
+@inline.register
+def _styled(part: Styled) -> str:
+    return inline(part.children)
+
+
+@inline.register
+def _maths(part: Maths) -> str:
+    return part.typed
+
+
+def blocks(parts: Iterable[Block]) -> Iterator[str]:
     """Blocks as lines."""
-    for part in parts:
-        if isinstance(part, Paragraph):
-            yield inline(part.children)
-        elif isinstance(part, CodeBlock):
-            yield from (f"    {line}" for line in part.text.splitlines())
-        elif isinstance(part, Items):
-            for item in part.items:
-                yield from (f"  - {line}" for line in blocks(item))
-        elif isinstance(part, Table):
-            yield from (" | ".join(map(inline, row)) for row in (part.head, *part.rows))
+    return chain.from_iterable(map(_lines, parts))
+
+
+@singledispatch
+def _lines(part: Block) -> Iterable[str]:
+    raise TypeError(type(part).__name__)
+
+
+@_lines.register
+def _paragraph(part: Paragraph) -> Iterable[str]:
+    return [inline(part.children)]
+
+
+@_lines.register
+def _code_block(part: CodeBlock) -> Iterable[str]:
+    return [f"    {line}" for line in part.text.splitlines()]
+
+
+@_lines.register
+def _items(part: Items) -> Iterable[str]:
+    return [f"  - {line}" for item in part.items for line in blocks(item)]
+
+
+@_lines.register
+def _table(part: Table) -> Iterable[str]:
+    return [" | ".join(map(inline, row)) for row in (part.head, *part.rows)]
 
 
 def question_text(item: Item) -> str:

@@ -7,11 +7,12 @@ are left as they are: whoever puts the result into HTML escapes it.
 from __future__ import annotations
 
 import re
-from functools import lru_cache
+from functools import lru_cache, singledispatch
 
+from quizgen.errors import RenderError
 from quizgen.typeset import nodes as n
-from quizgen.typeset.emit import known, printer
 from quizgen.typeset.names import GREEK, KNOWN
+from quizgen.typeset.tables import known
 from quizgen.typeset.units import TIGHT, parts
 from quizgen.typeset.words import words_of
 
@@ -90,10 +91,17 @@ def latex(node: n.Node, lang: str = "en") -> str:
     return _TOUCHING.sub("} ", _emit(node, lang))
 
 
+@singledispatch
+def _emit(node: n.Node, lang: str) -> str:
+    raise RenderError(f"no LaTeX for {type(node).__name__} ({lang})")
+
+
+@_emit.register
 def _number(node: n.Number, _lang: str) -> str:
     return re.sub(r"\s", r"\\,", node.text)
 
 
+@_emit.register
 def _ident(node: n.Ident, _lang: str) -> str:
     letter = _LETTERS.get(node.text, node.text)
     if node.bold:
@@ -101,6 +109,7 @@ def _ident(node: n.Ident, _lang: str) -> str:
     return letter
 
 
+@_emit.register
 def _word(node: n.Word, _lang: str) -> str:
     return rf"\mathrm{{{_escaped(node.text)}}}"
 
@@ -109,6 +118,7 @@ def _escaped(text: str) -> str:
     return _SPECIAL.sub(r"\\\1", text)
 
 
+@_emit.register
 def _text(node: n.Text, lang: str) -> str:
     return rf"\text{{ {_known(words_of(lang).printed, node.key, 'word')} }}"
 
@@ -130,33 +140,40 @@ def _simple_unit(shown: str) -> str:
     return rf"\text{{{shown}}}" if "µ" in shown else rf"\mathrm{{{_escaped(shown)}}}"
 
 
+@_emit.register
 def _unit(node: n.Unit, _lang: str) -> str:
     return _unit_text(node.text)
 
 
+@_emit.register
 def _quantity(node: n.Quantity, lang: str) -> str:
     space = "" if node.unit.text in TIGHT else r"\,"
     return f"{_emit(node.value, lang)}{space}{_unit_text(node.unit.text)}"
 
 
+@_emit.register
 def _op(node: n.Op, _lang: str) -> str:
     return _known(_OPERATORS, node.name, "operator")
 
 
+@_emit.register
 def _row(node: n.Row, lang: str) -> str:
     return " ".join([text for item in node.items if (text := _emit(item, lang))])
 
 
+@_emit.register
 def _frac(node: n.Frac, lang: str) -> str:
     top, bottom = _emit(node.top, lang), _emit(node.bottom, lang)
     return f"{top} / {bottom}" if node.inline else rf"\frac{{{top}}}{{{bottom}}}"
 
 
+@_emit.register
 def _root(node: n.Root, lang: str) -> str:
     index = f"[{_emit(node.index, lang)}]" if node.index else ""
     return rf"\sqrt{index}{{{_emit(node.body, lang)}}}"
 
 
+@_emit.register
 def _scripts(node: n.Scripts, lang: str) -> str:
     low = "" if node.sub is None else f"_{{{_emit(node.sub, lang)}}}"
     high = "" if node.sup is None else f"^{{{_emit(node.sup, lang)}}}"
@@ -166,10 +183,12 @@ def _scripts(node: n.Scripts, lang: str) -> str:
     return base + low + high
 
 
+@_emit.register
 def _accent(node: n.Accent, lang: str) -> str:
     return f"{_known(_ACCENTS, node.kind, 'accent')}{{{_emit(node.base, lang)}}}"
 
 
+@_emit.register
 def _fence(node: n.Fence, lang: str) -> str:
     body = _emit(node.body, lang)
     left, right = (_known(_BRACKETS, bracket, "bracket") for bracket in node.kind)
@@ -178,6 +197,7 @@ def _fence(node: n.Fence, lang: str) -> str:
     return f"{left}{' ' * left[1:].isalpha()}{body}{' ' * right[1:].isalpha()}{right}"
 
 
+@_emit.register
 def _func(node: n.Func, lang: str) -> str:
     arguments = ", ".join([_emit(arg, lang) for arg in node.args])
     head = _head(node.head, lang)
@@ -195,17 +215,20 @@ def _head(node: n.Node, lang: str) -> str:
     return _emit(node, lang)
 
 
+@_emit.register
 def _big(node: n.Big, lang: str) -> str:
     bounds = n.Scripts(n.Op(""), node.lower, node.upper)
     return _known(_SIGNS, node.sign, "sign") + _scripts(bounds, lang)
 
 
+@_emit.register
 def _under(node: n.Under, lang: str) -> str:
     if isinstance(node.base, n.Word) and node.base.text in KNOWN:
         return f"{_head(node.base, lang)}_{{{_emit(node.below, lang)}}}"
     return rf"\underset{{{_emit(node.below, lang)}}}{{{_emit(node.base, lang)}}}"
 
 
+@_emit.register
 def _cases(node: n.Cases, lang: str) -> str:
     rows = []
     for value, condition in node.rows:
@@ -222,9 +245,7 @@ def _case(condition: str, lang: str) -> str:
     return left + condition + (rf" \text{{{after}}}" if after else "")
 
 
+@_emit.register
 def _matrix(node: n.Matrix, lang: str) -> str:
     rows = [" & ".join([_emit(cell, lang) for cell in row]) for row in node.rows]
     return r"\begin{pmatrix} " + r" \\ ".join(rows) + r" \end{pmatrix}"
-
-
-_emit = printer("LaTeX", globals())

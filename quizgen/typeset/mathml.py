@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-from functools import lru_cache
+from functools import lru_cache, singledispatch
 from html import escape
 
 from quizgen.errors import RenderError
 from quizgen.typeset import nodes as n
-from quizgen.typeset.emit import known, printer
 from quizgen.typeset.names import GREEK_LETTERS
+from quizgen.typeset.tables import known
 from quizgen.typeset.units import TIGHT, parts
 from quizgen.typeset.words import words_of
 
@@ -81,10 +81,17 @@ def _widen(written: list[str], index: int) -> None:
         written[index - 1] = _TIMES_NAMED
 
 
+@singledispatch
+def _emit(node: n.Node, lang: str) -> str:
+    raise RenderError(f"no MathML for {type(node).__name__} ({lang})")
+
+
+@_emit.register
 def _number(node: n.Number, _lang: str) -> str:
     return f"<mn>{node.text.replace(' ', chr(0x202F))}</mn>"
 
 
+@_emit.register
 def _ident(node: n.Ident, _lang: str) -> str:
     if node.bold:
         return f"<mi>{bold(node.text)}</mi>"
@@ -106,10 +113,12 @@ def bold(letter: str) -> str:
     raise RenderError(f"no bold form of {letter!r}")
 
 
+@_emit.register
 def _word(node: n.Word, _lang: str) -> str:
     return f"<mi>{escape(node.text)}</mi>"
 
 
+@_emit.register
 def _text(node: n.Text, lang: str) -> str:
     return f"<mtext>\u00a0{_known(words_of(lang).printed, node.key, 'word')}\u00a0</mtext>"
 
@@ -127,23 +136,28 @@ def _unit_text(text: str) -> str:
     return f"<mrow>{written}{tail}</mrow>" if written and tail else written + tail
 
 
+@_emit.register
 def _unit(node: n.Unit, _lang: str) -> str:
     return _unit_text(node.text)
 
 
+@_emit.register
 def _quantity(node: n.Quantity, lang: str) -> str:
     space = "" if node.unit.text in TIGHT else THIN
     return f"<mrow>{_emit(node.value, lang)}{space}{_unit_text(node.unit.text)}</mrow>"
 
 
+@_emit.register
 def _op(node: n.Op, _lang: str) -> str:
     return _known(_OPERATORS, node.name, "operator")
 
 
+@_emit.register
 def _row(node: n.Row, lang: str) -> str:
     return f"<mrow>{_joined(node.items, lang)}</mrow>"
 
 
+@_emit.register
 def _frac(node: n.Frac, lang: str) -> str:
     top, bottom = _emit(node.top, lang), _emit(node.bottom, lang)
     if node.inline:
@@ -151,6 +165,7 @@ def _frac(node: n.Frac, lang: str) -> str:
     return f"<mfrac>{top}{bottom}</mfrac>"
 
 
+@_emit.register
 def _root(node: n.Root, lang: str) -> str:
     body = _emit(node.body, lang)
     if node.index is None:
@@ -158,6 +173,7 @@ def _root(node: n.Root, lang: str) -> str:
     return f"<mroot>{body}{_emit(node.index, lang)}</mroot>"
 
 
+@_emit.register
 def _scripts(node: n.Scripts, lang: str) -> str:
     base = _emit(node.base, lang)
     raised = _PRIME * node.primes
@@ -173,12 +189,14 @@ def _scripts(node: n.Scripts, lang: str) -> str:
     return f"<msub>{base}{sub}</msub>"
 
 
+@_emit.register
 def _accent(node: n.Accent, lang: str) -> str:
     mark = _known(_ACCENTS, node.kind, "accent")
     # Chromium lowers marks with accent="true" into the letter
     return f'<mover>{_emit(node.base, lang)}<mo stretchy="false">{mark}</mo></mover>'
 
 
+@_emit.register
 def _fence(node: n.Fence, lang: str) -> str:
     return f"<mrow>{_between(node.kind, _inside(node.body, lang))}</mrow>"
 
@@ -199,12 +217,14 @@ def _between(kind: str, body: str) -> str:
     )
 
 
+@_emit.register
 def _func(node: n.Func, lang: str) -> str:
     arguments = _OPERATORS[","].join([_inside(arg, lang) for arg in node.args])
     head = _emit(node.head, lang)
     return f"<mrow>{head}{_APPLY}<mrow>{_between('()', arguments)}</mrow></mrow>"
 
 
+@_emit.register
 def _big(node: n.Big, lang: str) -> str:
     if node.sign not in {"∑", "∏", "∫"}:
         raise RenderError(f"no MathML for the sign {node.sign!r}")
@@ -219,10 +239,12 @@ def _big(node: n.Big, lang: str) -> str:
     return sign
 
 
+@_emit.register
 def _under(node: n.Under, lang: str) -> str:
     return f"<munder>{_emit(node.base, lang)}{_emit(node.below, lang)}</munder>"
 
 
+@_emit.register
 def _cases(node: n.Cases, lang: str) -> str:
     rows = []
     for value, condition in node.rows:
@@ -244,6 +266,7 @@ def _case(condition: str, lang: str) -> str:
     return left + condition + (f"<mtext>\u00a0{after}</mtext>" if after else "")
 
 
+@_emit.register
 def _matrix(node: n.Matrix, lang: str) -> str:
     rows = [
         "<mtr>" + "".join([f"<mtd>{_emit(cell, lang)}</mtd>" for cell in row]) + "</mtr>"
@@ -251,6 +274,3 @@ def _matrix(node: n.Matrix, lang: str) -> str:
     ]
     table = f"<mtable>{''.join(rows)}</mtable>"
     return f"<mrow>{_between('()', table)}</mrow>"
-
-
-_emit = printer("MathML", globals())

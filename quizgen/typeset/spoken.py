@@ -7,11 +7,12 @@ where they end, so that a listener can write the formula down.
 from __future__ import annotations
 
 import re
-from functools import lru_cache
+from functools import lru_cache, singledispatch
 
+from quizgen.errors import RenderError
 from quizgen.typeset import nodes as n
-from quizgen.typeset.emit import known, printer
 from quizgen.typeset.names import GREEK
+from quizgen.typeset.tables import known
 from quizgen.typeset.units import Part, parts
 from quizgen.typeset.words import Words, words_of
 
@@ -70,6 +71,12 @@ def _phrase(lang: str, key: str, nodes: tuple[n.Node, ...]) -> str:
     return str(table[key]).format(*[_say(node, lang) for node in nodes])
 
 
+@singledispatch
+def _say(node: n.Node, lang: str) -> str:
+    raise RenderError(f"no reading for {type(node).__name__} ({lang})")
+
+
+@_say.register
 def _number(node: n.Number, _lang: str) -> str:
     return "".join(node.text.split())
 
@@ -87,11 +94,13 @@ def letter(char: str, lang: str) -> str:
     return words.capital.format(char if as_written else said)
 
 
+@_say.register
 def _ident(node: n.Ident, lang: str) -> str:
     said = letter(node.text, lang)
     return words_of(lang).short["bold"].format(said) if node.bold else said
 
 
+@_say.register
 def _word(node: n.Word, lang: str) -> str:
     words = words_of(lang)
     if node.text.isupper() and words.letters:
@@ -99,6 +108,7 @@ def _word(node: n.Word, lang: str) -> str:
     return words.names.get(node.text, node.text)
 
 
+@_say.register
 def _text(node: n.Text, lang: str) -> str:
     return _known(words_of(lang).printed, node.key, "word")
 
@@ -125,19 +135,23 @@ def _simple_unit(part: Part, words: Words, *, one: bool) -> str:
     return _known(words.prefixes, prefix, "prefix").format(pair[not one])
 
 
+@_say.register
 def _unit(node: n.Unit, lang: str) -> str:
     return unit_words(node.text, lang)
 
 
+@_say.register
 def _quantity(node: n.Quantity, lang: str) -> str:
     one = node.value == n.Number("1")
     return f"{_say(node.value, lang)} {unit_words(node.unit.text, lang, one=one)}"
 
 
+@_say.register
 def _op(node: n.Op, lang: str) -> str:
     return "" if node.name == " " else _known(words_of(lang).operators, node.name, "operator")
 
 
+@_say.register
 def _row(node: n.Row, lang: str) -> str:
     items = node.items
     if node.level == n.ATOM:
@@ -161,6 +175,7 @@ def _ended(node: n.Node, following: n.Node | None, lang: str) -> str:
     return _say(node, lang)
 
 
+@_say.register
 def _frac(node: n.Frac, lang: str, length: str = "short") -> str:
     words = words_of(lang)
     said = _say(node.top, lang), _say(node.bottom, lang)
@@ -181,12 +196,14 @@ def _has_frac(node: n.Node) -> bool:
     return False
 
 
+@_say.register
 def _root(node: n.Root, lang: str) -> str:
     if node.index is None:
         return _phrase(lang, "sqrt", (node.body,))
     return _phrase(lang, "root", (node.index, node.body))
 
 
+@_say.register
 def _scripts(node: n.Scripts, lang: str) -> str:
     short = words_of(lang).short
     said = _say(node.base, lang)
@@ -208,10 +225,12 @@ def _raised(node: n.Scripts, base: str, lang: str) -> str:
     return table["power"].format(base, _say(node.sup, lang) if node.sup else "")
 
 
+@_say.register
 def _accent(node: n.Accent, lang: str) -> str:
     return _known(words_of(lang).accents, node.kind, "accent").format(_say(node.base, lang))
 
 
+@_say.register
 def _fence(node: n.Fence, lang: str) -> str:
     words = words_of(lang)
     if node.kind in words.intervals and isinstance(node.body, n.Row):
@@ -223,6 +242,7 @@ def _fence(node: n.Fence, lang: str) -> str:
     return _known(words.brackets, key, "brackets").format(_say(node.body, lang))
 
 
+@_say.register
 def _func(node: n.Func, lang: str) -> str:
     words = words_of(lang)
     said = [_say(arg, lang) for arg in node.args]
@@ -262,6 +282,7 @@ def _head(node: n.Node, lang: str) -> str:
     return _say(node, lang)
 
 
+@_say.register
 def _big(node: n.Big, lang: str) -> str:
     what, low, high, closing = _known(words_of(lang).signs, node.sign, "sign")
     said = [what]
@@ -270,10 +291,12 @@ def _big(node: n.Big, lang: str) -> str:
     return " ".join([*said, closing])
 
 
+@_say.register
 def _under(node: n.Under, lang: str) -> str:
     return words_of(lang).short["below"].format(_head(node.base, lang), _say(node.below, lang))
 
 
+@_say.register
 def _cases(node: n.Cases, lang: str) -> str:
     short = words_of(lang).short
     rows = []
@@ -285,11 +308,9 @@ def _cases(node: n.Cases, lang: str) -> str:
     return "; ".join(rows)
 
 
+@_say.register
 def _matrix(node: n.Matrix, lang: str) -> str:
     words = words_of(lang)
     rows = [", ".join([_say(cell, lang) for cell in row]) for row in node.rows]
     said = [words.short["row"].format(f"{i}: {row}") for i, row in enumerate(rows, 1)]
     return words.long["matrix"].format("; ".join(said))
-
-
-_say = printer("reading", globals())

@@ -6,11 +6,12 @@ that are meant as such are escaped, and primes stand before subscripts.
 
 from __future__ import annotations
 
-from functools import lru_cache
+from functools import lru_cache, singledispatch
 
+from quizgen.errors import RenderError
 from quizgen.typeset import nodes as n
-from quizgen.typeset.emit import known, printer
 from quizgen.typeset.names import KNOWN
+from quizgen.typeset.tables import known
 from quizgen.typeset.units import TIGHT, parts
 from quizgen.typeset.words import words_of
 
@@ -75,19 +76,28 @@ def quoted(text: str) -> str:
     return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
 
 
+@singledispatch
+def _emit(node: n.Node, lang: str) -> str:
+    raise RenderError(f"no Typst for {type(node).__name__} ({lang})")
+
+
+@_emit.register
 def _number(node: n.Number, _lang: str) -> str:
     text = node.text.replace(" ", "\u202f")
     return text if text.replace(".", "", 1).isdigit() and text.isascii() else quoted(text)
 
 
+@_emit.register
 def _ident(node: n.Ident, _lang: str) -> str:
     return f"upright(bold({node.text}))" if node.bold else node.text
 
 
+@_emit.register
 def _word(node: n.Word, _lang: str) -> str:
     return quoted(node.text)
 
 
+@_emit.register
 def _text(node: n.Text, lang: str) -> str:
     return quoted(f" {_known(words_of(lang).printed, node.key, 'word')} ")
 
@@ -102,19 +112,23 @@ def _unit_text(text: str) -> str:
     return written
 
 
+@_emit.register
 def _unit(node: n.Unit, _lang: str) -> str:
     return _unit_text(node.text)
 
 
+@_emit.register
 def _quantity(node: n.Quantity, lang: str) -> str:
     space = "" if node.unit.text in TIGHT else " thin"
     return f"{_emit(node.value, lang)}{space}{_unit_text(node.unit.text)}"
 
 
+@_emit.register
 def _op(node: n.Op, _lang: str) -> str:
     return _known(_OPERATORS, node.name, "operator")
 
 
+@_emit.register
 def _row(node: n.Row, lang: str) -> str:
     return _spaced([_emit(item, lang) for item in node.items])
 
@@ -128,6 +142,7 @@ def _spaced(texts: list[str]) -> str:
     return written
 
 
+@_emit.register
 def _frac(node: n.Frac, lang: str) -> str:
     top, bottom = _emit(node.top, lang), _emit(node.bottom, lang)
     if node.inline:
@@ -135,11 +150,13 @@ def _frac(node: n.Frac, lang: str) -> str:
     return f"frac({top}, {bottom})"
 
 
+@_emit.register
 def _root(node: n.Root, lang: str) -> str:
     body = _emit(node.body, lang)
     return f"root({_emit(node.index, lang)}, {body})" if node.index else f"sqrt({body})"
 
 
+@_emit.register
 def _scripts(node: n.Scripts, lang: str) -> str:
     written = _emit(node.base, lang) + "'" * node.primes
     if node.sub is not None:
@@ -149,10 +166,12 @@ def _scripts(node: n.Scripts, lang: str) -> str:
     return written
 
 
+@_emit.register
 def _accent(node: n.Accent, lang: str) -> str:
     return f"{_known(_ACCENTS, node.kind, 'accent')}({_emit(node.base, lang)})"
 
 
+@_emit.register
 def _fence(node: n.Fence, lang: str) -> str:
     body = _emit(node.body, lang)
     if node.kind == "()":
@@ -163,6 +182,7 @@ def _fence(node: n.Fence, lang: str) -> str:
     return f"lr({left} {body} {right})"
 
 
+@_emit.register
 def _func(node: n.Func, lang: str) -> str:
     arguments = r" \, ".join([_emit(arg, lang) for arg in node.args])
     return f"{_head(node.head, lang)} ({arguments})"
@@ -177,11 +197,13 @@ def _head(node: n.Node, lang: str) -> str:
     return _emit(node, lang)
 
 
+@_emit.register
 def _big(node: n.Big, lang: str) -> str:
     bounds = n.Scripts(n.Op(""), node.lower, node.upper)
     return _known(_SIGNS, node.sign, "sign") + _scripts(bounds, lang)
 
 
+@_emit.register
 def _under(node: n.Under, lang: str) -> str:
     base = _head(node.base, lang)
     if isinstance(node.base, n.Word) and node.base.text in {"lim", "max", "min"}:
@@ -189,6 +211,7 @@ def _under(node: n.Under, lang: str) -> str:
     return f"attach({base}, b: {_emit(node.below, lang)})"
 
 
+@_emit.register
 def _cases(node: n.Cases, lang: str) -> str:
     rows = []
     for value, condition in node.rows:
@@ -205,9 +228,7 @@ def _case(condition: str, lang: str) -> str:
     return left + condition + (quoted(f" {after}") if after else "")
 
 
+@_emit.register
 def _matrix(node: n.Matrix, lang: str) -> str:
     rows = [", ".join([_emit(cell, lang) for cell in row]) for row in node.rows]
     return "mat(" + "; ".join(rows) + ")"
-
-
-_emit = printer("Typst", globals())

@@ -1,0 +1,51 @@
+"""Every kind of node has its rule in every printer, and nothing else has one."""
+
+from __future__ import annotations
+
+from typing import get_args
+
+import pytest
+
+from quizgen.bank.prose import Block, CodeBlock, Formula, Inline, Printed, Slot, Words
+from quizgen.errors import RenderError
+from quizgen.question.filling import Maths
+from quizgen.render import html, pdf, text
+from quizgen.typeset import latex, mathml, nodes, spoken, typst
+
+PRINTERS = [latex, mathml, typst, spoken]
+
+
+def emitter(printer):
+    module = printer.__globals__
+    return module.get("_emit", module.get("_say"))
+
+
+@pytest.mark.parametrize("printer", PRINTERS, ids=lambda p: p.__name__)
+def test_every_layout_node_has_a_rule_in_every_printer(printer):
+    assert emitter(printer).registry.keys() - {object} == set(get_args(nodes.Node))
+
+
+@pytest.mark.parametrize("printer", PRINTERS, ids=lambda p: p.__name__)
+def test_a_stranger_is_refused_by_name(printer):
+    with pytest.raises(RenderError, match=r"no .* for Words"):
+        printer(Words("x"), "en")
+
+
+@pytest.mark.parametrize("inline", [html.inline, pdf.inline, text.inline])
+def test_every_piece_of_a_filled_sentence_has_a_rule(inline):
+    filled = set(get_args(Inline)) - {Slot, Formula, Printed} | {Maths, tuple}
+    assert inline.registry.keys() - {object} == filled
+    with pytest.raises(TypeError, match="Slot"):
+        inline(Slot("f"), *["en"] * (inline is not text.inline))
+
+
+@pytest.mark.parametrize("block", [html.block, pdf._block, text._lines])
+def test_every_block_has_a_rule(block):
+    assert block.registry.keys() - {object} == set(get_args(Block))
+
+
+def test_program_text_keeps_its_spaces_in_every_format():
+    code = CodeBlock("if a < b:\n    c")
+    assert html.block(code, "en") == '<pre tabindex="0"><code>if a &lt; b:\n    c</code></pre>'
+    assert list(text.blocks([code])) == ["    if a < b:", "        c"]
+    assert pdf.blocks([code], "en") == '#raw("if a < b:\\n    c", block: true);'
