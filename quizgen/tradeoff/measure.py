@@ -10,7 +10,7 @@ import math
 import time
 import warnings
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any
 
 from quizgen.tradeoff.families import Family
@@ -59,10 +59,6 @@ class Measured:
     nanoseconds: float
     exam: Accuracy
     hard: Accuracy
-
-    def as_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return asdict(self)
 
 
 def steps(value: float, truth: float, turn: float = 0.0) -> float:

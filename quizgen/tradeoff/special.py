@@ -12,6 +12,11 @@ from quizgen.tradeoff.rung import DIGITS, Rung, ball_value, to_float
 Row = Sequence[float]
 
 
+def _left(r: Any, r_d: Any, k1: Any) -> Any:
+    """How far r is from the solution of r + k1 r**3 = r_d, in any number system."""
+    return r * (1 + k1 * r * r) - r_d
+
+
 def fixed_point(r_d: Any, k1: Any, count: int) -> Any:
     """Repeat r := r_d/(1 + k1 r**2), as OpenCV does it."""
     r = r_d
@@ -24,7 +29,7 @@ def newton(r_d: Any, k1: Any, count: int) -> Any:
     """Newton's method on r + k1 r**3 - r_d, started at r_d."""
     r = r_d
     for _ in range(count):
-        r = r - (r * (1 + k1 * r * r) - r_d) / (1 + 3 * k1 * r * r)
+        r = r - _left(r, r_d, k1) / (1 + 3 * k1 * r * r)
     return r
 
 
@@ -65,7 +70,7 @@ def _inverse_precise(row: Row, digits: int = 80) -> Any:
         r_d, k1 = mp.mpf(row[0]), mp.mpf(row[1])
         r = r_d
         for _ in range(300):
-            step = (r * (1 + k1 * r * r) - r_d) / (1 + 3 * k1 * r * r)
+            step = _left(r, r_d, k1) / (1 + 3 * k1 * r * r)
             r -= step
             if abs(step) < abs(r) * mp.mpf(10) ** (-digits):
                 break
@@ -77,7 +82,7 @@ def _inverse_symbolic(row: Row) -> Any:
 
     r = sympy.Symbol("r")
     r_d, k1 = sympy.Rational(row[0]), sympy.Rational(row[1])
-    return sympy.nsolve(r + k1 * r**3 - r_d, r, row[0], prec=DIGITS, verify=False)
+    return sympy.nsolve(_left(r, r_d, k1), r, row[0], prec=DIGITS, verify=False)
 
 
 def _poisson_rungs(family: Family) -> list[Rung]:

@@ -15,10 +15,10 @@ from quizgen.cli.tradeoff import tradeoff
 from quizgen.locale import languages
 from quizgen.maths.systems import arrays, compile_expr, multiprecision, symbolic
 from quizgen.tradeoff import ladder
+from quizgen.tradeoff.data import words
 from quizgen.tradeoff.families import BY_NAME, FAMILIES
 from quizgen.tradeoff.knobs import KNOBS, coverage
 from quizgen.tradeoff.measure import QUICK, Bench, bits_of, pareto, steps
-from quizgen.tradeoff.page import words
 
 SAFE = {"hue"}
 """Families whose printed formula is safe in float64 (the page says so)."""
