@@ -45,7 +45,7 @@ def as_data(report: Report, command: str) -> dict[str, Any]:
     }
 
 
-def _finite(data: Any) -> Any:
+def _finite(data: object) -> object:
     if isinstance(data, dict):
         return {key: _finite(value) for key, value in data.items()}
     return None if isinstance(data, float) and math.isinf(data) else data

@@ -11,10 +11,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from quizgen.arrays import (
     blur,
@@ -34,9 +32,9 @@ from quizgen.arrays import (
 )
 from quizgen.arrays.aliases import Result
 from quizgen.maths.tree import Call, Expr, Num, substitute
+from quizgen.tradeoff.rung import Column
 
 Random = np.random.Generator
-Column = npt.NDArray[np.floating[Any]]
 Columns = list[Column]
 Inputs = Callable[[Random, int], Columns]
 """Random generator and count to columns of doubles."""

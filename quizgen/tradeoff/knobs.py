@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
+
+import numpy as np
 
 from quizgen.arrays import blur, distortion, gaussian, luminosity, poisson
+from quizgen.arrays.double_double import Double
 from quizgen.tradeoff.measure import Effort, best_time
+from quizgen.tradeoff.rung import Column
 from quizgen.tradeoff.special import fixed_point
 
 
@@ -39,8 +42,6 @@ class Knob:
 
 def _iterations(effort: Effort) -> Iterator[Curve]:
     """Fixed-point steps of inverse distortion against the closed form."""
-    import numpy as np
-
     k1 = -0.2
     fold = float(distortion.fold_radius(k1))
     largest = fold * (1 + k1 * fold * fold)
@@ -61,8 +62,6 @@ def _iterations(effort: Effort) -> Iterator[Curve]:
 
 def _kernel(effort: Effort) -> Iterator[Curve]:
     """Gaussian kernel cut off at t sigma and renormalised, on a full-contrast edge."""
-    import numpy as np
-
     tail = gaussian.upper_tail
     sigma, row = 8.0, np.repeat([0.0, 255.0], 2048)
     x = np.linspace(0, 6, 2001)
@@ -78,11 +77,10 @@ def _kernel(effort: Effort) -> Iterator[Curve]:
     yield Curve("sigma = 8", tuple(points))
 
 
-def coverage(a: Any, b: Any, c: Any) -> Any:
+def coverage(a: Double, b: Double, c: Double) -> Double:
     """Area of the unit square with a x + b y < c, for a, b > 0."""
-    import numpy as np
 
-    def half(value: Any) -> Any:
+    def half(value: Double) -> Double:
         return np.maximum(value, 0.0) ** 2
 
     return (half(c) - half(c - a) - half(c - b) + half(c - a - b)) / (2 * a * b)
@@ -90,15 +88,13 @@ def coverage(a: Any, b: Any, c: Any) -> Any:
 
 def _supersampling(effort: Effort) -> Iterator[Curve]:
     """Samples in an n x n grid per pixel against the exact area under random edges."""
-    import numpy as np
-
     rng = np.random.default_rng(3)
     angle = rng.uniform(0.05, 1.5, 400)
     a, b = np.cos(angle), np.sin(angle)
     c = rng.uniform(0, 1, 400) * (a + b)
     right = coverage(a, b, c)
 
-    def sampled(n: int) -> Any:
+    def sampled(n: int) -> Column:
         at = (np.arange(n) + 0.5) / n
         inside = a[:, None, None] * at[:, None] + b[:, None, None] * at < c[:, None, None]
         return inside.mean(axis=(1, 2))
@@ -115,21 +111,19 @@ def _supersampling(effort: Effort) -> Iterator[Curve]:
 
 def _layers(effort: Effort) -> Iterator[Curve]:
     """Depth slices for a blurred picture: largest error of the blur disc in pixels."""
-    import numpy as np
-
     f, N, s, pitch = 50.0, 1.8, 3000.0, 0.005
     depth = 1 / np.linspace(1 / 1000, 1 / 50000, 4001)
     picture = np.random.default_rng(1).random((256, 256))
 
-    def signed(z: Any) -> Any:
+    def signed(z: Column) -> Column:
         return np.asarray(blur.blur_disc(f, N, s, z)) * np.sign(z - s) / pitch
 
-    def one_pass() -> Any:
+    def one_pass() -> Column:
         total = np.cumsum(np.cumsum(picture, axis=0), axis=1)
         return total[15:, 15:] - total[:-15, 15:] - total[15:, :-15] + total[:-15, :-15]
 
     once = best_time(one_pass, effort.repeats)
-    maps: dict[str, Callable[[Any], Any]] = {"1/z": np.reciprocal, "z": np.positive}
+    maps: dict[str, Callable[[Column], Column]] = {"1/z": np.reciprocal, "z": np.positive}
     for label, of in maps.items():
         points = []
         for count in (2, 4, 8, 16, 32, 64):
@@ -144,8 +138,6 @@ def _layers(effort: Effort) -> Iterator[Curve]:
 
 def _photons(effort: Effort) -> Iterator[Curve]:
     """Normal instead of Poisson numbers: largest difference of the distribution functions."""
-    import numpy as np
-
     lower = poisson.lower
     tail = gaussian.upper_tail
     rng = np.random.default_rng(5)
@@ -163,8 +155,6 @@ def _photons(effort: Effort) -> Iterator[Curve]:
 
 def _wavelengths(effort: Effort) -> Iterator[Curve]:
     """Riemann sums over V(lambda) against the closed form, for lines of two widths."""
-    import numpy as np
-
     light = luminosity
     centre = 532.4
     for fwhm in (20.0, 1.0):

@@ -6,12 +6,16 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
+import numpy as np
+
+from quizgen.arrays.aliases import Array
+from quizgen.arrays.double_double import Pair
 from quizgen.errors import QuizgenError
 from quizgen.maths.systems import arrays, compile_expr, exact, multiprecision, symbolic
 from quizgen.maths.tree import Expr
 from quizgen.tradeoff.families import Family
 from quizgen.tradeoff.pairs import fits_pairs, pairs
-from quizgen.tradeoff.rung import DIGITS, Rung, ball_value, to_float
+from quizgen.tradeoff.rung import DIGITS, Column, Inputs, Rung, Value, ball_value, to_float
 from quizgen.tradeoff.special import ORACLES, RUNGS
 
 ORACLE_BITS = 200
@@ -19,7 +23,7 @@ ORACLE_DIGITS = 80
 AGREEMENT = 1e-25
 
 
-def rational(value: float, *, decimal: bool) -> Any:
+def rational(value: float, *, decimal: bool) -> Value:
     """A double as an exact rational: as it is, or as the decimal it prints as."""
     import flint
 
@@ -43,34 +47,29 @@ def rungs(family: Family) -> list[Rung]:
 
 
 def _array(family: Family, formula: Expr, bits: int) -> Rung:
-    import numpy as np
-
     compiled = compile_expr(formula, arrays(bits))
     number = np.float32 if bits == 32 else np.float64
 
-    def run(*columns: Any) -> Any:
+    def run(*columns: Column) -> Column:
         return compiled(dict(zip(family.names, columns, strict=True)))
 
     return Rung(f"float{bits}", "array", run, lambda column: column.astype(number))
 
 
 def _stable(family: Family) -> Rung:
-    import numpy as np
-
-    def finish(result: Any) -> Any:
+    def finish(result: Column) -> Column:
         return np.ma.filled(result, np.nan)
 
     return Rung("stable", "array", family.stable, lambda column: column, finish)
 
 
 def _pairs(family: Family, formula: Expr) -> Rung:
-    from quizgen.arrays.double_double import Pair
-
     compiled = compile_expr(formula, pairs())
 
-    def run(*columns: Any) -> Any:
+    def run(*columns: Array) -> Array:
         values = map(Pair, columns)
-        return compiled(dict(zip(family.names, values, strict=True))).rounded()
+        total: Pair = compiled(dict(zip(family.names, values, strict=True)))
+        return total.rounded()
 
     return Rung("double-double", "array", run, lambda column: column, lambda result: result)
 
@@ -96,7 +95,7 @@ def _multiprecision(family: Family, formula: Expr) -> Rung:
 
     compiled = compile_expr(formula, multiprecision())
 
-    def run(inputs: Any) -> Any:
+    def run(inputs: Inputs) -> Value:
         with mp.workdps(DIGITS):
             return compiled(inputs)
 
@@ -106,7 +105,7 @@ def _multiprecision(family: Family, formula: Expr) -> Rung:
 def _precise(family: Family) -> Callable[..., Any]:
     import mpmath as mp
 
-    def convert(value: float) -> Any:
+    def convert(value: float) -> Value:
         with mp.workdps(ORACLE_DIGITS):
             return mp.mpf(repr(float(value))) if family.decimal else mp.mpf(float(value))
 
@@ -118,11 +117,11 @@ def _symbolic(family: Family, formula: Expr) -> Rung:
 
     compiled = compile_expr(formula, symbolic())
 
-    def convert(value: float) -> Any:
+    def convert(value: float) -> Value:
         q = rational(value, decimal=family.decimal)
         return sympy.Rational(int(q.p), int(q.q))
 
-    def run(inputs: Any) -> Any:
+    def run(inputs: Inputs) -> Value:
         return compiled(inputs).evalf(DIGITS)
 
     return Rung("sympy", "scalar", run, _environment(family, convert))
@@ -172,7 +171,7 @@ def oracles(family: Family) -> tuple[Callable[..., Any], Callable[..., Any]]:
     )
 
 
-def _as_mpf(value: Any) -> Any:
+def _as_mpf(value: Value) -> Value:
     import mpmath as mp
 
     if hasattr(value, "rad"):

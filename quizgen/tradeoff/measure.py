@@ -11,11 +11,13 @@ import time
 import warnings
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, SupportsFloat
+
+import numpy as np
 
 from quizgen.tradeoff.families import Family
 from quizgen.tradeoff.ladder import rungs, truths
-from quizgen.tradeoff.rung import Rung
+from quizgen.tradeoff.rung import Column, Rung
 
 ARRAY = 100_000
 """Elements in a timed array."""
@@ -82,7 +84,9 @@ def bits_of(count: float) -> float:
     return WORST_BITS if math.isinf(count) else min(WORST_BITS, math.log2(count + 1))
 
 
-def accuracy(values: Iterable[Any], right: Sequence[float], turn: float = 0.0) -> Accuracy:
+def accuracy(
+    values: Iterable[SupportsFloat], right: Sequence[float], turn: float = 0.0
+) -> Accuracy:
     """Summarise errors against correctly rounded values."""
     errors = [steps(float(v), r, turn) for v, r in zip(values, right, strict=True)]
     bits = [bits_of(error) for error in errors]
@@ -109,8 +113,6 @@ class Bench:
     """Inputs and truths of one family, and the measurement of its rungs."""
 
     def __init__(self, family: Family, effort: Effort) -> None:
-        import numpy as np
-
         self.family, self.effort = family, effort
         self.sets = {}
         for name, draw in (("exam", family.exam), ("hard", family.hard)):
@@ -125,8 +127,6 @@ class Bench:
 
     def rung(self, rung: Rung) -> Measured:
         """Measure one rung."""
-        import numpy as np
-
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")
             measure = self._array if rung.kind == "array" else self._scalar
@@ -135,8 +135,6 @@ class Bench:
         return Measured(rung.key, rung.kind, nanoseconds, exam, hard)
 
     def _array(self, rung: Rung, name: str, *, timed: bool) -> tuple[Accuracy, float]:
-        import numpy as np
-
         columns, _, right = self.sets[name]
         inputs = [rung.prepare(_whole(column)) for column in columns]
         if timed:
@@ -157,7 +155,7 @@ class Bench:
         return accuracy(values, right[:count], self.family.whole_turn), 0.0
 
 
-def _whole(column: Any) -> Any:
+def _whole(column: Column) -> Column | np.floating[Any]:
     """One number where all are the same: a camera is the same for all its pixels."""
     return column[0] if (column == column[0]).all() else column
 

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Sequence
 
-Peer = Callable[..., Any]
+import numpy as np
+
+from quizgen.tradeoff.rung import Column
+
+Peer = Callable[..., Sequence[float] | Column]
+"""Takes columns, returns the results."""
 
 
 def _gaussian() -> dict[str, Peer]:
@@ -19,9 +23,8 @@ def _gaussian() -> dict[str, Peer]:
 
 def _inverse() -> dict[str, Peer]:
     import cv2
-    import numpy as np
 
-    def undistort(r_d: Any, k1: Any, k2: Any) -> Any:
+    def undistort(r_d: Column, k1: Column, k2: Column) -> Column:
         points = np.stack([r_d, np.zeros_like(r_d)], axis=-1)[:, None, :]
         lens = np.array([k1[0], k2[0], 0.0, 0.0])
         return cv2.undistortPoints(points, np.eye(3), lens)[:, 0, 0]
@@ -30,10 +33,9 @@ def _inverse() -> dict[str, Peer]:
 
 
 def _hue_skimage() -> dict[str, Peer]:
-    import numpy as np
     from skimage.color import rgb2hsv
 
-    def hue(R: Any, G: Any, B: Any) -> Any:
+    def hue(R: Column, G: Column, B: Column) -> Column:
         return 360 * rgb2hsv(np.stack([R, G, B], axis=-1)[None])[0, :, 0]
 
     return {"scikit-image rgb2hsv": hue}
@@ -42,7 +44,7 @@ def _hue_skimage() -> dict[str, Peer]:
 def _hue_standard() -> dict[str, Peer]:
     import colorsys
 
-    def hue(*rgb: Any) -> Any:
+    def hue(*rgb: Column) -> list[float]:
         return [360 * colorsys.rgb_to_hsv(*map(float, one))[0] for one in zip(*rgb, strict=True)]
 
     return {"colorsys": hue}
@@ -50,9 +52,8 @@ def _hue_standard() -> dict[str, Peer]:
 
 def _hue_opencv() -> dict[str, Peer]:
     import cv2
-    import numpy as np
 
-    def hue(R: Any, G: Any, B: Any) -> Any:
+    def hue(R: Column, G: Column, B: Column) -> Column:
         picture = np.stack([R, G, B], axis=-1)[None].astype(np.float32)
         return cv2.cvtColor(picture, cv2.COLOR_RGB2HSV)[0, :, 0].astype(np.float64)
 
@@ -60,7 +61,6 @@ def _hue_opencv() -> dict[str, Peer]:
 
 
 def _hue_colour() -> dict[str, Peer]:
-    import numpy as np
     from colour.models import RGB_to_HSV
 
     return {"colour RGB_to_HSV": lambda *rgb: 360 * RGB_to_HSV(np.stack(rgb, axis=-1))[:, 0]}
@@ -73,10 +73,9 @@ def _poisson() -> dict[str, Peer]:
 
 
 def _normalise() -> dict[str, Peer]:
-    import numpy as np
     from skimage.exposure import rescale_intensity
 
-    def rescale(*columns: Any) -> Any:
+    def rescale(*columns: Column) -> list[float]:
         rows = zip(*columns, strict=True)
         return [
             rescale_intensity(np.array([value]), in_range=(low, high), out_range=(a, b))[0]

@@ -9,6 +9,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from quizgen.tradeoff.families import BY_NAME, FAMILIES, Family
 from quizgen.tradeoff.knobs import KNOBS, Curve
 from quizgen.tradeoff.measure import (
@@ -85,8 +87,6 @@ def _formula(family: Family) -> str:
 
 
 def _peer(bench: Bench, label: str, call: Callable[..., Any]) -> tuple[str, Accuracy, Accuracy]:
-    import numpy as np
-
     found = []
     for name in ("exam", "hard"):
         columns, _, right = bench.sets[name]
@@ -118,8 +118,6 @@ def _figure() -> float:
 
 
 def _machine() -> str:
-    import numpy as np
-
     return (
         f"{platform.system()} {platform.machine()}, Python {platform.python_version()}, "
         f"NumPy {np.__version__}"

@@ -2,12 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+import numpy.typing as npt
+
 from quizgen.errors import MathError
 from quizgen.maths.precision import working_precision
+
+Column = npt.NDArray[np.floating[Any]]
+"""One input of many rows, as doubles or as float32."""
+
+Row = Sequence[float]
+"""All inputs of one computation."""
+
+Value = Any
+"""A number of the system that a rung computes in: double, column, fraction, ball, mpf, ..."""
+
+Inputs = Mapping[str, Value]
+"""Quantities by name, in the number system of a rung."""
 
 WANTED_BITS = 63
 """Relative bits asked of a ball, so that rounding it to 53 bits is right."""
@@ -41,7 +56,7 @@ class Rung:
     finish: Callable[[Any], Any] = float
 
 
-def to_float(value: Any) -> float:
+def to_float(value: Value) -> float:
     """Nearest double of an exact rational or the middle of a ball."""
     if hasattr(value, "rel_accuracy_bits"):
         return float(value.mid())
@@ -50,7 +65,7 @@ def to_float(value: Any) -> float:
     return float(value)
 
 
-def ball_value(compiled: Callable[..., Any], inputs: Any, wanted: int = WANTED_BITS) -> Any:
+def ball_value(compiled: Callable[..., Any], inputs: Inputs, wanted: int = WANTED_BITS) -> Value:
     """Evaluate with balls, doubling the precision until enough bits are certain.
 
     Raises
@@ -73,5 +88,5 @@ def ball_value(compiled: Callable[..., Any], inputs: Any, wanted: int = WANTED_B
     raise MathError("a ball does not become small enough")
 
 
-def _certain(value: Any, wanted: int) -> bool:
+def _certain(value: Value, wanted: int) -> bool:
     return bool(value.rel_accuracy_bits() >= wanted or value.is_zero())

@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+
 from quizgen.tradeoff.families import Family
-from quizgen.tradeoff.rung import DIGITS, Rung, ball_value, to_float
-
-Row = Sequence[float]
+from quizgen.tradeoff.rung import DIGITS, Column, Inputs, Row, Rung, Value, ball_value, to_float
 
 
-def _left(r: Any, r_d: Any, k1: Any) -> Any:
+def _left(r: Value, r_d: Value, k1: Value) -> Value:
     """How far r is from the solution of r + k1 r**3 = r_d, in any number system."""
     return r * (1 + k1 * r * r) - r_d
 
 
-def fixed_point(r_d: Any, k1: Any, count: int) -> Any:
+def fixed_point(r_d: Value, k1: Value, count: int) -> Value:
     """Repeat r := r_d/(1 + k1 r**2), as OpenCV does it."""
     r = r_d
     for _ in range(count):
@@ -25,7 +25,7 @@ def fixed_point(r_d: Any, k1: Any, count: int) -> Any:
     return r
 
 
-def newton(r_d: Any, k1: Any, count: int) -> Any:
+def newton(r_d: Value, k1: Value, count: int) -> Value:
     """Newton's method on r + k1 r**3 - r_d, started at r_d."""
     r = r_d
     for _ in range(count):
@@ -35,8 +35,6 @@ def newton(r_d: Any, k1: Any, count: int) -> Any:
 
 def _inverse_rungs(family: Family) -> list[Rung]:
     del family
-    import numpy as np
-
     return [
         Rung("float32", "array", lambda r, k, _: fixed_point(r, k, 5), _to(np.float32)),
         Rung("float64", "array", lambda r, k, _: fixed_point(r, k, 5), _to(np.float64)),
@@ -48,21 +46,21 @@ def _inverse_rungs(family: Family) -> list[Rung]:
     ]
 
 
-def _to(number: Any) -> Callable[[Any], Any]:
+def _to(number: type[np.floating[Any]]) -> Callable[[Column], Column]:
     return lambda column: column.astype(number)
 
 
-def _inverse_ball(row: Row, wanted: int = 200) -> Any:
+def _inverse_ball(row: Row, wanted: int = 200) -> Value:
     """Closed form of the cubic with balls: 2/sqrt(-3 k1) sin(asin(r_d/fold)/3)."""
 
-    def closed_form(env: Any) -> Any:
+    def closed_form(env: Inputs) -> Value:
         size = (-3 * env["k1"]).sqrt()
         return 2 / size * ((3 * size * env["r_d"] / 2).asin() / 3).sin()
 
     return ball_value(closed_form, {"r_d": row[0], "k1": row[1]}, wanted)
 
 
-def _inverse_precise(row: Row, digits: int = 80) -> Any:
+def _inverse_precise(row: Row, digits: int = 80) -> Value:
     """Newton's method from below; the iteration is monotone up to the fold."""
     import mpmath as mp
 
@@ -77,7 +75,7 @@ def _inverse_precise(row: Row, digits: int = 80) -> Any:
         return r
 
 
-def _inverse_symbolic(row: Row) -> Any:
+def _inverse_symbolic(row: Row) -> Value:
     import sympy
 
     r = sympy.Symbol("r")
@@ -87,11 +85,9 @@ def _inverse_symbolic(row: Row) -> Any:
 
 def _poisson_rungs(family: Family) -> list[Rung]:
     del family
-    import numpy as np
-
     gamma = _log_gamma()
 
-    def textbook(k: Any, lam: Any) -> Any:
+    def textbook(k: Column, lam: Column) -> Column:
         return np.exp(k * np.log(lam) - lam - gamma(k + 1).astype(k.dtype))
 
     return [
@@ -103,7 +99,7 @@ def _poisson_rungs(family: Family) -> list[Rung]:
     ]
 
 
-def _poisson_symbolic(row: Row) -> Any:
+def _poisson_symbolic(row: Row) -> Value:
     import sympy
 
     # Floats, because SymPy would write the gamma function of a whole number out as a factorial.
@@ -111,27 +107,25 @@ def _poisson_symbolic(row: Row) -> Any:
     return sympy.exp(k * sympy.log(lam) - lam - sympy.loggamma(k + 1))
 
 
-def _log_gamma() -> Callable[[Any], Any]:
-    import numpy as np
-
+def _log_gamma() -> Callable[[Column], Column]:
     try:
         import scipy.special
     except ImportError:
         return np.vectorize(math.lgamma, otypes=[np.float64])
-    function: Callable[[Any], Any] = scipy.special.gammaln
+    function: Callable[[Column], Column] = scipy.special.gammaln
     return function
 
 
-def _poisson_ball(row: Row, wanted: int = 200) -> Any:
+def _poisson_ball(row: Row, wanted: int = 200) -> Value:
 
-    def pmf(env: Any) -> Any:
+    def pmf(env: Inputs) -> Value:
         k, lam = env["k"], env["lam"]
         return (k * lam.log() - lam - (k + 1).lgamma()).exp()
 
     return ball_value(pmf, {"k": row[0], "lam": row[1]}, wanted)
 
 
-def _poisson_precise(row: Row, digits: int = 80) -> Any:
+def _poisson_precise(row: Row, digits: int = 80) -> Value:
     import mpmath as mp
 
     with mp.workdps(digits + 20):
