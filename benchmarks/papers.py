@@ -60,11 +60,11 @@ def paper_bytes(seed: int) -> int:
     """Everything that ``quizgen exam`` writes, as a number of bytes."""
     from quizgen.paper.form import form_bytes
     from quizgen.paper.key import key_bytes
-    from quizgen.render import KINDS, RENDERERS, render
+    from quizgen.render import KINDS, RENDERERS, render_paper
 
     paper = made(seed)
     assert sum(item.questions[0].figure is not None for item in paper.items) == len(FIGURES)
-    rendered = [render(paper, kind, output) for output in RENDERERS for kind in KINDS]
+    rendered = [render_paper(paper, kind, output) for output in RENDERERS for kind in KINDS]
     return sum(map(len, rendered)) + len(key_bytes(paper)) + len(form_bytes(paper))
 
 
@@ -90,7 +90,7 @@ def cold() -> float:
 
 def stages(seeds: range) -> dict[str, float]:
     """CPU seconds per paper of each stage, warm."""
-    from quizgen.render import KINDS, render
+    from quizgen.render import KINDS, render_paper
 
     words = timed(lambda s: made(s, figures=False), seeds)
     full = timed(made, range(seeds.start + 1000, seeds.stop + 1000))
@@ -100,7 +100,7 @@ def stages(seeds: range) -> dict[str, float]:
         for kind in KINDS:
             started = cpu()
             for paper in papers:
-                render(paper, kind, output)
+                render_paper(paper, kind, output)
             found[f"{output} {kind}"] = (cpu() - started) / len(papers)
     return found
 

@@ -8,7 +8,7 @@ import math
 import mpmath
 import pytest
 
-from quizgen.audit.lint import lint
+from quizgen.audit.lint import lint_template
 from quizgen.bank.draw import admissible, draw, plan_of
 from quizgen.bank.folder import builtin
 from quizgen.locale import languages
@@ -26,7 +26,7 @@ COUNTED = 60_000
 
 @pytest.mark.parametrize("name", NAMES)
 def test_lint_finds_nothing(bank, name):
-    report = lint(bank.template(name), SEEDS)
+    report = lint_template(bank.template(name), SEEDS)
     assert report.problems == []
     assert report.seeds == SEEDS
 

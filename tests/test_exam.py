@@ -20,7 +20,7 @@ from quizgen.paper.code import parse_code
 from quizgen.paper.form import form_bytes
 from quizgen.paper.key import key_bytes
 from quizgen.paper.paper import build, rebuild, reference_paper
-from quizgen.render import KINDS, RENDERERS, render
+from quizgen.render import KINDS, RENDERERS, render_paper
 
 ROOT = Path(__file__).parent.parent
 SMALL = """
@@ -29,13 +29,13 @@ from quizgen.bank.folder import builtin
 from quizgen.paper.blueprint import load
 from quizgen.paper.key import key_bytes
 from quizgen.paper.paper import build
-from quizgen.render import render, KINDS, RENDERERS
+from quizgen.render import render_paper, KINDS, RENDERERS
 paper = build(builtin(), load("trial"), 5, "both")
 print(paper.code)
 print(hashlib.sha256(key_bytes(paper)).hexdigest())
 for output in RENDERERS:
     for kind in KINDS:
-        print(output, kind, hashlib.sha256(render(paper, kind, output)).hexdigest())
+        print(output, kind, hashlib.sha256(render_paper(paper, kind, output)).hexdigest())
 """
 
 
@@ -50,7 +50,7 @@ def test_same_code_same_bytes_in_every_format_across_processes(bank):
     paper = build(bank, load("trial"), 5, "both")
     here = [paper.code, hashlib.sha256(key_bytes(paper)).hexdigest()]
     here += [
-        f"{output} {kind} {hashlib.sha256(render(paper, kind, output)).hexdigest()}"
+        f"{output} {kind} {hashlib.sha256(render_paper(paper, kind, output)).hexdigest()}"
         for output in RENDERERS
         for kind in KINDS
     ]

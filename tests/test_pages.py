@@ -9,7 +9,7 @@ import pytest
 
 from quizgen.paper.blueprint import load
 from quizgen.paper.paper import build
-from quizgen.render import KINDS, render
+from quizgen.render import KINDS, render_paper
 
 pytestmark = pytest.mark.browser
 
@@ -19,7 +19,7 @@ def pages(bank, tmp_path_factory):
     folder = tmp_path_factory.mktemp("pages")
     paper = build(bank, load("mock"), 11, "both")
     for kind in KINDS:
-        (folder / f"{kind}.html").write_bytes(render(paper, kind, "html"))
+        (folder / f"{kind}.html").write_bytes(render_paper(paper, kind, "html"))
     return folder, paper
 
 

@@ -9,13 +9,15 @@ import pytest
 
 from quizgen.paper.blueprint import load
 from quizgen.paper.paper import build
-from quizgen.render import KINDS, render
+from quizgen.render import KINDS, render_paper
 
 
 @pytest.fixture(scope="module")
 def files(bank):
     paper = build(bank, load("mock"), 11, "both")
-    return paper, {kind: pikepdf.open(io.BytesIO(render(paper, kind, "pdf"))) for kind in KINDS}
+    return paper, {
+        kind: pikepdf.open(io.BytesIO(render_paper(paper, kind, "pdf"))) for kind in KINDS
+    }
 
 
 def structure(node, found):
@@ -71,5 +73,5 @@ def test_all_fonts_are_embedded_with_bangla_among_them(files, kind):
 
 
 def test_english_papers_carry_no_bangla_font(bank):
-    pdf = pikepdf.open(io.BytesIO(render(build(bank, load("trial"), 1, "en"), "exam", "pdf")))
+    pdf = pikepdf.open(io.BytesIO(render_paper(build(bank, load("trial"), 1, "en"), "exam", "pdf")))
     assert not any("HindSiliguri" in str(f.get("/BaseFont")) for f in fonts_of(pdf))

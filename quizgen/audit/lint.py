@@ -60,7 +60,7 @@ class Report:
         return 1 - self.distinct / self.seeds if self.seeds else 0.0
 
 
-def lint(template: Template, seeds: int = 200) -> Report:
+def lint_template(template: Template, seeds: int = 200) -> Report:
     """Examine one template.
 
     Parameters

@@ -104,14 +104,14 @@ def _tell(name: str) -> None:
 
 
 def _rendered(paper: Paper, formats: list[str]) -> Iterator[tuple[str, bytes]]:
-    from quizgen.render import KINDS, render
+    from quizgen.render import KINDS, render_paper
 
     click.echo("", err=True)
     for output in formats:
         for kind in KINDS:
             name = f"{kind}.{output}"
             _tell(name)
-            yield name, render(paper, kind, output)
+            yield name, render_paper(paper, kind, output)
     click.echo("", err=True)
 
 

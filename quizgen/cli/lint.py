@@ -44,10 +44,10 @@ def lint(
 
 def _examined(bank: Bank, name: str, seeds: int) -> tuple[tuple[str, ...], list[str]]:
     """Cells of a template's row, and its problems."""
-    from quizgen.audit.lint import lint as examine
+    from quizgen.audit.lint import lint_template
 
     try:
-        report = examine(bank.template(name), seeds)
+        report = lint_template(bank.template(name), seeds)
     except BankError as error:
         return ("0", "", "", "", "", "1"), [str(error)]
     return _cells(report), [f"{name}: {problem}" for problem in report.problems]

@@ -40,7 +40,7 @@ def preview(name: str, **options: Unpack[Options]) -> None:
         click.echo(question_text(paper.items[0]))
         return
     from quizgen.files import write_all
-    from quizgen.render import render
+    from quizgen.render import render_paper
 
-    write_all(page.parent, {page.name: render(paper, "solutions", "html")})
+    write_all(page.parent, {page.name: render_paper(paper, "solutions", "html")})
     click.echo(str(page))

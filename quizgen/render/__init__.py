@@ -44,7 +44,7 @@ def renderer(output: str) -> Renderer:
             return html.render
 
 
-def render(paper: Paper, kind: str, output: str) -> bytes:
+def render_paper(paper: Paper, kind: str, output: str) -> bytes:
     """Render a paper.
 
     Parameters

@@ -22,7 +22,7 @@ from quizgen.paper.form import form_bytes
 from quizgen.paper.key import key_bytes
 from quizgen.paper.paper import Paper, build
 from quizgen.question.compose import compose
-from quizgen.render import KINDS, RENDERERS, render
+from quizgen.render import KINDS, RENDERERS, render_paper
 
 STORED = Path(__file__).with_name("digests.tsv")
 PAPERS = {"mock": (11, "both"), "trial": (5, "both")}
@@ -44,7 +44,9 @@ def paper(blueprint: str) -> Paper:
 
 def files_of(made: Paper) -> dict[str, bytes]:
     """Every file that a paper consists of."""
-    rendered = {f"{kind}.{name}": render(made, kind, name) for name in RENDERERS for kind in KINDS}
+    rendered = {
+        f"{kind}.{name}": render_paper(made, kind, name) for name in RENDERERS for kind in KINDS
+    }
     return {**rendered, "key.json": key_bytes(made), "answers.toml": form_bytes(made)}
 
 
