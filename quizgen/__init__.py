@@ -1,6 +1,8 @@
 """quizgen: mock exams from parametric templates, answers checked as people type them.
 
-The small Python interface; each name is loaded when it is first used.
+The Python interface, in the order of the line: a bank of templates gives questions, a blueprint
+gives a paper, a key marks what was typed. Each name is loaded when it is first used;
+``docs/api.md`` shows them at work.
 
 Examples
 --------
@@ -19,48 +21,92 @@ Examples
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import Any
+from typing import TYPE_CHECKING
 
-_HOMES = {
-    "Bank": "quizgen.bank.folder",
-    "builtin": "quizgen.bank.folder",
-    "Model": "quizgen.maths.model",
-    "Step": "quizgen.maths.model",
-    "compose": "quizgen.question.compose",
-    "build": "quizgen.paper.paper",
-    "rebuild": "quizgen.paper.paper",
-    "load": "quizgen.paper.blueprint",
-    "mark_paper": "quizgen.paper.marking",
-    "render_paper": "quizgen.render",
-    "mark": "quizgen.marking.mark",
-    "show": "quizgen.marking.mark",
-    "lint_template": "quizgen.audit.lint",
-    "QuizgenError": "quizgen.errors",
+if TYPE_CHECKING:
+    from quizgen.audit.lint import lint_template
+    from quizgen.bank.folder import Bank, builtin
+    from quizgen.bank.template import Template
+    from quizgen.errors import QuizgenError
+    from quizgen.figures import Figure
+    from quizgen.marking.mark import mark, show
+    from quizgen.marking.verdict import Verdict
+    from quizgen.maths.model import Model, Step
+    from quizgen.paper.blueprint import Blueprint, load_blueprint
+    from quizgen.paper.key import key_of
+    from quizgen.paper.marking import PaperResult, mark_paper
+    from quizgen.paper.paper import Paper, build, rebuild
+    from quizgen.question.compose import Key, Question, compose
+    from quizgen.render import render_paper
+
+    __version__: str
+
+HOMES = {
+    "Bank": "bank.folder",
+    "builtin": "bank.folder",
+    "Template": "bank.template",
+    "Model": "maths.model",
+    "Step": "maths.model",
+    "Question": "question.compose",
+    "Key": "question.compose",
+    "Figure": "figures",
+    "compose": "question.compose",
+    "Blueprint": "paper.blueprint",
+    "load_blueprint": "paper.blueprint",
+    "Paper": "paper.paper",
+    "build": "paper.paper",
+    "rebuild": "paper.paper",
+    "key_of": "paper.key",
+    "render_paper": "render",
+    "Verdict": "marking.verdict",
+    "mark": "marking.mark",
+    "show": "marking.mark",
+    "PaperResult": "paper.marking",
+    "mark_paper": "paper.marking",
+    "lint_template": "audit.lint",
+    "QuizgenError": "errors",
 }
-
-_NAMES = {"render_paper": "render", "lint_template": "lint"}
-"""Names that a submodule would hide, and what they are called at home."""
+"""Public name to the module that holds it, in the order of the line."""
 
 __all__ = [  # noqa: RUF022 - in the order of the line
     "Bank",
     "builtin",
+    "Template",
     "Model",
     "Step",
+    "Question",
+    "Key",
+    "Figure",
     "compose",
+    "Blueprint",
+    "load_blueprint",
+    "Paper",
     "build",
     "rebuild",
-    "load",
+    "key_of",
     "render_paper",
+    "Verdict",
     "mark",
-    "mark_paper",
     "show",
+    "PaperResult",
+    "mark_paper",
     "lint_template",
     "QuizgenError",
+    "__version__",
 ]
 
 
-def __getattr__(name: str) -> Any:
-    if name not in _HOMES:
-        raise AttributeError(f"module 'quizgen' has no attribute {name!r}")
-    return getattr(import_module(_HOMES[name]), _NAMES.get(name, name))
+def __dir__() -> list[str]:
+    return __all__
+
+
+if not TYPE_CHECKING:  # a type checker reads the imports above and refuses any other name
+
+    def __getattr__(name: str) -> object:
+        from importlib import import_module, metadata
+
+        if name == "__version__":
+            return metadata.version("quizgen")
+        if name not in HOMES:
+            raise AttributeError(f"module 'quizgen' has no attribute {name!r}")
+        return getattr(import_module(f"quizgen.{HOMES[name]}"), name)

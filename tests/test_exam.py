@@ -15,7 +15,7 @@ import pytest
 
 from quizgen.bank.folder import builtin
 from quizgen.errors import BlueprintError, CodeError
-from quizgen.paper.blueprint import Blueprint, SlotRule, load
+from quizgen.paper.blueprint import Blueprint, SlotRule, load_blueprint
 from quizgen.paper.code import parse_code
 from quizgen.paper.form import form_bytes
 from quizgen.paper.key import key_bytes
@@ -26,11 +26,11 @@ ROOT = Path(__file__).parent.parent
 SMALL = """
 import hashlib
 from quizgen.bank.folder import builtin
-from quizgen.paper.blueprint import load
+from quizgen.paper.blueprint import load_blueprint
 from quizgen.paper.key import key_bytes
 from quizgen.paper.paper import build
 from quizgen.render import render_paper, KINDS, RENDERERS
-paper = build(builtin(), load("trial"), 5, "both")
+paper = build(builtin(), load_blueprint("trial"), 5, "both")
 print(paper.code)
 print(hashlib.sha256(key_bytes(paper)).hexdigest())
 for output in RENDERERS:
@@ -47,7 +47,7 @@ def fresh_process(seed: str) -> str:
 
 
 def test_same_code_same_bytes_in_every_format_across_processes(bank):
-    paper = build(bank, load("trial"), 5, "both")
+    paper = build(bank, load_blueprint("trial"), 5, "both")
     here = [paper.code, hashlib.sha256(key_bytes(paper)).hexdigest()]
     here += [
         f"{output} {kind} {hashlib.sha256(render_paper(paper, kind, output)).hexdigest()}"
@@ -59,7 +59,7 @@ def test_same_code_same_bytes_in_every_format_across_processes(bank):
 
 
 def test_a_code_rebuilds_its_paper(bank):
-    paper = build(bank, load("mock"), 12, "bn", figures=False)
+    paper = build(bank, load_blueprint("mock"), 12, "bn", figures=False)
     again = rebuild(bank, paper.code, figures=False)
     assert key_bytes(again) == key_bytes(paper)
     code = parse_code(paper.code)
@@ -74,14 +74,16 @@ def test_a_code_of_other_templates_is_refused(bank):
 
 
 def test_languages_and_figures_change_no_number(bank):
-    papers = [build(bank, load("mock"), 3, lang, figures=False) for lang in ("en", "bn", "both")]
+    papers = [
+        build(bank, load_blueprint("mock"), 3, lang, figures=False) for lang in ("en", "bn", "both")
+    ]
     drawn = [[item.keys[0].draw.shown for item in paper.items] for paper in papers]
     assert drawn[0] == drawn[1] == drawn[2]
 
 
 def test_mock_has_five_questions_per_tier_and_no_twins(bank):
     for seed in range(5):
-        paper = build(bank, load("mock"), seed, figures=False)
+        paper = build(bank, load_blueprint("mock"), seed, figures=False)
         tiers = [item.questions[0].tier for item in paper.items]
         assert tiers == sorted(tiers)
         assert all(tiers.count(tier) == 5 for tier in "ABCD")
@@ -91,7 +93,7 @@ def test_mock_has_five_questions_per_tier_and_no_twins(bank):
 
 def test_questions_alone_do_not_hold_the_answer(bank):
     """Every rendered value of a key's solution must come from the key, not from the question."""
-    paper = build(bank, load("mock"), 8, figures=False)
+    paper = build(bank, load_blueprint("mock"), 8, figures=False)
     for item in paper.items:
         question = item.questions[0]
         assert "Solution" not in repr(question)
@@ -99,7 +101,7 @@ def test_questions_alone_do_not_hold_the_answer(bank):
 
 
 def test_the_key_is_plain_json_with_exact_values(bank):
-    table = json.loads(key_bytes(build(bank, load("trial"), 5, figures=False)))
+    table = json.loads(key_bytes(build(bank, load_blueprint("trial"), 5, figures=False)))
     assert table["format"] == "quizgen-key/1"
     for question in table["questions"]:
         for part in question["parts"]:
@@ -108,7 +110,7 @@ def test_the_key_is_plain_json_with_exact_values(bank):
 
 
 def test_the_blank_form_asks_every_part(bank):
-    paper = build(bank, load("mock"), 5, "both", figures=False)
+    paper = build(bank, load_blueprint("mock"), 5, "both", figures=False)
     form = tomllib.loads(form_bytes(paper).decode())
     fields = [part.field.id for item in paper.items for part in item.questions[0].parts]
     assert list(form["answers"]) == fields
@@ -135,17 +137,17 @@ def test_adding_a_template_changes_no_number_of_another(bank, tmp_path):
 @pytest.mark.parametrize("name", ["mock", "trial", "all", "code", "colour", "noise"])
 def test_no_question_gives_the_answer_of_another(bank, name):
     for seed in range(6):
-        paper = build(bank, load(name), seed, figures=False)
+        paper = build(bank, load_blueprint(name), seed, figures=False)
         chosen = {item.keys[0].template for item in paper.items}
         for one in chosen:
             assert not chosen & set(bank.rules(one).apart), (seed, one)
 
 
 def test_a_topic_and_a_time_choose_the_questions(bank):
-    paper = build(bank, load("optics.45"), 1, figures=False)
+    paper = build(bank, load_blueprint("optics.45"), 1, figures=False)
     assert 20 <= paper.minutes <= 45
     assert {item.questions[0].topic for item in paper.items} == {"optics"}
-    whole = build(bank, load("all.90"), 1, figures=False)
+    whole = build(bank, load_blueprint("all.90"), 1, figures=False)
     tiers = [item.questions[0].tier for item in whole.items]
     assert tiers == sorted(tiers)
     assert max(map(tiers.count, "ABCD")) - min(map(tiers.count, "ABCD")) <= 2
@@ -167,7 +169,7 @@ def test_the_number_of_possible_papers(bank):
 
 
 def test_the_trial_exam_is_the_chapters_ten_points(bank):
-    paper = build(bank, load("trial"), 2, figures=False)
+    paper = build(bank, load_blueprint("trial"), 2, figures=False)
     assert [item.keys[0].template for item in paper.items][1:] == [
         "mixing-kind-and-primaries",
         "stopping-down-or-opening-effects",
@@ -180,7 +182,7 @@ def test_the_trial_exam_is_the_chapters_ten_points(bank):
 
 
 def test_the_reference_paper_is_the_notes_own(bank):
-    paper = reference_paper(bank, load("mock"), "en")
+    paper = reference_paper(bank, load_blueprint("mock"), "en")
     answers = {item.keys[0].template: item.keys[0].solution.parts for item in paper.items}
     assert answers["point-to-image-plane"][0].answer == "(4; 6)"
     assert answers["thin-lens-image-distance"][0].answer.startswith("200/3 mm")
@@ -190,7 +192,7 @@ def test_the_reference_paper_is_the_notes_own(bank):
 
 @pytest.mark.parametrize("name", list(builtin().blueprints))
 def test_shipped_blueprints_load(name):
-    assert load(name).name == name
+    assert load_blueprint(name).name == name
 
 
 @pytest.mark.parametrize(
@@ -213,7 +215,7 @@ def test_mistakes_in_a_blueprint_are_located(tmp_path, text, message):
     file = tmp_path / "plan.toml"
     file.write_text(text)
     with pytest.raises(BlueprintError, match=message) as caught:
-        load(str(file))
+        load_blueprint(str(file))
     assert "plan.toml" in str(caught.value)
 
 

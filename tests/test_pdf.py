@@ -7,14 +7,14 @@ import io
 import pikepdf
 import pytest
 
-from quizgen.paper.blueprint import load
+from quizgen.paper.blueprint import load_blueprint
 from quizgen.paper.paper import build
 from quizgen.render import KINDS, render_paper
 
 
 @pytest.fixture(scope="module")
 def files(bank):
-    paper = build(bank, load("mock"), 11, "both")
+    paper = build(bank, load_blueprint("mock"), 11, "both")
     return paper, {
         kind: pikepdf.open(io.BytesIO(render_paper(paper, kind, "pdf"))) for kind in KINDS
     }
@@ -73,5 +73,7 @@ def test_all_fonts_are_embedded_with_bangla_among_them(files, kind):
 
 
 def test_english_papers_carry_no_bangla_font(bank):
-    pdf = pikepdf.open(io.BytesIO(render_paper(build(bank, load("trial"), 1, "en"), "exam", "pdf")))
+    pdf = pikepdf.open(
+        io.BytesIO(render_paper(build(bank, load_blueprint("trial"), 1, "en"), "exam", "pdf"))
+    )
     assert not any("HindSiliguri" in str(f.get("/BaseFont")) for f in fonts_of(pdf))

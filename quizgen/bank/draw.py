@@ -66,6 +66,9 @@ class Draw:
     values: Values
     traps: tuple[tuple[str, ...], ...] = field(default=())
 
+    def __repr__(self) -> str:
+        return f"<Draw of {self.template.id}, seed {self.seed}, slot {self.slot}>"
+
     @cached_property
     def plan(self) -> Plan:
         """What does not depend on the numbers."""

@@ -126,6 +126,9 @@ class Bank:
     def _beside(self, name: str) -> dict[str, Path]:
         return {path.stem: path for path in sorted((self.folder / name).glob("*.toml"))}
 
+    def __repr__(self) -> str:
+        return f"<Bank {self.root.name}: {len(self)} templates>"
+
     @cached_property
     def paths(self) -> dict[str, Path]:
         """Template name to its folder, in alphabetical order."""

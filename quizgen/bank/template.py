@@ -126,6 +126,9 @@ class Template:
     digest: str
     path: Path = field(default=Path())
 
+    def __repr__(self) -> str:
+        return f"<Template {self.id}, in {', '.join(self.texts)}>"
+
     @property
     def origin(self) -> str:
         """The name that numbers are drawn under: its first one, so that a rename changes none."""

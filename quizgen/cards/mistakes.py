@@ -26,7 +26,7 @@ from quizgen.cards.versions import template_version
 from quizgen.cards.wish import Wish
 from quizgen.errors import KeyFileError
 from quizgen.locale import chosen
-from quizgen.paper.blueprint import load
+from quizgen.paper.blueprint import load_blueprint
 from quizgen.paper.code import parse_code
 from quizgen.paper.paper import Item, Paper, rebuild
 from quizgen.question.compose import Key, put_into_words
@@ -100,7 +100,7 @@ def from_marks(path: Path, lang: str, *, bank: Bank, blueprint: str | None = Non
     for marked in read_marks(path):
         code = parse_code(marked.code)
         seed = max(seed, 0 if code.is_reference else int(code.seed))
-        paper = rebuild(bank, marked.code, load(blueprint, bank) if blueprint else None)
+        paper = rebuild(bank, marked.code, load_blueprint(blueprint, bank) if blueprint else None)
         for found in _notes(marked, paper, wish, path):
             notes.setdefault(found.key, found)
     return Deck(tuple(notes.values()), replace(wish, seed=seed))

@@ -88,11 +88,11 @@ def _paper(options: Options) -> Paper:
 
 
 def _blueprint(options: Options, bank: Bank) -> Blueprint:
-    from quizgen.paper.blueprint import EVERYTHING, load, of_topic, topics
+    from quizgen.paper.blueprint import EVERYTHING, load_blueprint, of_topic, topics
 
     topic, minutes = options["topic"], options["minutes"]
     if topic is None and minutes is None:
-        return load(options["blueprint"], bank)
+        return load_blueprint(options["blueprint"], bank)
     if topic is not None:
         checked("--topic", topic, topics(bank))
     return of_topic(bank, topic or EVERYTHING, minutes or 0)

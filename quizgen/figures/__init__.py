@@ -41,6 +41,13 @@ class Figure:
     height_pt: float
     dark: str
 
+    def __repr__(self) -> str:
+        return f"<Figure {self.width_pt:g} x {self.height_pt:g} pt: {self.alt}>"
+
+    def _repr_html_(self) -> str:
+        """The figure as a notebook shows it."""
+        return self.svg.decode()
+
 
 def parameters(name: str) -> Mapping[str, Parameter]:
     """Parameters of a figure: name to unit, meaning and default.

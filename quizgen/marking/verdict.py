@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
+from html import escape
 from typing import Any
 
 from quizgen.maths.values import Value
@@ -66,6 +67,15 @@ class Verdict:
     def self_marked(self) -> bool:
         """Whether a person has to decide: key points are only suggested."""
         return self.note in SELF_MARKED
+
+    def __repr__(self) -> str:
+        said = (self.verdict, f"read as {self.read_as}" if self.read_as else "", self.note)
+        return f"<Verdict {', '.join(filter(None, said))}>"
+
+    def _repr_html_(self) -> str:
+        """The verdict as a notebook shows it."""
+        read = f" (<code>{escape(self.read_as)}</code>)" if self.read_as else ""
+        return f"<p><strong>{self.verdict}</strong>{read} {escape(self.message)}</p>"
 
     def as_json(self) -> dict[str, Any]:
         """Return the five public members, for JSON."""

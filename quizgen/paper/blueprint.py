@@ -73,7 +73,7 @@ def topics(bank: Bank) -> list[str]:
     return [*bank.topics, EVERYTHING]
 
 
-def load(name_or_file: str, bank: Bank | None = None) -> Blueprint:
+def load_blueprint(name_or_file: str, bank: Bank | None = None) -> Blueprint:
     """Load a bank's blueprint by name, a topic of the bank, or a file.
 
     Parameters

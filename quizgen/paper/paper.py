@@ -13,7 +13,7 @@ from quizgen.bank.prose import Block, CodeBlock
 from quizgen.bank.template import Template
 from quizgen.errors import BlueprintError, CodeError, DrawError
 from quizgen.locale import chosen
-from quizgen.paper.blueprint import Blueprint, SlotRule, load
+from quizgen.paper.blueprint import Blueprint, SlotRule, load_blueprint
 from quizgen.paper.choose import choose, variety, weights
 from quizgen.paper.code import REFERENCE, Code, checked_seed, digest_of, parse_code
 from quizgen.question.compose import Key, Question, identity, instance, put_into_words
@@ -54,6 +54,9 @@ class Paper:
     items: tuple[Item, ...]
     variety: int = 0
     """How many different papers the blueprint can make; 0 if not counted."""
+
+    def __repr__(self) -> str:
+        return f"<Paper {self.code}: {len(self.items)} questions, {float(self.points):g} points>"
 
     @property
     def points(self) -> Fraction:
@@ -145,7 +148,7 @@ def rebuild(
         If it is not a code, or the templates behind it have changed since.
     """
     wanted = parse_code(code)
-    plan = blueprint or load(wanted.blueprint, bank)
+    plan = blueprint or load_blueprint(wanted.blueprint, bank)
     if wanted.is_reference:
         paper = reference_paper(bank, plan, wanted.choice, figures=figures, progress=progress)
     else:

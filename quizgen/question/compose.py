@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from markupsafe import Markup
+
 from quizgen.bank.draw import Draw, draw, reference
 from quizgen.bank.prose import Block, Inline
 from quizgen.bank.template import Scalar, Template
@@ -23,6 +25,7 @@ from quizgen.maths.units import factor
 from quizgen.question.contract import Built, Control, Named
 from quizgen.question.filling import Filler
 from quizgen.question.kinds import KINDS, build
+from quizgen.question.markup import blocks, inline
 from quizgen.question.solution import Solution, solve
 
 Choice = tuple[str, tuple[Inline, ...]]
@@ -63,6 +66,17 @@ class Part:
     body: tuple[Block, ...]
     field: Field
 
+    def html(self, lang: str) -> Markup:
+        """The part with its options and hints."""
+        label = Markup("<h4>({})</h4>").format(self.label) if self.label else Markup("")
+        choices = Markup("").join(
+            Markup("<li>{} {}</li>").format(mark, inline(text, lang))
+            for mark, text in (*self.field.options, *self.field.targets)
+        )
+        listed = Markup("<ul>{}</ul>").format(choices) if choices else Markup("")
+        hints = Markup("<p><small>{}</small></p>").format(" ".join(self.field.hints))
+        return Markup("").join((label, blocks(self.body, lang), listed, hints))
+
 
 @dataclass(frozen=True)
 class Question:
@@ -84,6 +98,16 @@ class Question:
         """Marks of all parts."""
         return sum((part.points for part in self.parts), Fraction(0))
 
+    def __repr__(self) -> str:
+        return f"<Question {self.number} of {self.template} ({self.lang}): {self.title}>"
+
+    def _repr_html_(self) -> str:
+        """The question as a notebook shows it."""
+        head = Markup("<h3>{}. {}</h3>").format(self.number, self.title)
+        picture = Markup(self.figure.svg.decode()) if self.figure else Markup("")  # noqa: S704
+        parts = (part.html(self.lang) for part in self.parts)
+        return str(Markup("").join((head, blocks(self.stem, self.lang), picture, *parts)))
+
 
 @dataclass(frozen=True)
 class Key:
@@ -97,6 +121,9 @@ class Key:
     chain: dict[str, Any] | None
     draw: Draw
     figure: Figure | None = None
+
+    def __repr__(self) -> str:
+        return f"<Key {self.number} of {self.identity}>"
 
 
 def instance(template: Template, seed: str | int, slot: str | int = "0") -> Draw:

@@ -10,7 +10,7 @@ from click.testing import CliRunner
 from quizgen.cards.mistakes import from_marks
 from quizgen.cli.main import group
 from quizgen.errors import CodeError, KeyFileError
-from quizgen.paper.blueprint import load
+from quizgen.paper.blueprint import load_blueprint
 from quizgen.paper.key import key_bytes
 from quizgen.paper.marking import mark_paper
 from quizgen.paper.paper import build
@@ -34,7 +34,7 @@ def blueprint(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def key(bank, blueprint):
-    return json.loads(key_bytes(build(bank, load(blueprint), 3, "en", figures=False)))
+    return json.loads(key_bytes(build(bank, load_blueprint(blueprint), 3, "en", figures=False)))
 
 
 def part_of(key, template):
@@ -100,7 +100,9 @@ def test_an_unreadable_answer_is_not_a_mistake(key, blueprint, bank, tmp_path):
 def test_the_same_mistake_on_two_papers_is_one_note(bank, blueprint, tmp_path):
     guids = set()
     for seed in (3, 4):
-        key = json.loads(key_bytes(build(bank, load(blueprint), seed, "en", figures=False)))
+        key = json.loads(
+            key_bytes(build(bank, load_blueprint(blueprint), seed, "en", figures=False))
+        )
         name, typed = swapped(key)
         deck = from_marks(marked(key, {name: typed}, tmp_path), "en", bank=bank,
                           blueprint=blueprint)  # fmt: skip

@@ -17,7 +17,7 @@ from msgspec import to_builtins
 from quizgen.bank.folder import builtin
 from quizgen.cards import build as build_deck
 from quizgen.cards.tables import tsv
-from quizgen.paper.blueprint import load
+from quizgen.paper.blueprint import load_blueprint
 from quizgen.paper.form import form_bytes
 from quizgen.paper.key import key_bytes
 from quizgen.paper.paper import Paper, build
@@ -39,7 +39,7 @@ def without_names(data: bytes, names: list[str]) -> bytes:
 def paper(blueprint: str) -> Paper:
     """The paper under a fixed code: a code names the files behind it, which may change."""
     seed, langs = PAPERS[blueprint]
-    return replace(build(builtin(), load(blueprint), seed, langs), code="golden")
+    return replace(build(builtin(), load_blueprint(blueprint), seed, langs), code="golden")
 
 
 def files_of(made: Paper) -> dict[str, bytes]:
