@@ -40,6 +40,17 @@ def test_the_identity_calls_for_nothing_and_breaks_no_rule(setting):
     assert list(setting.faults(look.camera)) == []
 
 
+def test_a_camera_is_its_values():
+    plain, bent = Camera(0.05, 5e-6), Camera(0.05, 5e-6, k1=-0.2)
+    assert plain == Camera(focal_length=0.05, pixel_pitch=5e-6, k1=0.0, gamma="linear")
+    assert hash(plain) == hash(Camera(0.05, 5e-6, saturation=1.0))
+    assert plain.but(k1=-0.2) == bent != plain
+    assert bent.but(k1=0.0) == plain
+    assert repr(bent) == "Camera(focal_length=0.05, pixel_pitch=5e-06, k1=-0.2)"
+    assert bent[distortion.K1] == -0.2
+    assert plain[distortion.K1] == 0.0
+
+
 @pytest.mark.parametrize("place", range(5))
 def test_the_nearest_pixel_is_up_to_half_a_pixel_off_and_no_more(place):
     """On a ramp of one grey level per pixel along both axes, found by sampling every 1/100 px."""

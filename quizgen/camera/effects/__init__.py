@@ -1,6 +1,6 @@
 """The table of effects in physical order: light, lens, motion, sensor, raw development, edits.
 
-Adding an effect is one module with an ``EFFECT`` and one line here.
+Adding an effect is one module with an ``EFFECT``, and its import and its line here.
 """
 
 from __future__ import annotations
