@@ -12,11 +12,25 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable, Iterator
-from importlib import import_module
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from quizgen.arrays import (
+    cie1924,
+    depth_of_field,
+    distortion,
+    gamma,
+    gaussian,
+    hsv,
+    luminosity,
+    projection,
+    snr,
+    statistics,
+    stops,
+    thin_lens,
+    vignetting,
+)
 from quizgen.tradeoff.families import BY_NAME
 from quizgen.tradeoff.ladder import rungs
 
@@ -42,10 +56,6 @@ class Case(NamedTuple):
         return self._replace(columns=[np.resize(column, COUNT) for column in self.columns])
 
 
-def arrays(name: str) -> Any:
-    return import_module(f"quizgen.arrays.{name}")
-
-
 def from_families(rng: np.random.Generator) -> Iterator[Case]:
     """Families of the accuracy page: their chain in float64 is the textbook formula."""
     for name, fixed in SCALARS.items():
@@ -69,18 +79,14 @@ SCALARS = {
 
 def others(rng: np.random.Generator) -> Iterator[Case]:
     """Functions that have no page of their own."""
-    gaussian, stops, hsv = arrays("gaussian"), arrays("stops"), arrays("hsv")
-    field, lens, snr = arrays("depth_of_field"), arrays("thin_lens"), arrays("snr")
-    gamma, vignetting, light = arrays("gamma"), arrays("vignetting"), arrays("luminosity")
-    distortion, projection = arrays("distortion"), arrays("projection")
     k = rng.integers(0, 13, COUNT) / 4
     unit, other, third = (rng.integers(0, 256, COUNT) / 255 for _ in range(3))
     s = 100.0 * rng.integers(5, 60, COUNT)
     yield Case("pdf", textbook_pdf, gaussian.pdf, [k, 0.5, 1.5])
     yield Case("upper tail", textbook_tail, gaussian.upper_tail, [k], peer_tail)
-    yield Case("near limit", textbook_near, field.near_limit, [50.0, 8.0, 0.03, s])
-    yield Case("total depth", textbook_total, field.total_depth, [50.0, 8.0, 0.03, s])
-    yield Case("magnification", textbook_magnification, lens.magnification, [50.0, s])
+    yield Case("near limit", textbook_near, depth_of_field.near_limit, [50.0, 8.0, 0.03, s])
+    yield Case("total depth", textbook_total, depth_of_field.total_depth, [50.0, 8.0, 0.03, s])
+    yield Case("magnification", textbook_magnification, thin_lens.magnification, [50.0, s])
     yield Case("light ratio", lambda a, b: (b / a) ** 2, stops.light_ratio, [2.0, k + 1])
     yield Case("snr", lambda N, r: N / np.sqrt(N + r**2), snr.snr, [s, 5.0])
     yield Case("encode", lambda x: x ** (1 / GAMMA), gamma.encode, [unit])
@@ -92,14 +98,11 @@ def others(rng: np.random.Generator) -> Iterator[Case]:
     yield Case("to rgb", textbook_rgb, hsv.to_rgb, [360 * unit, other, third])
     yield Case("distort", textbook_distort, distortion.distort, [unit, other, -0.2, 0.05])
     yield Case("project", textbook_project, projection.project, [2.0, unit, other, s])
-    yield Case("V(lambda)", textbook_v, light.photopic, [380 + 400 * unit])
+    yield Case("V(lambda)", textbook_v, luminosity.photopic, [380 + 400 * unit])
 
 
 def more(rng: np.random.Generator) -> Iterator[Case]:
     """Further functions of the same families."""
-    gaussian, field, lens = arrays("gaussian"), arrays("depth_of_field"), arrays("thin_lens")
-    snr, distortion, light = arrays("snr"), arrays("distortion"), arrays("luminosity")
-    statistics = arrays("statistics")
     k, s = rng.integers(0, 13, COUNT) / 4, 100.0 * rng.integers(5, 60, COUNT)
     unit, nm = rng.integers(1, 256, COUNT) / 255, 1.0 * rng.integers(380, 781, COUNT)
     yield Case("log tail", lambda k: np.log(textbook_tail(k)), gaussian.log_tail, [k])
@@ -107,13 +110,18 @@ def more(rng: np.random.Generator) -> Iterator[Case]:
     yield Case("interval", textbook_interval, gaussian.interval, [k, k + 1])
     yield Case("expected pixels", textbook_expected, gaussian.expected_beyond, [1e6, k])
     yield Case(
-        "hyperfocal", lambda f, N, c: f * f / (N * c) + f, field.hyperfocal, [50.0, k + 1, 0.03]
+        "hyperfocal",
+        lambda f, N, c: f * f / (N * c) + f,
+        depth_of_field.hyperfocal,
+        [50.0, k + 1, 0.03],
     )
-    yield Case("focus shift", lambda f, z: 1 / (1 / f - 1 / z) - f, lens.focus_shift, [50.0, s])
+    yield Case(
+        "focus shift", lambda f, z: 1 / (1 / f - 1 / z) - f, thin_lens.focus_shift, [50.0, s]
+    )
     yield Case("photons for snr", textbook_photons, snr.photons_for, [k + 1, 5.0])
     yield Case("displacement", textbook_shift, distortion.displacement, [unit, -0.2, 0.05])
     yield Case("fold radius", lambda k1: np.sqrt(-1 / (3 * k1)), distortion.fold_radius, [-unit])
-    yield Case("photon energy", lambda nm: 1239.841984 / nm, light.photon_energy_ev, [nm])
+    yield Case("photon energy", lambda nm: 1239.841984 / nm, luminosity.photon_energy_ev, [nm])
     yield Case("mean", lambda image: image.sum() / image.size, statistics.mean, [s])
     yield Case("variance", textbook_variance, statistics.variance, [s])
 
@@ -212,10 +220,8 @@ def textbook_project(f: float, x: Any, y: Any, z: Any) -> Any:
 
 
 def textbook_v(wavelength: Any) -> Any:
-    from quizgen.arrays import cie1924 as table
-
-    at = table.FIRST_NM + table.STEP_NM * np.arange(len(table.V))
-    return np.interp(wavelength, at, table.V)
+    at = cie1924.FIRST_NM + cie1924.STEP_NM * np.arange(len(cie1924.V))
+    return np.interp(wavelength, at, cie1924.V)
 
 
 def opencv_inverse(r_d: Any, k1: float, k2: float) -> Any:
