@@ -95,26 +95,35 @@ def _one_line(centre: float, fwhm: float) -> float:
     if not sigma > 0 or math.isinf(1 / sigma):
         return float(_photopic(np.array([centre]))[0])
     i, near, far = _pieces(centre)
-    away = np.abs(near - centre) / sigma
     height = pdf(near, centre, sigma)
-    i, near, far, away, height = (part[height > 0] for part in (i, near, far, away, height))
+    seen = height > 0
+    i, near, far, height = i[seen], near[seen], far[seen], height[seen]
+    away = np.abs(near - centre) / sigma
     height *= 1 + (away * away - 1) * ((lost + fwhm * _SIGMA_LOST) / sigma)
-    ends = 2 * _FALLS / (np.sqrt(away[:, None] ** 2 + 2 * _FALLS) + away[:, None] + _LEAST)
-    ends = np.minimum(ends, np.abs(far - near)[:, None] / sigma)
-    piece, step = np.nonzero(np.diff(ends) > 0)
-    start, stop = ends[piece, step], ends[piece, step + 1]
-    i, near, far, away, height = (part[piece, None] for part in (i, near, far, away, height))
+    piece, start, stop = _steps(away, np.abs(far - near) / sigma)
+    row = piece[:, None]
     half = 0.5 * (stop - start)[:, None]
     s = start[:, None] + half * (1 + _NODES)
-    at = (near - _EDGES[i]) + sigma * s * np.sign(far - near)
-    parts = np.exp(-s * (away + 0.5 * s)) * _between(i, at) * (half * _WEIGHTS)
-    return math.fsum(height[:, 0] * (parts.sum(axis=1) * sigma))
+    at = (near - _EDGES[i])[row] + sigma * s * np.sign(far - near)[row]
+    parts = np.exp(-s * (away[row] + 0.5 * s)) * _between(i[row], at) * (half * _WEIGHTS)
+    return math.fsum(height[piece] * (parts.sum(axis=1) * sigma))
+
+
+def _steps(away: Array, length: Array) -> tuple[Indices, Array, Array]:
+    """Steps over which a line falls by exp(4): their piece, and from where to where in sigma.
+
+    Pieces begin ``away`` standard deviations from the centre and are ``length`` long.
+    """
+    ends = 2 * _FALLS / (np.sqrt(away[:, None] ** 2 + 2 * _FALLS) + away[:, None] + _LEAST)
+    ends = np.minimum(ends, length[:, None])
+    piece, step = np.nonzero(np.diff(ends) > 0)
+    return piece, ends[piece, step], ends[piece, step + 1]
 
 
 _LEAST, _HUGE = 1e-300, 1e150
 
 
-def _pieces(centre: float) -> tuple[Array, Array, Array]:
+def _pieces(centre: float) -> tuple[Indices, Array, Array]:
     """Straight pieces of V on one side of the centre: index, end next to it, other end."""
     i = np.arange(_TABLE.size - 1)
     start, stop = _EDGES[:-1], _EDGES[1:]
