@@ -7,8 +7,6 @@ import unicodedata
 from collections.abc import Iterable
 from functools import lru_cache
 
-from rapidfuzz.distance import OSA
-
 _BRITISH = (
     ("colour", "color"),
     ("grey", "gray"),
@@ -50,6 +48,19 @@ def budget(term: str) -> int:
     return 0 if len(term) <= 4 else 1 if len(term) <= 8 else 2
 
 
+def slips(first: str, second: str, most: int) -> int:
+    """Typing slips between two words: letters put in, left out, changed or exchanged.
+
+    Returns
+    -------
+    int
+        ``most + 1`` if there are more than ``most``.
+    """
+    from rapidfuzz.distance import OSA  # loaded when a word is not known as it stands
+
+    return int(OSA.distance(first, second, score_cutoff=most))
+
+
 def nearest_terms(typed: str, terms: Iterable[str]) -> tuple[list[str], int]:
     """Return the known terms nearest to a typed one, within the budget of each, and the distance.
 
@@ -61,7 +72,7 @@ def nearest_terms(typed: str, terms: Iterable[str]) -> tuple[list[str], int]:
     least = 3
     for term in terms:
         target = fold(term)
-        distance = OSA.distance(folded, target, score_cutoff=2)
+        distance = slips(folded, target, 2)
         if distance <= budget(target) and distance <= least:
             best = [term] if distance < least else [*best, term]
             least = distance

@@ -5,10 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
-from rapidfuzz.distance import OSA
-
 from quizgen.marking.echo import safe
-from quizgen.marking.judging.wording import budget, fold
+from quizgen.marking.judging.wording import budget, fold, slips
 from quizgen.marking.options import Options
 from quizgen.marking.reading.rewrites import LONGEST_PROSE, Source, refuse_invisible
 from quizgen.marking.reading.scalars import ReadError
@@ -81,5 +79,5 @@ def _alike(word: str, wanted: str) -> bool:
     """Whether a word is the wanted one, one of its forms, or a slip of the fingers."""
     if len(wanted) >= 4 and word.startswith(wanted):
         return True
-    slips = budget(wanted)
-    return OSA.distance(word, wanted, score_cutoff=slips) <= slips
+    allowed = budget(wanted)
+    return word == wanted or slips(word, wanted, allowed) <= allowed
