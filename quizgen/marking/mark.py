@@ -16,11 +16,13 @@ from quizgen.marking.options import DECIMALS, Context, Options
 from quizgen.marking.specs import Table, decode
 from quizgen.marking.verdict import Verdict, ambiguous, unreadable, with_words
 from quizgen.maths.notation import ReadError
+from quizgen.maths.precision import working_precision
 
 TWO_READINGS = frozenset({"comma-twice", "two-readings"})
 """Reasons for asking back that are not the learner's slip: the text can be read in two ways."""
 
 
+@working_precision()
 def load_spec(spec: Table) -> Kind:
     """Read and validate a spec table.
 
@@ -77,6 +79,7 @@ def mark(
     return explained(kind, judge(kind, typed, Options(lang, decimal, context, settle)), lang)
 
 
+@working_precision()
 def judge(spec: Kind, typed: str, options: Options) -> Verdict:
     """Return the language-free verdict of one answer."""
     try:
@@ -108,6 +111,7 @@ def _sentence(spec: Kind, verdict: Verdict, lang: str) -> str:
     return spec.notes.get(lang, {}).get(name) or say(lang, "trap", verdict.fields)
 
 
+@working_precision()
 def show(spec: Table | Kind, lang: str = "en") -> str:
     """Return the key of a spec as it is printed, and as it can be typed back.
 

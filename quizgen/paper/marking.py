@@ -15,6 +15,7 @@ from quizgen.marking.kinds.contract import Kind
 from quizgen.marking.mark import explained, judge, load_spec
 from quizgen.marking.options import DECIMALS, Context, Options
 from quizgen.marking.verdict import Verdict
+from quizgen.maths.precision import working_precision
 from quizgen.paper.key import Key, KeyPart, KeyQuestion, load_key
 
 QUARTER = Fraction(1, 4)
@@ -167,6 +168,7 @@ class Marker:
         self.options = options
         self.earlier: dict[str, Any] = {}
 
+    @working_precision()
     def mark(self, part: KeyPart, typed: str) -> PartResult:
         """Mark one part; a part marked again replaces its earlier values."""
         spec = _spec(part)

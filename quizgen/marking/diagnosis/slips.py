@@ -8,27 +8,29 @@ from flint import arb, fmpq
 
 from quizgen.marking.reading.scalars import Number
 from quizgen.maths.numbers import magnitude, to_float
+from quizgen.maths.precision import working_precision
 from quizgen.maths.values import Value
 
 CLOSE = fmpq(1, 200)
 """Relative distance within which a slip is said to explain a number."""
 
-FACTORS = {
-    "2": fmpq(2),
-    "1/2": fmpq(1, 2),
-    "3": fmpq(3),
-    "1/3": fmpq(1, 3),
-    "4": fmpq(4),
-    "1/4": fmpq(1, 4),
-    "8": fmpq(8),
-    "1/8": fmpq(1, 8),
-    "π": arb.pi(),
-    "1/π": 1 / arb.pi(),
-    "2π": 2 * arb.pi(),
-    "1/(2π)": 1 / (2 * arb.pi()),
-    "√2": arb(2).sqrt(),
-    "1/√2": 1 / arb(2).sqrt(),
-}
+with working_precision():
+    FACTORS = {
+        "2": fmpq(2),
+        "1/2": fmpq(1, 2),
+        "3": fmpq(3),
+        "1/3": fmpq(1, 3),
+        "4": fmpq(4),
+        "1/4": fmpq(1, 4),
+        "8": fmpq(8),
+        "1/8": fmpq(1, 8),
+        "π": arb.pi(),
+        "1/π": 1 / arb.pi(),
+        "2π": 2 * arb.pi(),
+        "1/(2π)": 1 / (2 * arb.pi()),
+        "√2": arb(2).sqrt(),
+        "1/√2": 1 / arb(2).sqrt(),
+    }
 """Constant factors worth naming."""
 
 _TENS = {power: fmpq(10) ** power for power in range(-19, 20)}
