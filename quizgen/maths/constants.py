@@ -85,7 +85,7 @@ def _sharp(ball: Value) -> bool:
 
 
 @lru_cache(maxsize=8192)
-def exact_text(text: str) -> Value:
+def _exactly(text: str) -> Value:
     """Return the value of an author's constant: ``20/3``, ``6.67``, ``-1e-3``, ``sqrt(2)/2``.
 
     Raises
@@ -108,4 +108,4 @@ def exact_value(value: str | float) -> Value:
     FormulaError
         If it cannot be read or has no value.
     """
-    return exact_text(value if isinstance(value, str) else repr(value))
+    return _exactly(value if isinstance(value, str) else repr(value))

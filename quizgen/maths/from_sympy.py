@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from fractions import Fraction
-from typing import Any
 
 import sympy
 from sympy.core.function import AppliedUndef
@@ -32,7 +31,7 @@ def _classes() -> Iterator[tuple[type, str]]:
             yield kind, row.name
 
 
-def convert(expression: Any) -> Expr:
+def convert(expression: sympy.Basic) -> Expr:
     """Convert a SymPy expression.
 
     Parameters
@@ -61,19 +60,19 @@ def convert(expression: Any) -> Expr:
     raise BankError(f"no formula for SymPy's {type(expression).__name__}: {expression}")
 
 
-def _converted(expression: Any) -> tuple[Expr, ...]:
+def _converted(expression: sympy.Basic) -> tuple[Expr, ...]:
     return tuple(convert(arg) for arg in expression.args)
 
 
-def _symbol(expression: Any) -> Expr:
+def _symbol(expression: sympy.Basic) -> Expr:
     return Sym(expression.name)
 
 
-def _rational(expression: Any) -> Expr:
+def _rational(expression: sympy.Basic) -> Expr:
     return Num(Fraction(int(expression.p), int(expression.q)))
 
 
-def _float(expression: Any) -> Expr:
+def _float(expression: sympy.Basic) -> Expr:
     """Take the decimal that was typed: 2.2 is 11/5, not the nearest binary number."""
     if not expression.is_finite:
         raise BankError(f"no formula for the number {expression}")
@@ -82,15 +81,15 @@ def _float(expression: Any) -> Expr:
     return Num(Fraction(typed), decimal=True)
 
 
-def _pi(_expression: Any) -> Expr:
+def _pi(_expression: sympy.Basic) -> Expr:
     return Call("pi", ())
 
 
-def _e(_expression: Any) -> Expr:
+def _e(_expression: sympy.Basic) -> Expr:
     return Call("exp", (_ONE,))
 
 
-def _add(expression: Any) -> Expr:
+def _add(expression: sympy.Basic) -> Expr:
     first, *rest = expression.args
     total = [convert(first)]
     for term in rest:
@@ -102,7 +101,7 @@ def _add(expression: Any) -> Expr:
     return total[0] if len(total) == 1 else Call("add", tuple(total))
 
 
-def _signed(term: Any) -> tuple[bool, Expr]:
+def _signed(term: sympy.Basic) -> tuple[bool, Expr]:
     """Split the sign off a later term of a sum."""
     value = convert(term)
     if isinstance(value, Num) and value.value < 0:
@@ -112,7 +111,7 @@ def _signed(term: Any) -> tuple[bool, Expr]:
     return False, value
 
 
-def _mul(expression: Any) -> Expr:
+def _mul(expression: sympy.Basic) -> Expr:
     result: Expr | None = None
     minus = False
     for factor in expression.args:
@@ -128,13 +127,13 @@ def _mul(expression: Any) -> Expr:
     return Call("neg", (product,)) if minus else product
 
 
-def _factor(factor: Any) -> tuple[Expr, bool]:
+def _factor(factor: sympy.Basic) -> tuple[Expr, bool]:
     """Convert a factor; a factor with a negative power goes below the bar."""
     below = _reciprocal(factor)
     return (convert(factor), False) if below is None else (below, True)
 
 
-def _reciprocal(expression: Any) -> Expr | None:
+def _reciprocal(expression: sympy.Basic) -> Expr | None:
     """Find what stands below the bar of ``1/something``."""
     if not isinstance(expression, sympy.Pow) or expression.base is sympy.S.Exp1:
         return None
@@ -159,7 +158,7 @@ def _over(top: Expr, bottom: Expr) -> Expr:
     return Call("div", (top, bottom))
 
 
-def _pow(expression: Any) -> Expr:
+def _pow(expression: sympy.Basic) -> Expr:
     if expression.base is sympy.S.Exp1:
         return Call("exp", (convert(expression.exp),))
     below = _reciprocal(expression)
@@ -176,7 +175,7 @@ def _power(base: Expr, exponent: Expr) -> Expr:
     return Call("pow", (base, exponent))
 
 
-def _log(expression: Any) -> Expr:
+def _log(expression: sympy.Basic) -> Expr:
     value, *base = _converted(expression)
     if not base:
         return Call("ln", (value,))
@@ -185,10 +184,10 @@ def _log(expression: Any) -> Expr:
     return Call("div", (Call("ln", (value,)), Call("ln", (base[0],))))
 
 
-def _ordered(op: str) -> Callable[[Any], Expr]:
+def _ordered(op: str) -> Callable[[sympy.Basic], Expr]:
     """Max and Min come sorted; colour channels go back to R, G, B."""
 
-    def rule(expression: Any) -> Expr:
+    def rule(expression: sympy.Basic) -> Expr:
         args = _converted(expression)
         if {getattr(arg, "name", "") for arg in args} == set("RGB"):
             args = tuple(Sym(channel) for channel in "RGB")
@@ -197,7 +196,7 @@ def _ordered(op: str) -> Callable[[Any], Expr]:
     return rule
 
 
-def _piecewise(expression: Any) -> Expr:
+def _piecewise(expression: sympy.Basic) -> Expr:
     args: list[Expr] = []
     for value, condition in expression.args:
         args.append(convert(value))
@@ -207,15 +206,15 @@ def _piecewise(expression: Any) -> Expr:
     raise BankError(f"the last branch of {expression} must hold otherwise: end with (..., True)")
 
 
-def _named(op: str) -> Callable[[Any], Expr]:
+def _named(op: str) -> Callable[[sympy.Basic], Expr]:
     return lambda expression: Call(op, _converted(expression))
 
 
-def _unknown(expression: Any) -> Expr:
+def _unknown(expression: sympy.Basic) -> Expr:
     raise BankError(f"no formula for {expression}")
 
 
-_RULES: dict[type, Callable[[Any], Expr]] = {
+_RULES: dict[type, Callable[[sympy.Basic], Expr]] = {
     **{kind: _named(op) for kind, op in _classes()},
     sympy.Symbol: _symbol,
     sympy.Rational: _rational,

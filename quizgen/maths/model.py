@@ -17,11 +17,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING
 
 from quizgen.errors import BankError
 from quizgen.maths.chain import Chain, ChainStep
 from quizgen.maths.tree import names
+
+if TYPE_CHECKING:
+    import sympy
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,8 +41,8 @@ class Step:
         The unit in which the quantity is shown; empty for pure numbers.
     """
 
-    symbol: Any
-    expr: Any
+    symbol: sympy.Symbol
+    expr: sympy.Expr
     unit: str = ""
 
 
@@ -57,7 +60,7 @@ class Model:
         Mistake name to the wrong step (or steps) put in place of the right one.
     """
 
-    given: Mapping[Any, str]
+    given: Mapping[sympy.Symbol, str]
     steps: tuple[Step, ...]
     traps: Mapping[str, Step | tuple[Step, ...]] = field(default_factory=dict)
 

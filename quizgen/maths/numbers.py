@@ -28,6 +28,11 @@ def rational(value: int | str | Fraction) -> fmpq:
     return fmpq(fraction.numerator, fraction.denominator)
 
 
+def fraction(value: fmpq) -> Fraction:
+    """A rational in Python's own type, as formula trees hold it."""
+    return Fraction(int(value.p), int(value.q))
+
+
 def is_exact(value: Value) -> bool:
     """Whether a value of the exact field is a rational."""
     return isinstance(value, fmpq)
@@ -68,12 +73,9 @@ def magnitude(value: Value) -> int:
     number = abs(to_float(value))
     if number == 0:
         return 0
-    guess = int(f"{number:e}".split("e")[1])
+    guess = int(f"{number:e}".split("e")[1])  # may have been rounded up to a power of ten
     with working_precision(WIDE):
-        size, power = abs(value), fmpq(10) ** guess
-        if size < power:
-            return guess - 1
-        return guess + 1 if size >= power * 10 else guess
+        return guess - 1 if abs(value) < fmpq(10) ** guess else guess
 
 
 def decimals_for(value: Value, figures: int) -> int:

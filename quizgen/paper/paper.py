@@ -13,12 +13,12 @@ from quizgen.bank.prose import Block, CodeBlock
 from quizgen.bank.template import Template
 from quizgen.errors import BlueprintError, CodeError, DrawError
 from quizgen.locale import chosen
+from quizgen.maths.superscripts import RAISED
 from quizgen.paper.blueprint import Blueprint, SlotRule, load_blueprint
 from quizgen.paper.choose import choose, variety, weights
 from quizgen.paper.code import REFERENCE, Code, checked_seed, digest_of, parse_code
 from quizgen.question.compose import Key, Question, identity, instance, put_into_words
 
-SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 REDRAWS = 50
 """Tries to avoid the same numbers twice in one paper."""
 
@@ -69,7 +69,7 @@ class Paper:
         if self.variety < 10**6:
             return str(self.variety)
         mantissa, _, exponent = f"{Decimal(self.variety):.1e}".partition("e+")
-        return f"{mantissa} × 10{exponent.translate(SUPERSCRIPTS)}"
+        return f"{mantissa} × 10{exponent.translate(RAISED)}"
 
     @property
     def minutes(self) -> int:

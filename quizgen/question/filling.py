@@ -24,12 +24,12 @@ from quizgen.bank.prose import (
 from quizgen.errors import BankError
 from quizgen.maths.notation import to_text
 from quizgen.maths.numbers import exact_text
+from quizgen.maths.superscripts import RAISED
 from quizgen.maths.tree import Expr
 from quizgen.maths.units import shown as unit_shown
 from quizgen.maths.values import Values
 
 NBSP = "\u00a0"
-SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,7 +140,7 @@ def quantity_text(drawn: Draw, name: str) -> str:
 def with_unit(text: str, unit: str) -> str:
     """A number and its unit; only the degree sign stands close."""
     shown = unit_shown(unit)
-    readable = re.sub(r"e(-?\d+)$", lambda m: f"·10{m[1].translate(SUPERSCRIPTS)}", text)
+    readable = re.sub(r"e(-?\d+)$", lambda m: f"·10{m[1].translate(RAISED)}", text)
     return f"{readable}{'' if shown in {'', '°'} else NBSP}{shown}"
 
 

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from fractions import Fraction
 
 from quizgen.bank.draw import Draw
 from quizgen.bank.prose import Block, Table, Words
 from quizgen.locale import word
-from quizgen.maths.numbers import rounded_text
+from quizgen.maths.numbers import fraction, rounded_text
 from quizgen.maths.systems import NumberSystem, compile_expr, floats, singles
 from quizgen.maths.units import unit
-from quizgen.maths.values import Value
 from quizgen.question.filling import with_unit
 
 FIGURES = 9
@@ -42,7 +40,7 @@ def _ways(drawn: Draw, name: str) -> Iterator[tuple[str, str]]:
 def _rounded_at_each_step(drawn: Draw, name: str, shown: str, numbers: NumberSystem) -> str:
     """A quantity as floats give it, or a dash where they give nothing."""
     chain = drawn.template.chain
-    env = {n: numbers.constant(_fraction(drawn.values[n])) for n in chain.given}
+    env = {n: numbers.constant(fraction(drawn.values[n])) for n in chain.given}
     try:
         for step in chain.steps:
             env[step.name] = compile_expr(step.expr, numbers)(env)
@@ -50,7 +48,3 @@ def _rounded_at_each_step(drawn: Draw, name: str, shown: str, numbers: NumberSys
     except (ZeroDivisionError, ValueError, OverflowError):
         return "-"
     return with_unit(text.replace("e-0", "e-"), shown)
-
-
-def _fraction(value: Value) -> Fraction:
-    return Fraction(int(value.p), int(value.q))

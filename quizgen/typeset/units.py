@@ -7,13 +7,13 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from quizgen.errors import RenderError
+from quizgen.maths.superscripts import LOWERED
 from quizgen.maths.units import SHOWN, SIMPLE
 
 TIGHT = frozenset({"deg", "°"})
 """Units set without a space after the number."""
 
 _PART = re.compile(r"(?P<sign>[*/·]?)(?P<name>e[-⁻]|[^*/·^⁻⁰-⁹²³]+)(?:\^?(?P<power>-?\d|⁻?[²³¹]))?")
-_SUPERSCRIPTS = str.maketrans("⁻¹²³", "-123")
 
 
 class Part(NamedTuple):
@@ -42,7 +42,7 @@ def parts(text: str) -> tuple[Part, ...]:
         if match is None or listed not in SIMPLE:
             raise RenderError(f"no way to print the unit {text!r}")
         sign = "/" if match["sign"] == "/" else "·" * bool(match["sign"])
-        power = (match["power"] or "").translate(_SUPERSCRIPTS)
+        power = (match["power"] or "").translate(LOWERED)
         found.append(Part(sign, listed, SHOWN.get(listed, listed), power))
         position = match.end()
     return tuple(found)

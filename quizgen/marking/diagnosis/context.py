@@ -15,7 +15,7 @@ from quizgen.marking.rounding import nearest
 from quizgen.marking.specs import Measured, gives
 from quizgen.marking.verdict import HALF, Verdict, partial, wrong
 from quizgen.maths.chain import ChainStep
-from quizgen.maths.numbers import rational
+from quizgen.maths.numbers import fraction, rational
 from quizgen.maths.tree import Num
 from quizgen.maths.units import unit
 from quizgen.maths.values import Value
@@ -114,7 +114,7 @@ def _agree(a: Value, b: Value) -> bool:
 
 def _constant(value: Value) -> Num:
     exact = value.mid().fmpq() if isinstance(value, arb) else value
-    return Num(Fraction(int(exact.p), int(exact.q)))
+    return Num(fraction(exact))
 
 
 def _early(context: Context, target: str, value: Value, number: Number, factor: fmpq) -> bool:

@@ -6,6 +6,7 @@ from typing import Any
 
 from flint import Ordering, fmpq, fmpq_mpoly_ctx
 
+from quizgen.maths.numbers import rational
 from quizgen.maths.systems import NumberSystem, compile_expr
 from quizgen.maths.tree import Call, Expr, names, walk
 
@@ -45,7 +46,7 @@ def _quotients(ctx: Any) -> NumberSystem:
     one = ctx.constant(1)
     return NumberSystem(
         "quotients",
-        lambda value: (ctx.constant(fmpq(value.numerator, value.denominator)), one),
+        lambda value: (ctx.constant(rational(value)), one),
         {"add": _add, "sub": _sub, "mul": _mul, "div": _div, "neg": _neg, "pow": _pow},
     )
 

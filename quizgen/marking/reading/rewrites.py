@@ -12,6 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from quizgen.maths.notation import ReadError
+from quizgen.maths.superscripts import LOWERED
 
 LONGEST = 200
 """Most characters in one typed formula, number or list."""
@@ -72,7 +73,6 @@ Rewrite = tuple[re.Pattern[str], Callable[[re.Match[str]], str]]
 BANGLA_LETTERS = str.maketrans("কখগঘঙচছজঝঞ", "ABCDEFGHIJ")
 """Letters that count options in Bangla, and the Latin ones in the same places."""
 
-_SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻", "0123456789+-")
 _SUBSCRIPTS = str.maketrans("₀₁₂₃₄₅₆₇₈₉ₓᵢ", "0123456789xi")
 _APPROXIMATE = r"ca\.|approx(?:\.|imately)?|about|circa|etwa|ungefähr|rund|প্রায়|প্রায়"
 
@@ -108,7 +108,7 @@ REWRITES: dict[str, Rewrite] = {
     "angle brackets": (re.compile(r"[⟨⟩〈〉]"), _table(dict(zip("⟨⟩〈〉", "()()", strict=True)))),
     "superscripts": (
         re.compile(r"[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+"),
-        lambda m: "^" + (f"({t})" if len(t := m[0].translate(_SUPERSCRIPTS)) > 1 else t),
+        lambda m: "^" + (f"({t})" if len(t := m[0].translate(LOWERED)) > 1 else t),
     ),
     "subscripts": (re.compile(r"[₀-₉ₓᵢ]+"), lambda m: m[0].translate(_SUBSCRIPTS)),
     "vulgar fractions": (re.compile(r"(\d*) ?([¼-¾⅐-⅞])"), _fraction),

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from flint import arb, fmpq
+from flint import arb
 
 from quizgen.errors import FormulaError
+from quizgen.maths.numbers import rational
 from quizgen.maths.units import SIMPLE, Unit, unit
 
 WORDS = {
@@ -148,9 +149,7 @@ def plain_unit(listed: str) -> TypedUnit:
     if listed == "rad":
         return TypedUnit("rad", 180 / arb.pi(), (("deg", 1),))
     found: Unit = unit(listed)
-    return TypedUnit(
-        listed, fmpq(found.factor.numerator, found.factor.denominator), found.dimension
-    )
+    return TypedUnit(listed, rational(found.factor), found.dimension)
 
 
 def _word(word: str) -> str:

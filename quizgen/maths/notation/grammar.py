@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from quizgen.maths.notation.lexer import Piece, ReadError
 from quizgen.maths.notation.names import FUNCTIONS
 from quizgen.maths.operators import Typed, typed_as
 from quizgen.maths.tree import Call, Expr, Num, Sym
+
+if TYPE_CHECKING:
+    from lark.exceptions import UnexpectedToken
 
 GRAMMAR = r"""
 %declare PLUS MINUS TIMES SLASH JOIN POWER LPAR RPAR COMMA RELATION AND OR NOT
@@ -120,7 +123,7 @@ def _parser() -> Any:
     class Pieces(Lexer):
         """Hands our tokens over to the parser."""
 
-        def __init__(self, _conf: Any) -> None:
+        def __init__(self, _conf: object) -> None:
             """Nothing to configure: the tokens are made beforehand."""
 
         def lex(self, lexer_state: Any, _parser_state: Any = None) -> Iterator[Token]:
@@ -158,7 +161,7 @@ def build(pieces: list[Piece], end: int) -> Expr:
     return tree
 
 
-def _unexpected(error: Any, end: int) -> ReadError:
+def _unexpected(error: UnexpectedToken, end: int) -> ReadError:
     expected = sorted(error.accepts or error.expected)
     if isinstance(error.token.value, Piece):
         piece = error.token.value
