@@ -10,7 +10,7 @@ from types import SimpleNamespace
 import pytest
 
 from quizgen.errors import BlueprintError
-from quizgen.paper.blueprint import Blueprint, SlotRule, of_topic
+from quizgen.paper.blueprint import Blueprint, SlotRule
 from quizgen.paper.choose import choose, variety, weights
 
 
@@ -30,6 +30,10 @@ class Shelf:
 
     def origin(self, name):
         return name
+
+
+def timed(topic, minutes=0):
+    return Blueprint({"en": "x"}, (), topic=topic, budget=minutes)
 
 
 def plan(*slots):
@@ -68,12 +72,12 @@ def test_a_slot_keeps_to_tier_topic_and_list():
 
 def test_a_time_is_filled_and_never_exceeded():
     shelf = Shelf({f"{t}{n}": {"tier": t, "minutes": 7} for t in "AB" for n in range(4)})
-    found = choose(shelf, of_topic("optics", 30), 1)
+    found = choose(shelf, timed("optics", 30), 1)
     assert [name[0] for name in found] == ["A", "A", "B", "B"]
     assert len(set(found)) == 4
-    assert len(choose(shelf, of_topic("all"), 1)) == 8
+    assert len(choose(shelf, timed("all"), 1)) == 8
     with pytest.raises(BlueprintError, match="fits the time"):
-        choose(shelf, of_topic("optics", 6), 1)
+        choose(shelf, timed("optics", 6), 1)
 
 
 @pytest.mark.parametrize(
@@ -99,7 +103,7 @@ def test_slots_multiply_and_a_template_without_numbers_is_one_question():
     slots = [SlotRule(tier=tier) for tier in "ABC"]
     assert variety(shelf, plan(*slots)) == 30
     assert variety(shelf, plan(slots[1])) == 1
-    assert variety(shelf, of_topic("optics")) == 0
+    assert variety(shelf, timed("optics")) == 0
 
 
 def test_the_marks_of_slots_go_to_their_questions():

@@ -29,7 +29,9 @@ def grown(root: Path) -> Path:
     """A folder with one more language, Pig Latin; its words are the English ones, marked."""
     folder = root / "locale" / "pig"
     shutil.copytree(SHIPPED / "en", folder)
-    (folder / "language.toml").write_text('name = "Pig"\norder = 9\nscript = "Latn"\n')
+    (folder / "language.toml").write_text(
+        'name = "Igpay"\nenglish = "Pig"\norder = 9\nscript = "Latn"\n'
+    )
     words = (folder / "interface.toml").read_text("utf-8")
     (folder / "interface.toml").write_text(words.replace('"Mock exam"', '"Ockmay examay"'), "utf-8")
     return folder.parent
@@ -48,9 +50,9 @@ def pig(tmp_path, monkeypatch):
 def test_a_language_is_found_and_can_be_chosen(pig):
     assert languages() == ("en", "bn", "pig")
     assert choices() == ("en", "bn", "pig", "both")
-    assert chosen("pig") == ("pig",)
-    assert chosen("both") == ("en", "bn", "pig")
-    assert of_topic("optics").title["pig"].startswith("Ockmay examay")
+    assert chosen("pig", ("en",)) == ("pig",)
+    assert chosen("both", fresh(pig).languages) == ("en", "bn", "pig")
+    assert of_topic(fresh(pig), "projection").title["pig"].startswith("Ockmay examay")
 
 
 @pytest.mark.parametrize("choice", ["pig", "both"])

@@ -30,6 +30,10 @@ def session(wish=WISH, seed="s"):
     return Session(builtin(), new(wish, seed))
 
 
+def kind_of(task):
+    return task._keyed.spec["kind"]
+
+
 def wrong(spec):
     """A readable answer that is neither right nor near."""
     table = msgspec.to_builtins(spec)
@@ -42,7 +46,7 @@ def numeric_task():
     while not held.finished:
         turn = held.turn()
         for task, spec in zip(turn.tasks, key_of(turn, held.state).specs, strict=True):
-            if task.part.field.kind in {"point", "quantity"} and task.solved.lines:
+            if kind_of(task) in {"point", "quantity"} and task.solved.lines:
                 return task, spec
         held.state.done = turn.number
     raise AssertionError("no such task")
@@ -105,7 +109,7 @@ def test_the_learner_judges_a_free_text(right):
     )  # fmt: skip
     held.templates = (next(texts),)
     tasks = held.turn().tasks
-    task = next(t for t in tasks if t.part.field.kind == "text")
+    task = next(t for t in tasks if kind_of(t) == "text")
     assert task.answer("something written").then is Next.SELF_MARK
     assert task.outcome is None
     task.mark_yourself(right=right)
