@@ -12,12 +12,11 @@ from __future__ import annotations
 import re
 import time
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import Any
 
 from quizgen.bank.draw import Draw, draw, plan_of, reference
-from quizgen.bank.prose import CodeBlock, Items, Paragraph, Table, slots
+from quizgen.bank.prose import Text, slots
 from quizgen.bank.template import Template
 from quizgen.bank.traps import answer_names
 from quizgen.errors import QuizgenError
@@ -27,8 +26,8 @@ from quizgen.marking.specs import AnySpec
 from quizgen.maths.numbers import to_float
 from quizgen.question.compose import identity, put_into_words
 from quizgen.question.contract import Built
-from quizgen.question.filling import plain
 from quizgen.question.kinds import build
+from quizgen.render.text import blocks
 
 COMPOSED = 20
 """Instances that are put into words in every language."""
@@ -150,11 +149,11 @@ def _missing(template: Template, lang: str) -> Iterator[str]:
 
 def _unequal_slots(template: Template) -> Iterator[str]:
     """Every drawn value that one language shows must be shown in the others."""
-    shown = {lang: Counter(_question_slots(text)) for lang, text in template.texts.items()}
+    shown = {lang: set(_question_slots(text)) for lang, text in template.texts.items()}
     first, *others = shown
     for lang in others:
-        if set(shown[first]) != set(shown[lang]):
-            odd = sorted(set(shown[first]) ^ set(shown[lang]))
+        if shown[first] != shown[lang]:
+            odd = sorted(shown[first] ^ shown[lang])
             yield f"{first}.md and {lang}.md do not show the same values: {odd}"
     for section in ("options", "words", "gaps"):
         keys = {lang: set(text.named.get(section, {})) for lang, text in template.texts.items()}
@@ -164,7 +163,7 @@ def _unequal_slots(template: Template) -> Iterator[str]:
                 yield f"{lang}.md: section {section!r} differs by {odd}"
 
 
-def _question_slots(text: Any) -> Iterator[str]:
+def _question_slots(text: Text) -> Iterator[str]:
     yield from slots(text.stem)
     for name, section in text.sections.items():
         if len(name) == 1:
@@ -176,10 +175,12 @@ def composed_problems(one: Draw) -> list[str]:
     problems: list[str] = []
     for lang in one.template.languages:
         question, key = put_into_words(one, lang, figures=False)
-        shown = " ".join([_text(question.stem), *(_text(p.body) for p in question.parts)])
+        bodies = [question.stem, *(part.body for part in question.parts)]
+        shown = " ".join(line for body in bodies for line in blocks(body))
         if re.search(r"\{\{|\}\}|\bnan\b|\binf\b", shown):
             problems.append(f"{lang}: a placeholder is left in {shown!r}")
-        solved = " ".join([_text(getattr(key.solution, name)) for name in ("why", "check", "note")])
+        remarks = (key.solution.why, key.solution.check, key.solution.note)
+        solved = " ".join(line for remark in remarks for line in blocks(remark))
         if "{{" in solved:
             problems.append(f"{lang}: a placeholder is left in the solution")
     return problems
@@ -191,7 +192,7 @@ def marking_problems(one: Draw) -> list[str]:
     return [p for lang in one.template.languages for p in _marked(one, parts, lang)]
 
 
-def _marked(one: Draw, parts: list[Built[Any]], lang: str) -> Iterator[str]:
+def _marked(one: Draw, parts: Sequence[Built[AnySpec]], lang: str) -> Iterator[str]:
     for part, label in zip(parts, one.template.labels, strict=True):
         where = f"seed {one.seed}, {lang}, part {label or '1'}"
         typed = show(part.spec, lang)
@@ -206,15 +207,3 @@ def _trap_problems(spec: AnySpec, trap: str, typed: str, where: str, lang: str) 
     verdict = mark(spec, typed, lang=lang, decimal="point")
     if verdict.note != f"trap:{trap}":
         yield f"{where}: trap {trap!r} typed as {typed!r} is {verdict.verdict} ({verdict.note})"
-
-
-def _text(parts: Any) -> str:
-    if isinstance(parts, Paragraph):
-        return plain(parts.children)
-    if isinstance(parts, Items):
-        return " ".join(_text(item) for item in parts.items)
-    if isinstance(parts, Table):
-        return " ".join(plain(cell) for row in (parts.head, *parts.rows) for cell in row)
-    if isinstance(parts, CodeBlock):
-        return parts.text
-    return " ".join(_text(part) for part in parts)
