@@ -55,6 +55,9 @@ class Draw:
         Every quantity of the chain in base units.
     traps : tuple of tuple of str
         Per part, the mistakes that give a wrong and recognisable answer here.
+    shown_values : mapping of str to flint.fmpq or flint.arb
+        Every quantity, drawn or solved, in the unit it is shown in. Computed when the draw is made:
+        a property cached later would wait for the lock of the precision under a lock of its own.
     """
 
     template: Template
@@ -65,24 +68,20 @@ class Draw:
     words: Mapping[str, str]
     values: Values
     traps: tuple[tuple[str, ...], ...] = field(default=())
+    shown_values: Values = field(init=False, repr=False, compare=False)
+    _texts: dict[str, str] = field(init=False, repr=False, compare=False, default_factory=dict)
 
     def __repr__(self) -> str:
         return f"<Draw of {self.template.id}, seed {self.seed}, slot {self.slot}>"
 
-    @cached_property
+    def __post_init__(self) -> None:
+        with working_precision():
+            object.__setattr__(self, "shown_values", self.plan.shown_env(self.shown, self.values))
+
+    @property
     def plan(self) -> Plan:
         """What does not depend on the numbers."""
         return plan_of(self.template)
-
-    @cached_property
-    def shown_values(self) -> Values:
-        """Every quantity, drawn or solved, in the unit it is shown in."""
-        with working_precision():
-            return self.plan.shown_env(self.shown, self.values)
-
-    @cached_property
-    def _texts(self) -> dict[str, str]:
-        return {}
 
     def text(self, name: str) -> str:
         """A quantity's number as it is shown: exact if that is short, else rounded."""
