@@ -1,0 +1,119 @@
+"""Values are computed once per draw, under one precision: whatever the process does with FLINT."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+
+import flint
+import mpmath
+import pytest
+
+from quizgen.bank.draw import draw
+from quizgen.bank.folder import builtin
+from quizgen.paper.blueprint import load
+from quizgen.paper.key import key_bytes
+from quizgen.paper.paper import build, single
+
+SEEDS = range(3)
+BANK = builtin()
+IRRATIONAL = [
+    name
+    for name in BANK.paths
+    if any(isinstance(v, flint.arb) for v in draw(BANK.template(name), 0).values.values())
+]
+
+
+@contextmanager
+def disturbed(bits):
+    """The process's own precision, as another library might leave it."""
+    before = flint.ctx.prec
+    flint.ctx.prec = bits
+    try:
+        yield
+    finally:
+        flint.ctx.prec = before
+
+
+def key(name, seed):
+    return key_bytes(single(BANK.template(name), seed, "en", figures=False))
+
+
+def expected():
+    with disturbed(53):
+        return {(name, seed): key(name, seed) for name in IRRATIONAL for seed in SEEDS}
+
+
+EXPECTED = expected()
+
+
+def test_some_templates_have_irrational_values():
+    assert len(IRRATIONAL) >= 5
+
+
+@pytest.mark.parametrize("bits", [2, 20, 1000])
+@pytest.mark.parametrize("name", IRRATIONAL)
+def test_a_key_is_the_same_at_any_precision_of_the_process(name, bits):
+    for seed in SEEDS:
+        with disturbed(bits):
+            assert key(name, seed) == EXPECTED[name, seed]
+
+
+@pytest.mark.parametrize("threads", [2, 6])
+def test_keys_are_the_same_from_any_number_of_threads(threads):
+    asked = list(EXPECTED) * 3
+    with ThreadPoolExecutor(threads) as pool:
+        found = list(pool.map(lambda one: key(*one), asked))
+    for one, got in zip(asked, found, strict=True):
+        assert got == EXPECTED[one], one
+
+
+def test_a_paper_is_the_same_at_any_precision_and_in_threads():
+    def paper(bits):
+        with disturbed(bits):
+            return key_bytes(build(BANK, load("mock"), 11, "en", figures=False))
+
+    found = paper(53)
+    assert paper(20) == found
+    assert paper(1000) == found
+    with ThreadPoolExecutor(3) as pool:
+        assert set(pool.map(lambda _: key_bytes(
+            build(BANK, load("mock"), 11, "en", figures=False)), range(3))) == {found}  # fmt: skip
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_decibels_hold_forty_certified_digits(seed):
+    """N photons have a ratio of sqrt N to one, 20 log10 of which is in decibels."""
+    one = draw(BANK.template("photon-snr-and-decibels"), seed)
+    made = single(BANK.template("photon-snr-and-decibels"), seed, "en", figures=False)
+    with mpmath.workdps(60):
+        level = 20 * mpmath.log10(mpmath.sqrt(int(one.shown["N_2"].p)))
+        digits(made.items[0].keys[0].specs[1].value, level)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_tails_hold_forty_certified_digits(seed):
+    """Outside k standard deviations lies erfc(k / sqrt 2); megapixels times it is a count."""
+    template = BANK.template("gaussian-peak-and-tail-shares")
+    one, made = draw(template, seed), single(template, seed, "en", figures=False)
+    _, share, count = made.items[0].keys[0].specs
+    with mpmath.workdps(60):
+        shown = {name: mpmath.mpf(int(v.p)) / int(v.q) for name, v in one.shown.items()}
+        digits(share.value, mpmath.erfc(shown["a"] / mpmath.sqrt(2)))
+        digits(count.value, shown["M"] * 10**6 * mpmath.erfc(shown["b"] / mpmath.sqrt(2)))
+
+
+def digits(text, value):
+    """A key's text is the value, exactly or to within one unit of its fortieth digit."""
+    assert len(text.replace(".", "").lstrip("0")) == 40 or mpmath.mpf(text) == value, text
+    assert abs(mpmath.mpf(text) / value - 1) < mpmath.mpf(10) ** -39
+
+
+def test_a_shown_value_is_computed_once(monkeypatch):
+    one = draw(BANK.template("gaussian-peak-and-tail-shares"), 0)
+    first = one.shown_values
+    monkeypatch.setattr(type(one.plan), "shown_env", None)
+    assert one.shown_values is first
+    text = one.text("N")
+    monkeypatch.setitem(first, "N", None)
+    assert one.text("N") == text

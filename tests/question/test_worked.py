@@ -1,0 +1,118 @@
+"""A worked step from formula to rounded value, against lines written by hand."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from quizgen import typeset
+from quizgen.bank.draw import Draw, plan_of
+from quizgen.bank.prose import parse_text
+from quizgen.bank.template import DrawRule, PartRule, Rules, Template
+from quizgen.errors import BankError
+from quizgen.maths.chain import Chain, ChainStep
+from quizgen.maths.notation import parse
+from quizgen.maths.numbers import rational
+from quizgen.question.compose import put_into_words
+from quizgen.question.filling import Filler, plain
+from quizgen.question.worked import worked
+
+BLANK = "\u00a0"
+TEXT = """# Title
+{stem}
+## steps
+- u: because
+- w: because
+## traps
+## check
+"""
+
+
+def drawn(given, steps, stem="Stem", words=""):
+    """A draw of a template made by hand: quantity to (unit, value), and name, formula, unit."""
+    units = {name: unit for name, (unit, _) in given.items()}
+    names = (*given, *(name for name, _, _ in steps))
+    chain = Chain(units, tuple(ChainStep(n, parse(f, symbols=names), unit) for n, f, unit in steps))
+    rules = Rules(
+        topic="noise",
+        tier="A",
+        part=(PartRule(answer={"kind": "number", "of": steps[-1][0]}),),
+        draw={name: DrawRule(unit=unit, pick=(value,)) for name, (unit, value) in given.items()},
+    )
+    text = parse_text(TEXT.replace("{stem}", stem) + words)
+    template = Template("by-hand", rules, chain, {"en": text}, f"{given}{steps}{stem}", Path())
+    shown = {name: rational(value) for name, (_, value) in given.items()}
+    return Draw(template, "0", "0", 1, shown, {}, plan_of(template).solve(shown), ((),))
+
+
+def typed(one, name):
+    line = worked(one, one.template.chain.by_name[name])
+    return line.typed.replace(BLANK, " "), typeset.latex(line.node)
+
+
+LENS = {"f": ("mm", "50"), "X": ("m", "30"), "Z": ("m", "600")}
+
+
+def test_exact_numbers_and_an_exact_value_are_equal():
+    said, _ = typed(drawn(LENS, [("u", "f*X/Z", "mm")]), "u")
+    assert said == "u = f*X/Z = (50 mm)*(30 m)/(600 m) = 2.5 mm"
+
+
+def test_a_value_without_a_short_form_is_about_its_rounded_one():
+    said, _ = typed(drawn({"a": ("", "2")}, [("u", "sqrt(a)", "")]), "u")
+    assert said == "u = sqrt(a) = sqrt(2) ≈ 1.414"
+
+
+def test_a_fraction_is_equal_and_its_decimal_is_about():
+    said, _ = typed(drawn({"a": ("", "20"), "b": ("", "3")}, [("u", "a/b", "")]), "u")
+    assert said == "u = a/b = 20/3 ≈ 6.667"
+
+
+def test_numbers_that_had_to_be_rounded_are_about_equal_in_every_output():
+    """sqrt(2) stands as 1.41421 in the second line: that line is not an equation."""
+    one = drawn({"a": ("", "2")}, [("u", "sqrt(a)", ""), ("w", "3*u", "")])
+    said, printed = typed(one, "w")
+    assert said == "w = 3*u ≈ 3*1.41421 ≈ 4.243"
+    assert printed.count(r"\approx") == 2
+    assert printed.count("=") == 1
+
+
+def test_a_formula_without_names_has_no_numbers_to_put_in_place():
+    said, _ = typed(drawn({"a": ("", "1")}, [("u", "3/4", "")]), "u")
+    assert said == "u = 3/4 = 0.75"
+
+
+def test_a_name_alone_needs_no_brackets():
+    said, _ = typed(drawn({"a": ("mm", "-7")}, [("u", "a", "mm")]), "u")
+    assert said == "u = a = −7 mm"
+
+
+def test_numbers_stand_where_the_tree_has_the_name():
+    """exp and x, log2 and l: a name inside another word is no name."""
+    given = {"x": ("", "2"), "e": ("", "-3")}
+    said, _ = typed(drawn(given, [("u", "max(x, e) + log2(x)^x", "")]), "u")
+    assert said == "u = max(x, e) + log2(x)^x = max(2, (−3)) + log2(2)^2 = 3"
+
+
+def test_a_stem_shows_what_is_drawn():
+    question, _ = put_into_words(drawn(LENS, [("u", "f*X/Z", "mm")], "A lens of {{ f }}."), "en")
+    assert plain(question.stem[0].children).replace(BLANK, " ") == "A lens of 50 mm."
+
+
+def test_a_stem_cannot_show_a_solved_value():
+    one = drawn(LENS, [("u", "f*X/Z", "mm")], "The image is {{ u }} wide.")
+    with pytest.raises(BankError, match=r"\{\{ u \}\} is not a drawn quantity"):
+        put_into_words(one, "en")
+
+
+def test_a_program_in_a_stem_cannot_show_a_solved_value():
+    one = drawn(LENS, [("u", "f*X/Z", "mm")], "Look:\n\n```\nprint({{ u }})\n```\n")
+    with pytest.raises(BankError, match=r"\{\{ u \}\} cannot stand in a program"):
+        put_into_words(one, "en")
+
+
+def test_the_solution_may_show_it():
+    one = drawn(LENS, [("u", "f*X/Z", "mm")])
+    shown = Filler(one, "en").blocks(parse_text("# T\nIt is {{ u }} wide.").stem)
+    assert plain(shown[0].children).replace(BLANK, " ") == "It is 2.5 mm wide."
