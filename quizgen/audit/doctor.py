@@ -8,7 +8,7 @@ from importlib.metadata import PackageNotFoundError, version
 
 from quizgen.bank.folder import builtin
 from quizgen.errors import QuizgenError
-from quizgen.locale import PLACES, language, languages
+from quizgen.locale import PLACES, in_script
 from quizgen.render import fonts
 
 PACKAGES = ("numpy", "sympy", "jinja2", "matplotlib", "python-flint", "mpmath", "click", "rich",
@@ -51,7 +51,7 @@ def _bank() -> Outcome:
 
 def bangla_text() -> str:
     """Every Bangla sentence of interface and templates."""
-    langs = [lang for lang in languages() if language(lang).script == "Beng"]
+    langs = in_script("Beng")
     paths = [
         *(
             entry

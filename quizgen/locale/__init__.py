@@ -99,6 +99,16 @@ def language(lang: str) -> Language:
     return msgspec.convert(table(lang, "language"), Language)
 
 
+def in_script(script: str) -> tuple[str, ...]:
+    """Languages that are written in a script, such as ``Beng``: those that need its fonts."""
+    return tuple(lang for lang in languages() if language(lang).script == script)
+
+
+def known(lang: str) -> str:
+    """The language itself if there is one of this name, else English."""
+    return lang if lang in languages() else FIRST
+
+
 @cache
 def table(lang: str, name: str = "interface") -> dict[str, Any]:
     """All words of one file of a language.

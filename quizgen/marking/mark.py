@@ -55,7 +55,7 @@ def mark(
     typed : str
         What the student typed.
     lang : str
-        Language of the message: ``en`` or ``bn``.
+        Language of the message; English if there is none of this name.
     decimal : str
         The student's decimal sign: ``auto``, ``point`` or ``comma``.
     context : Context, optional

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from quizgen.locale import FIRST, languages, table
+from quizgen.locale import known, table
 from quizgen.marking.echo import safe
 
 
 def _table(lang: str) -> dict[str, dict[str, str]]:
-    return table(lang if lang in languages() else FIRST, "messages")
+    return table(known(lang), "messages")
 
 
 def sentences(lang: str) -> dict[str, str]:
@@ -56,6 +56,6 @@ class _Blanks(dict[str, str]):
 
 def _shown(lang: str, value: Any) -> str:
     if isinstance(value, (tuple, list)):
-        known = words(lang)
-        return ", ".join(dict.fromkeys(safe(known.get(str(item), str(item))) for item in value))
+        names = words(lang)
+        return ", ".join(dict.fromkeys(safe(names.get(str(item), str(item))) for item in value))
     return safe(str(value), 120)

@@ -8,7 +8,7 @@ from importlib.resources import files
 import jinja2
 from markupsafe import Markup
 
-from quizgen.locale import marks, word
+from quizgen.locale import in_script, marks, word
 from quizgen.paper.paper import Paper
 from quizgen.question.markup import blocks, display, inline
 from quizgen.render import fonts
@@ -58,7 +58,7 @@ def render(paper: Paper, kind: str) -> bytes:
             style=Markup(_style()),
             maths_font=fonts.maths_uri(),
             bangla_fonts={400: fonts.bangla_uri(), 700: fonts.bangla_uri("Bold")}
-            if "bn" in paper.langs
+            if set(paper.langs) & set(in_script("Beng"))
             else {},
         )
     )

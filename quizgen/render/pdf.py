@@ -22,7 +22,7 @@ from quizgen.bank.prose import (
     Words,
 )
 from quizgen.errors import RenderError
-from quizgen.locale import marks, word
+from quizgen.locale import in_script, marks, word
 from quizgen.paper.paper import Item, Paper
 from quizgen.question.compose import Field, Part, Question
 from quizgen.question.filling import Maths
@@ -344,8 +344,8 @@ def _layout() -> str:
 def source(paper: Paper, kind: str) -> tuple[str, dict[str, bytes]]:
     """Typst source and pictures of a sheet."""
     sheet = _Sheet(paper, kind)
-    text = sheet.source()
-    return f"{_layout()}\n{text}", sheet.pictures
+    bangla = "".join(f"{string(lang)}," for lang in in_script("Beng"))
+    return f"#let bangla = ({bangla})\n{_layout()}\n{sheet.source()}", sheet.pictures
 
 
 def render(paper: Paper, kind: str) -> bytes:

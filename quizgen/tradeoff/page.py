@@ -52,7 +52,9 @@ def html(report: Report, command: str) -> str:
     """The whole page."""
     style = (files("quizgen.tradeoff") / "pages" / "tradeoff.css").read_text("utf-8")
     page = _environment().get_template("tradeoff.html.j2")
-    return page.render(report=report, command=command, style=style + STYLE) + "\n"
+    there = {lang: language(lang) for lang in languages()}
+    made = page.render(report=report, command=command, style=style + STYLE, languages=there)
+    return made + "\n"
 
 
 @cache
@@ -67,7 +69,6 @@ def _environment() -> jinja2.Environment:
     environment.filters.update(time=time_text, count=count)
     environment.globals.update(
         faces={weight: bangla_uri(name) for name, weight in (("Regular", 400), ("Bold", 700))},
-        languages={lang: language(lang) for lang in languages()},
         words=words,
         front=lambda rungs: _front(rungs, "hard"),
         family_plot=family_plot,

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import msgspec
 
-from quizgen.locale import word
+from quizgen.locale import known, word
 from quizgen.marking.echo import safe
 from quizgen.marking.judging.wording import fold
 from quizgen.marking.options import Options
@@ -72,7 +72,7 @@ class Spec(Worded, kw_only=True, frozen=True):
 
     def show_in(self, lang: str, /) -> str:
         """Return the same with the word for true or false in a language."""
-        return word(lang, f"ask.{self.show()}") if self.kind == "tf" else self.show()
+        return word(known(lang), f"ask.{self.show()}") if self.kind == "tf" else self.show()
 
 
 def _truth(spec: Spec, typed: str) -> int:

@@ -7,6 +7,7 @@ from fractions import Fraction
 
 import msgspec
 
+from quizgen.locale import known, language
 from quizgen.marking.echo import safe
 from quizgen.marking.judging.wording import fold, nearest_terms
 from quizgen.marking.options import Options
@@ -112,6 +113,9 @@ def _together(cells: list[Verdict], read_as: str) -> Verdict:
 
 
 def _shown(gap: list[str], lang: str) -> str:
-    bangla = [word for word in gap if re.search(r"[\u0980-\u09ff]", word)]
-    other = [word for word in gap if word not in bangla]
-    return (bangla or other if lang == "bn" else other or bangla)[0]
+    script = language(known(lang)).script
+    return next((word for word in gap if _script(word) == script), gap[0])
+
+
+def _script(word: str) -> str:
+    return "Beng" if re.search(r"[\u0980-\u09ff]", word) else "Latn"
