@@ -16,8 +16,10 @@ LETTERS = "ABCD"
 
 
 def notes(wish: Wish) -> Iterator[Note]:
-    """One note per term; the distractors are its neighbours, in a fixed order."""
+    """One note per term, its distractors in a fixed order; none if there are too few terms."""
     terms = entries(wish.bank, Term)
+    if len(terms) < len(LETTERS):
+        return
     for entry in terms:
         options = choices(entry, terms)
         yield Note(

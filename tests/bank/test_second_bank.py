@@ -1,0 +1,127 @@
+"""A bank of another subject works with nothing but templates, and better with ``bank.toml``."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from quizgen.bank.folder import Bank, builtin
+from quizgen.cli.main import group
+from quizgen.errors import BankError
+from quizgen.paper.blueprint import load
+
+PACKAGE = Path(__file__).parent.parent.parent / "quizgen"
+TEMPLATE = """
+topic = "algebra"
+tier = "A"
+covers = ["A01"]
+
+[draw]
+a = { pick = [2, 3, 4, 5, 6, 7] }
+
+[[part]]
+answer = { kind = "tf", true = "a > 4" }
+"""
+PROSE = """# A comparison
+Let $a$ = {{ a }}.
+
+**Is $a > 4$?**
+
+## why
+Compare the two numbers.
+"""
+
+
+@pytest.fixture
+def root(tmp_path):
+    folder = tmp_path / "bank" / "templates" / "algebra" / "compare"
+    folder.mkdir(parents=True)
+    (folder / "template.toml").write_text(TEMPLATE)
+    (folder / "en.md").write_text(PROSE)
+    return tmp_path / "bank"
+
+
+def run(root, *arguments):
+    result = CliRunner().invoke(
+        group, [arguments[0], "--bank", str(root), *arguments[1:]], catch_exceptions=False
+    )
+    assert result.exit_code == 0, result.output
+    return result.output
+
+
+def test_exam_cards_and_coverage_work_without_bank_toml(root, tmp_path):
+    out = str(tmp_path / "paper")
+    run(root, "exam", "--topic", "algebra", "--seed", "1", "--out", out)
+    page = (tmp_path / "paper" / "exam.html").read_text(encoding="utf-8")
+    assert "Mock exam: Algebra" in page
+    assert "1 question" in run(root, "cards", "--out", str(tmp_path / "cards"))
+    run(root, "templates", "--coverage")
+
+
+def test_what_a_bank_is_about_follows_from_its_folder(root):
+    bank = Bank(root)
+    assert bank.topics == ("algebra",)
+    assert bank.topic_title("algebra", "en") == "Algebra"
+    assert bank.title("en") == "Bank"
+    assert bank.languages == ("en",)
+    assert bank.blueprints == bank.cards == {}
+    assert bank.curriculum.inventory == {}
+
+
+def test_bank_toml_names_topics_and_holds_blueprints(root, tmp_path):
+    templates = root / "templates"
+    (templates / "bank.toml").write_text(
+        'name = "school"\ntitle.en = "School maths"\ntopics.algebra.en = "Letters for numbers"\n'
+    )
+    (templates / "curriculum.toml").write_text('[groups]\nskills = ["A01..A03"]\n')
+    (templates / "blueprints").mkdir()
+    (templates / "blueprints" / "week1.toml").write_text('title.en = "Week 1"\n[[slot]]\n')
+    bank = Bank(root)
+    assert load("algebra", bank).title["en"] == "Mock exam: Letters for numbers"
+    assert load("all", bank).title["en"] == "Mock exam: School maths"
+    assert load("week1", bank).title == {"en": "Week 1"}
+    assert list(bank.paths) == ["compare"]
+    run(root, "exam", "--blueprint", "week1", "--seed", "1", "--out", str(tmp_path / "paper"))
+    told = run(root, "templates", "--coverage")
+    assert "skills" in told
+    assert "A02" in told
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [("title = 3\n", "title"), ("topics = [\n", "not valid TOML"), ("subject = 1\n", "subject")],
+)
+def test_a_bad_bank_toml_is_located(root, text, said):
+    (root / "templates" / "bank.toml").write_text(text)
+    with pytest.raises(BankError, match=r"bank\.toml.*" + said):
+        assert Bank(root).about
+
+
+def test_the_topics_of_the_built_in_bank_are_those_of_its_templates():
+    bank = builtin()
+    assert {bank.rules(name).topic for name in bank.paths} == set(bank.topics)
+
+
+SUBJECT = {"arrays", "camera", "figures", "tradeoff"}
+"""What pictures are made with: an effect, a figure or a formula may be called as a topic is."""
+OTHERWISE = {"code", "camera", "colour"}
+"""An answer kind, a command's word, and a spelling."""
+
+
+def test_the_engine_names_no_topic_and_no_title():
+    about = builtin().about
+    titles = {text for topic in about.topics.values() for text in topic.values()}
+    named = {*about.topics, *titles, *about.title.values()} - OTHERWISE - {"Code", "কোড"}
+    for path in PACKAGE.rglob("*"):
+        if path.relative_to(PACKAGE).parts[0] in SUBJECT | {"builtin"}:
+            continue
+        if path.suffix == ".py":
+            tree = ast.parse(path.read_text(encoding="utf-8"))
+            found = {node.value for node in ast.walk(tree) if isinstance(node, ast.Constant)}
+            assert not found & named, path
+        elif path.suffix == ".toml":
+            text = path.read_text(encoding="utf-8")
+            assert not [name for name in named if f'"{name}"' in text], path

@@ -1,0 +1,174 @@
+"""A language is a folder and one file per template: no Python knows its name."""
+
+from __future__ import annotations
+
+import ast
+import csv
+import io
+import json
+import sqlite3
+import subprocess
+import sys
+import tomllib
+import zipfile
+from pathlib import Path
+
+import pytest
+from pseudo import LANG, accented, write_bank, write_language
+
+from quizgen import figures, locale, typeset
+from quizgen.locale import languages, table
+from quizgen.maths.notation import parse
+
+ROOT = Path(__file__).parent.parent.parent
+NAMES = ("point-to-image-plane", "thin-lens-image-distance", "ccd-and-cmos-artefacts",
+         "hsv-edit-effects")  # fmt: skip
+RUN = """
+import sys
+from pathlib import Path
+from quizgen import locale
+locale.PLACES.append(Path("locale"))
+from quizgen.cli.main import main
+main(sys.argv[1:])
+"""
+
+
+@pytest.fixture(scope="module")
+def place(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("accents")
+    write_language(folder / "locale")
+    write_bank(folder / "bank", NAMES)
+    return folder
+
+
+@pytest.fixture
+def known(place, monkeypatch):
+    monkeypatch.setattr(locale, "PLACES", [*locale.PLACES, place / "locale"])
+
+
+def quizgen(place, *arguments, typed=""):
+    run = subprocess.run(
+        [sys.executable, "-c", RUN, *arguments], cwd=place, input=typed, capture_output=True,
+        text=True, check=False, encoding="utf-8",
+        env={"PYTHONPATH": str(ROOT), "PYTHONUTF8": "1", "HOME": str(place), "PATH": "/usr/bin:/bin"},
+    )  # fmt: skip
+    assert "Traceback" not in run.stderr, run.stderr
+    return run
+
+
+@pytest.fixture(scope="module")
+def paper(place):
+    run = quizgen(place, "exam", "--bank", "bank", "--topic", "all", "--lang", LANG, "--seed", "4",
+                  "--out", "paper")  # fmt: skip
+    assert run.returncode == 0, run.stderr
+    return place / "paper"
+
+
+def test_languages_are_the_folders(place, known):
+    assert languages() == ("en", "bn", LANG)
+    assert locale.language(LANG).name == "Áccénts"
+
+
+def test_pages_are_in_the_language(paper):
+    page = (paper / "solutions.html").read_text(encoding="utf-8")
+    assert f'<html lang="{LANG}">' in page
+    for english in ("Mock exam", "Worked solutions", "Sanity check", "Thin lens: where is the image?"):  # fmt: skip
+        assert english not in page
+    for english in ("Mock exam", "Worked solutions", "Thin lens: where is the image?"):
+        assert accented(english) in page
+    assert (paper / "exam.pdf").read_bytes().startswith(b"%PDF")
+    assert (paper / "solutions.pdf").stat().st_size > 10_000
+
+
+def test_figures_are_told_in_the_language(paper, known):
+    page = (paper / "exam.html").read_text(encoding="utf-8")
+    assert accented("Ray diagram of a thin lens") in page
+    drawn = figures.render("pinhole", {"f": 2, "p_z": 6, "p_y": 3}, quiz=True, lang=LANG)
+    assert drawn.alt.startswith("Pínhólé módél")
+
+
+def test_mathematics_is_read_aloud_in_the_language(known):
+    node = typeset.layout(parse("sqrt(x + 1)/2"))
+    assert (
+        typeset.spoken(node, "en")
+        == "the fraction the square root of x plus 1, end of root, over 2, end of fraction"
+    )
+    assert typeset.spoken(node, LANG) == accented(typeset.spoken(node, "en"))
+
+
+def test_marks_come_with_messages_in_the_language(place, paper):
+    form = tomllib.loads((paper / "answers.toml").read_text(encoding="utf-8"))
+    typed = {"code": form["code"], "answers": dict.fromkeys(form["answers"], "3 +* ")}
+    (place / "typed.json").write_text(json.dumps(typed))
+    run = quizgen(place, "check", "paper/key.json", "typed.json", "--lang", LANG, "--json")
+    parts = json.loads(run.stdout)["parts"]
+    english = quizgen(place, "check", "paper/key.json", "typed.json", "--lang", "en", "--json")
+    said = [part["message"] for part in json.loads(english.stdout)["parts"]]
+    assert sum(bool(message) for message in said) >= 3
+    assert all(("á" in p["message"] or "é" in p["message"]) for p in parts if p["message"])
+
+
+def test_practice_speaks_the_language(place):
+    run = quizgen(place, "practice", "--bank", "bank", "--lang", LANG, "--count", "1", "--seed", "3",
+                  typed="?\n" * 60)  # fmt: skip
+    words = {
+        accented(text) for text in table("en", "messages")["practice"].values() if "{" not in text
+    }
+    assert any(word and word in run.stdout for word in words)
+
+
+def test_cards_have_fields_of_the_language(place):
+    run = quizgen(place, "cards", "--bank", "bank", "--lang", LANG, "--format", "apkg,csv")
+    assert run.returncode == 0, run.stderr
+    with zipfile.ZipFile(place / "cards" / "quizgen.apkg") as archive:
+        data = archive.read("collection.anki2")
+    connection = sqlite3.connect(":memory:")
+    connection.deserialize(data)
+    models = json.loads(connection.execute("SELECT models FROM col").fetchone()[0])
+    term = next(m for m in models.values() if m["name"].startswith("Quizgen term"))
+    assert [f["name"] for f in term["flds"]] == [
+        "Key", "Term", f"Term {LANG}", "Meaning", f"Meaning {LANG}", "Source",
+    ]  # fmt: skip
+    assert [t["name"] for t in term["tmpls"]] == ["Term", "Meaning", "Accents"]
+    assert accented("In English?") in term["tmpls"][2]["qfmt"]
+    rows = list(csv.DictReader(io.StringIO(
+        (place / "cards" / "quizgen.csv").read_text(encoding="utf-8-sig"))))  # fmt: skip
+    assert {row["deck"] for row in rows} >= {"Quizgen::Optics", "Quizgen::Projection"}
+    assert any("Bénds líght." in row["front"] + row["back"] for row in rows)
+
+
+def test_the_tradeoff_page_has_the_language(known):
+    from quizgen.tradeoff.measure import QUICK
+    from quizgen.tradeoff.page import html
+    from quizgen.tradeoff.report import Report
+
+    page = html(Report((), (), QUICK, 0.001, 0.1, "a machine", 1.0), "quizgen tradeoff")
+    assert accented("What accuracy costs in time") in page
+    assert f'<label for="{LANG}" lang="{LANG}">Áccénts</label>' in page
+
+
+def strings(path):
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    return {node.value for node in ast.walk(tree)
+            if isinstance(node, ast.Constant) and isinstance(node.value, str)}  # fmt: skip
+
+
+def test_no_python_file_names_a_language_but_english():
+    others = set(languages()) - {"en"}
+    for path in (ROOT / "quizgen").rglob("*.py"):
+        assert not strings(path) & others, path
+
+
+@pytest.mark.parametrize("lang", [lang for lang in languages() if lang != "en"])
+def test_every_language_has_every_file_and_every_word(lang):
+    def keys(table, path=""):
+        for key, value in table.items():
+            yield from keys(value, f"{path}{key}.") if isinstance(value, dict) else [f"{path}{key}"]
+
+    for path in (ROOT / "quizgen" / "locale" / "en").glob("*.toml"):
+        open_tables = ("letters.", "greek.", "names.")  # speech: what is not called as written
+        english, other = (
+            {key for key in keys(table(one, path.stem)) if not key.startswith(open_tables)}
+            for one in ("en", lang)
+        )
+        assert english == other, path.name
