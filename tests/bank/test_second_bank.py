@@ -11,7 +11,7 @@ from click.testing import CliRunner
 from quizgen.bank.folder import Bank, builtin
 from quizgen.cli.main import group
 from quizgen.errors import BankError
-from quizgen.paper.blueprint import load
+from quizgen.paper.blueprint import load_blueprint
 
 PACKAGE = Path(__file__).parent.parent.parent / "quizgen"
 TEMPLATE = """
@@ -80,9 +80,9 @@ def test_bank_toml_names_topics_and_holds_blueprints(root, tmp_path):
     (templates / "blueprints").mkdir()
     (templates / "blueprints" / "week1.toml").write_text('title.en = "Week 1"\n[[slot]]\n')
     bank = Bank(root)
-    assert load("algebra", bank).title["en"] == "Mock exam: Letters for numbers"
-    assert load("all", bank).title["en"] == "Mock exam: School maths"
-    assert load("week1", bank).title == {"en": "Week 1"}
+    assert load_blueprint("algebra", bank).title["en"] == "Mock exam: Letters for numbers"
+    assert load_blueprint("all", bank).title["en"] == "Mock exam: School maths"
+    assert load_blueprint("week1", bank).title == {"en": "Week 1"}
     assert list(bank.paths) == ["compare"]
     run(root, "exam", "--blueprint", "week1", "--seed", "1", "--out", str(tmp_path / "paper"))
     told = run(root, "templates", "--coverage")
