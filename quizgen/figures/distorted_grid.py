@@ -52,7 +52,7 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
     foot = 0.0 if quiz else _FOOT
     pen = Pen(_SIDE + 20, _SIDE + 20 + foot)
     lines = _lines(values, extent)
-    moved = [_distorted(line, values) for line in lines]
+    moved = _distorted(lines, values)
     scale, middle = _frame([*lines, *moved])
     place = (10 + _SIDE / 2 - scale * middle[0], 10 + foot + _SIDE / 2 - scale * middle[1], scale)
     _paint(pen, "undistorted", lines, place, GREY)
@@ -124,15 +124,15 @@ def _levels(centre: float, step: float, extent: float) -> list[float]:
     return sorted(inner | {-extent, extent})
 
 
-def _distorted(line: np.ndarray, values: Values) -> np.ndarray:
+def _distorted(lines: list[np.ndarray], values: Values) -> list[np.ndarray]:
     import numpy as np
 
     from quizgen.arrays.distortion import distort
 
     centre = np.array([values["c_x"], values["c_y"]])
-    x, y = (line - centre).T
-    moved: np.ndarray = centre + np.stack(distort(x, y, values["k1"], values["k2"]), axis=-1)
-    return moved
+    x, y = np.moveaxis(np.stack(lines) - centre, -1, 0)
+    moved = np.stack(distort(x, y, values["k1"], values["k2"]), axis=-1)
+    return list(centre + moved)
 
 
 def _frame(lines: list[np.ndarray]) -> tuple[float, tuple[float, float]]:
