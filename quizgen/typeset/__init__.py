@@ -1,5 +1,8 @@
 r"""Printing formulas: one layout tree, four outputs (LaTeX, MathML, Typst, spoken).
 
+In: formula trees, numbers and units as text. Out: layout nodes and what they look like in a medium.
+Must never know: what a formula is worth, a template, a page.
+
 ``layout(expr)`` turns a formula tree into layout nodes; ``leaves`` puts drawn numbers in the place
 of symbols; ``relation`` chains the sides of a worked line; ``latex``, ``mathml``, ``typst`` and
 ``spoken`` write the nodes.

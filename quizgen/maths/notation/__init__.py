@@ -1,5 +1,8 @@
 """Typed mathematics to formula trees and back.
 
+In: text in the formula grammar, and the names that may occur. Out: trees, or a ``ReadError`` with
+the column. Must never know: how students spell, a language, how a formula is printed.
+
 ``parse`` reads the strict notation of authors: decimal point, declared names, explicit products
 (or juxtaposition of declared names). ``to_text`` writes a tree in the same notation. Students'
 spelling is normalised first (``quizgen.marking.mark.reading``) and ends in the same grammar.
