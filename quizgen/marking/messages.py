@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 from quizgen.locale import known, table
 from quizgen.marking.echo import safe
@@ -28,7 +27,7 @@ def practice_words(lang: str) -> dict[str, str]:
     return _table(lang)["practice"]
 
 
-def say(lang: str, note: str, fields: Mapping[str, Any]) -> str:
+def say(lang: str, note: str, fields: Mapping[str, object]) -> str:
     """Return the sentence for a note.
 
     Parameters
@@ -54,7 +53,7 @@ class _Blanks(dict[str, str]):
         return "…"
 
 
-def _shown(lang: str, value: Any) -> str:
+def _shown(lang: str, value: object) -> str:
     if isinstance(value, (tuple, list)):
         names = words(lang)
         return ", ".join(dict.fromkeys(safe(names.get(str(item), str(item))) for item in value))

@@ -42,7 +42,7 @@ def proved_equal(first: Expr, second: Expr) -> bool:
     return bool(top1 * low2 == top2 * low1)
 
 
-def _quotients(ctx: Any) -> NumberSystem:
+def _quotients(ctx: fmpq_mpoly_ctx) -> NumberSystem:
     one = ctx.constant(1)
     return NumberSystem(
         "quotients",

@@ -11,11 +11,12 @@ from typing import Any
 from flint import fmpq
 
 from quizgen.errors import MathError, Undecided
-from quizgen.marking.reading.scalars import ReadError
 from quizgen.maths.constants import Scalar, TooLargeError, bounded, exact_value
+from quizgen.maths.notation import ReadError
 from quizgen.maths.precision import working_precision
 from quizgen.maths.systems import compile_expr
 from quizgen.maths.tree import Expr, names
+from quizgen.maths.values import Value, Values
 
 POINTS = 8
 """Points at which both formulas must have a value and agree."""
@@ -27,7 +28,10 @@ BITS = 128
 """Working precision: a difference beyond 30 digits is seen."""
 
 Domain = str | list[Scalar]
-Env = Mapping[str, Any]
+Span = str | tuple[Scalar, ...]
+"""A domain that can be looked up: ``real``, ``positive`` or its two bounds."""
+
+Env = Values
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,18 +45,18 @@ class Comparison:
     equal: bool | None
     points: int
     ground: str
-    ratio: Any = None
-    difference: Any = None
+    ratio: Value | None = None
+    difference: Value | None = None
 
 
 @lru_cache(maxsize=512)
-def _draws(domains: tuple[tuple[str, Any], ...]) -> tuple[dict[str, fmpq], ...]:
+def _draws(domains: tuple[tuple[str, Span], ...]) -> tuple[dict[str, fmpq], ...]:
     """The sample points of some domains: the same in every process."""
     source = random.Random("|".join(map(str, domains)))  # noqa: S311 - points, not secrets
     return tuple({name: _draw(domain, source) for name, domain in domains} for _ in range(TRIES))
 
 
-def _draw(domain: Any, source: random.Random) -> fmpq:
+def _draw(domain: Span, source: random.Random) -> fmpq:
     size = fmpq(source.randint(1, 4095), 2 ** source.randint(8, 12)) + fmpq(1, 977)
     if domain == "positive":
         return size
@@ -148,7 +152,7 @@ def _sampled(
     return Comparison(equal=True, points=len(pairs), ground="sampled")
 
 
-def agree(a: Any, b: Any) -> bool | None:
+def agree(a: Value, b: Value) -> bool | None:
     """Whether two values agree: exactly, or as sharp balls; None if the balls are too wide."""
     if isinstance(a, fmpq) and isinstance(b, fmpq):
         return bool(a == b)
@@ -160,7 +164,7 @@ def agree(a: Any, b: Any) -> bool | None:
     return True if sharp else None
 
 
-def _may_vanish(difference: Any) -> bool:
+def _may_vanish(difference: Value) -> bool:
     return difference == 0 if isinstance(difference, fmpq) else bool(difference.contains(0))
 
 

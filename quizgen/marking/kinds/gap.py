@@ -12,9 +12,9 @@ from quizgen.marking.echo import safe
 from quizgen.marking.judging.wording import fold, nearest_terms
 from quizgen.marking.options import Options
 from quizgen.marking.reading.rewrites import Source, refuse_invisible
-from quizgen.marking.reading.scalars import ReadError
 from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, ambiguous, correct, shared, unreadable, wrong
+from quizgen.maths.notation import ReadError
 
 
 class Spec(Worded, kw_only=True, frozen=True):

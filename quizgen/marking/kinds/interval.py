@@ -9,10 +9,11 @@ from fractions import Fraction
 from quizgen.marking.options import Options
 from quizgen.marking.reading.literals import pointed
 from quizgen.marking.reading.rewrites import Source, normalise
-from quizgen.marking.reading.scalars import ReadError, read_source
+from quizgen.marking.reading.scalars import read_source
 from quizgen.marking.rounding import exact_or_figures
 from quizgen.marking.specs import Measured
 from quizgen.marking.verdict import HALF, Verdict, correct, partial, wrong
+from quizgen.maths.notation import ReadError
 from quizgen.maths.values import Value
 
 

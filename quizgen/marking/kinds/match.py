@@ -11,9 +11,9 @@ from quizgen.marking.echo import safe
 from quizgen.marking.judging.wording import fold
 from quizgen.marking.options import Options
 from quizgen.marking.reading.rewrites import BANGLA_LETTERS, normalise
-from quizgen.marking.reading.scalars import ReadError
 from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, correct, shared
+from quizgen.maths.notation import ReadError
 
 _SEPARATORS = re.compile(r"[\s,;.|]+")
 _ARROWS = re.compile(r"\s*(?:->|=>|→|↔|<->|--|[-:=>()])+\s*")

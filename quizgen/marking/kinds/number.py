@@ -14,17 +14,12 @@ from quizgen.marking.options import Options
 from quizgen.marking.reading.named import without_name
 from quizgen.marking.reading.quantities import split_quantity
 from quizgen.marking.reading.rewrites import Source, normalise
-from quizgen.marking.reading.scalars import (
-    Number,
-    ReadError,
-    Readings,
-    quick,
-    read_source,
-)
+from quizgen.marking.reading.scalars import Number, Readings, quick, read_source
 from quizgen.marking.rounding import shown
 from quizgen.marking.specs import OneNumber
 from quizgen.marking.verdict import Verdict, unreadable, with_values
 from quizgen.maths.constants import exact_value
+from quizgen.maths.notation import ReadError
 from quizgen.maths.units import shown as shown_unit
 from quizgen.maths.units import unit
 from quizgen.maths.values import Value

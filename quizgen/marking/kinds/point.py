@@ -16,12 +16,13 @@ from quizgen.marking.reading.lists import read_list
 from quizgen.marking.reading.named import reordered
 from quizgen.marking.reading.quantities import read_all, split_quantity
 from quizgen.marking.reading.rewrites import Source
-from quizgen.marking.reading.scalars import Number, ReadError
+from quizgen.marking.reading.scalars import Number
 from quizgen.marking.reading.unit_words import TypedUnit
 from quizgen.marking.rounding import shown
 from quizgen.marking.specs import Numbers, all_given
 from quizgen.marking.verdict import Verdict, correct, partial, shared, with_values, wrong
 from quizgen.maths.constants import exact_value
+from quizgen.maths.notation import ReadError
 from quizgen.maths.units import shown as shown_unit
 from quizgen.maths.values import Value
 

@@ -14,10 +14,10 @@ from quizgen.marking.options import Options
 from quizgen.marking.reading.lists import read_list
 from quizgen.marking.reading.named import find_name, split_name
 from quizgen.marking.reading.rewrites import Source
-from quizgen.marking.reading.scalars import ReadError
 from quizgen.marking.specs import Measured, decode
 from quizgen.marking.verdict import Verdict, ambiguous, correct, partial, shared, with_values, wrong
 from quizgen.maths.constants import Scalar
+from quizgen.maths.notation import ReadError
 from quizgen.maths.tolerance import RULES
 
 Cell = number.Spec | quantity.Spec | angle.Spec

@@ -9,9 +9,9 @@ from quizgen.marking.echo import safe
 from quizgen.marking.judging.wording import budget, fold, slips
 from quizgen.marking.options import Options
 from quizgen.marking.reading.rewrites import LONGEST_PROSE, Source, refuse_invisible
-from quizgen.marking.reading.scalars import ReadError
 from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, ambiguous
+from quizgen.maths.notation import ReadError
 
 
 class Spec(Worded, kw_only=True, frozen=True):

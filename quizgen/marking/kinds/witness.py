@@ -16,12 +16,12 @@ from quizgen.marking.reading.formulas import author
 from quizgen.marking.reading.lists import depth, unbracketed
 from quizgen.marking.reading.named import find_name, name_key, split_name
 from quizgen.marking.reading.rewrites import Source, normalise
-from quizgen.marking.reading.scalars import Number, ReadError, read_source
+from quizgen.marking.reading.scalars import Number, read_source
 from quizgen.marking.rounding import exact_or_figures
 from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, ambiguous, correct, with_values, wrong
 from quizgen.maths.constants import Scalar, exact_value
-from quizgen.maths.notation import to_text
+from quizgen.maths.notation import ReadError, to_text
 from quizgen.maths.operators import CONDITIONS
 from quizgen.maths.precision import working_precision
 from quizgen.maths.tree import Call, Expr

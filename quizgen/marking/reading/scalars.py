@@ -262,6 +262,3 @@ def moved(error: ReadError, source: Source) -> ReadError:
         error.code = "number-expected"
     column = source.column((error.column or 1) - 1)
     return ReadError(error.code, column, error.found, error.expected)
-
-
-__all__ = ["Number", "ReadError", "Readings", "read_number", "read_source"]

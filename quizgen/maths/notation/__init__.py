@@ -5,7 +5,7 @@ the column. Must never know: how students spell, a language, how a formula is pr
 
 ``parse`` reads the strict notation of authors: decimal point, declared names, explicit products
 (or juxtaposition of declared names). ``to_text`` writes a tree in the same notation. Students'
-spelling is normalised first (``quizgen.marking.mark.reading``) and ends in the same grammar.
+spelling is normalised first (``quizgen.marking.reading``) and ends in the same grammar.
 """
 
 from __future__ import annotations
