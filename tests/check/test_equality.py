@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from functools import partial
 
 import pytest
 
@@ -91,8 +92,10 @@ def test_proof_covers_quotients_and_negative_powers():
 NOWHERE = {"kind": "expression", "value": "sqrt(-1-x)", "symbols": {"x": "positive"}}
 
 
-def test_undecided_is_asked_back_unless_settling_is_allowed():
+def test_undecided_is_asked_back_unless_settling_is_allowed(monkeypatch):
     """A key without a value anywhere on its domain cannot be sampled."""
+    patient = partial(settle_equal, seconds=60)
+    monkeypatch.setattr("quizgen.marking.kinds.expression.settle_equal", patient)
     assert mark(NOWHERE, "sqrt(-x-1) + 0").note == "undecided"
     settled = mark(NOWHERE, "sqrt(-x-1) + 0", settle=True)
     assert (settled.verdict, settled.fields["ground"]) == ("correct", "settled")
