@@ -128,7 +128,7 @@ def _fill(connection: sqlite3.Connection, deck: Deck) -> None:
     )
 
 
-def _json(table: Any) -> str:
+def _json(table: object) -> str:
     return json.dumps(table, ensure_ascii=False, sort_keys=True)
 
 

@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import singledispatch
 from html import escape
 from typing import Any, TypeGuard
 
 from quizgen import typeset
-from quizgen.bank.prose import Code, CodeBlock, Items, Paragraph, Styled, Table, Words
+from quizgen.bank.prose import Code, CodeBlock, Inline, Items, Paragraph, Styled, Table, Words
 from quizgen.figures import Figure
 from quizgen.question.filling import Maths
 from quizgen.typeset.nodes import RELATION, Node, Row
@@ -135,7 +135,7 @@ def _piece(style: str, text: str) -> str:
 
 
 @singledispatch
-def html(part: Any, lang: str, *, ask: bool | None = None) -> str:
+def html(part: object, lang: str, *, ask: bool | None = None) -> str:
     """One block, inline or tuple of them as HTML.
 
     Parameters
@@ -176,7 +176,7 @@ def _tied(parts: tuple[Any, ...]) -> Iterator[Any]:
             rest.insert(0, Words(blank + loose))
 
 
-def _sticks(part: Any) -> bool:
+def _sticks(part: object) -> bool:
     return isinstance(part, Words) and part.text.startswith("\u00a0")
 
 
@@ -235,7 +235,7 @@ def _tight(item: tuple[Any, ...], lang: str, ask: bool | None) -> str:
 
 @html.register
 def _(part: Table, lang: str, *, ask: bool | None = None) -> str:
-    def row(cells: Any, tag: str) -> str:
+    def row(cells: Iterable[Sequence[Inline]], tag: str) -> str:
         return "".join(f"<{tag}>{html(cell, lang, ask=ask)}</{tag}>" for cell in cells)
 
     head = f"<tr>{row(part.head, 'th')}</tr>"
@@ -287,7 +287,7 @@ def _(part: Label, lang: str, *, ask: bool | None = None) -> str:
 
 
 @singledispatch
-def plain(part: Any, *, ask: bool = False) -> str:
+def plain(part: object, *, ask: bool = False) -> str:
     """One block, inline or tuple of them as text; formulas as they would be typed.
 
     Parameters
@@ -310,11 +310,10 @@ def _(part: tuple, *, ask: bool = False) -> str:  # type: ignore[type-arg]
     return "".join(plain(item, ask=ask) for item in part)
 
 
-@plain.register(Words)
-@plain.register(Code)
-def _(part: Any, *, ask: bool = False) -> str:
+@plain.register
+def _(part: Words | Code, *, ask: bool = False) -> str:
     del ask
-    return str(part.text)
+    return part.text
 
 
 @plain.register
@@ -333,9 +332,8 @@ def _(part: Paragraph, *, ask: bool = False) -> str:
     return plain(part.children, ask=ask) + "\n"
 
 
-@plain.register(CodeBlock)
-@plain.register(Label)
-def _(part: Any, *, ask: bool = False) -> str:
+@plain.register
+def _(part: CodeBlock | Label, *, ask: bool = False) -> str:
     del ask
     return f"{part.text}\n"
 
@@ -378,7 +376,7 @@ def _(part: Said, *, ask: bool = False) -> str:
     return plain(part.body, ask=ask)
 
 
-def pictures(part: Any) -> tuple[Picture, ...]:
+def pictures(part: object) -> tuple[Picture, ...]:
     """Every picture in blocks."""
     if isinstance(part, Picture):
         return (part,)
