@@ -9,11 +9,11 @@ from quizgen.arrays.domain import DomainError
 from quizgen.camera.scene import SceneError
 from quizgen.errors import BankError, ChoiceError, FormulaError, QuizgenError, one_of
 from quizgen.maths.notation.lexer import ReadError
-from quizgen.paper.blueprint import load
+from quizgen.paper.blueprint import load_blueprint
 from quizgen.paper.marking import mark_paper
 from quizgen.paper.paper import build
 from quizgen.question.compose import compose
-from quizgen.render import render, renderer
+from quizgen.render import render_paper, renderer
 from quizgen.tradeoff.ladder import OraclesDisagree
 
 KEY = {"format": "quizgen-key/1", "questions": []}
@@ -44,20 +44,20 @@ def test_one_of_gives_the_value_or_says_what_is_allowed():
 
 @pytest.fixture(scope="module")
 def paper(bank):
-    return build(bank, load("optics.10"), 1, figures=False)
+    return build(bank, load_blueprint("optics.10"), 1, figures=False)
 
 
 @pytest.mark.parametrize("output", ["docx", "", 3, "HTML"])
 def test_an_unknown_format_is_named(paper, output):
     with pytest.raises(ChoiceError, match=r"format: .* \(allowed: html, pdf\)"):
-        render(paper, "exam", output)
+        render_paper(paper, "exam", output)
     with pytest.raises(ChoiceError):
         renderer(output)
 
 
 def test_an_unknown_kind_of_file_is_named(paper):
     with pytest.raises(ChoiceError, match=r"kind: 'key' \(allowed: exam, solutions\)"):
-        render(paper, "key", "html")
+        render_paper(paper, "key", "html")
 
 
 def test_marking_names_a_wrong_language_and_decimal_sign():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from quizgen.audit.lint import lint
+from quizgen.audit.lint import lint_template
 from quizgen.bank.folder import Bank
 
 RULES = """
@@ -25,7 +25,7 @@ def problems(folder, english, bangla):
     (template / "template.toml").write_text(RULES)
     (template / "en.md").write_text(english, "utf-8")
     (template / "bn.md").write_text(bangla, "utf-8")
-    return lint(Bank(folder).template("one"), 5).problems
+    return lint_template(Bank(folder).template("one"), 5).problems
 
 
 def test_a_sound_template_has_no_problem(tmp_path):

@@ -9,7 +9,7 @@ from small_bank import NAME, ONE, copied, fresh
 
 from quizgen.bank.draw import draw
 from quizgen.errors import ChoiceError, CodeError, QuizgenError
-from quizgen.paper.blueprint import load
+from quizgen.paper.blueprint import load_blueprint
 from quizgen.paper.code import Code, digest_of, parse_code
 from quizgen.paper.key import key_bytes
 from quizgen.paper.paper import build, rebuild
@@ -84,13 +84,13 @@ def test_a_value_is_the_documented_hash(bank):
 @pytest.mark.parametrize("seed", [-1, 10**9 + 1, "x", "5", 1.0, True, None])
 def test_a_wrong_seed_is_named_with_what_is_allowed(bank, seed):
     with pytest.raises(ChoiceError, match=r"seed: .*whole numbers from 0 to 1000000000"):
-        build(bank, load("trial"), seed)
+        build(bank, load_blueprint("trial"), seed)
 
 
 @pytest.mark.parametrize("choice", ["fr", "", 7, None, ["en"]])
 def test_a_wrong_language_is_named_with_what_is_allowed(bank, choice):
     with pytest.raises(ChoiceError, match=r"language: .*\(allowed: en, bn, both\)") as caught:
-        build(bank, load("trial"), 1, choice)
+        build(bank, load_blueprint("trial"), 1, choice)
     assert isinstance(caught.value, QuizgenError)
     assert isinstance(caught.value, ValueError)
 

@@ -20,7 +20,7 @@ from quizgen.paper.form import form_bytes, read_answers
 from quizgen.paper.key import key_bytes, read_key
 from quizgen.paper.marking import mark_paper
 from quizgen.paper.paper import build, rebuild
-from quizgen.render import KINDS, RENDERERS, render
+from quizgen.render import KINDS, RENDERERS, render_paper
 
 SHIPPED = Path(locale.__file__).parent
 
@@ -60,7 +60,7 @@ def test_a_paper_is_made_printed_kept_and_marked_in_it(pig, tmp_path, choice):
     paper = build(fresh(pig), ONE, 3, choice)
     assert parse_code(paper.code).choice == choice
     assert rebuild(fresh(pig), paper.code, ONE).code == paper.code
-    printed = {name: render(paper, kind, name) for name in RENDERERS for kind in KINDS}
+    printed = {name: render_paper(paper, kind, name) for name in RENDERERS for kind in KINDS}
     assert "A inholepay" in printed["html"].decode()
     assert printed["pdf"].startswith(b"%PDF")
     key, form = tmp_path / "key.json", tmp_path / "answers.toml"
