@@ -22,7 +22,6 @@ TWO_READINGS = frozenset({"comma-twice", "two-readings"})
 """Reasons for asking back that are not the learner's slip: the text can be read in two ways."""
 
 
-@working_precision()
 def load_spec(spec: Table) -> Kind:
     """Read and validate a spec table.
 
@@ -37,6 +36,7 @@ def load_spec(spec: Table) -> Kind:
     return decode(KINDS[name], spec)
 
 
+@working_precision()
 def mark(
     spec: Table | Kind,
     typed: str,
@@ -79,7 +79,6 @@ def mark(
     return explained(kind, judge(kind, typed, Options(lang, decimal, context, settle)), lang)
 
 
-@working_precision()
 def judge(spec: Kind, typed: str, options: Options) -> Verdict:
     """Return the language-free verdict of one answer."""
     try:

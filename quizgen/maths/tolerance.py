@@ -56,7 +56,7 @@ class Tolerance(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
         ValueError
             If two rules are given, or one is out of range.
         """
-        if sum(getattr(self, name) not in (None, False) for name in RULES) > 1:
+        if self.numbers().count(None) < len(RULES) - 1:
             raise ValueError("only one of decimals, sigfigs, rel, abs, exact can be given")
         if self.accept is not None and len(self.accept) != 2:
             raise ValueError("accept needs two bounds")
@@ -68,25 +68,31 @@ class Tolerance(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
             if value is not None:
                 exact_value(value)
 
+    def numbers(self) -> tuple[Scalar | None, ...]:
+        """What was given for each rule, in the order of ``RULES``."""
+        return (self.decimals, self.sigfigs, self.rel, self.abs, self.exact or None)
+
     @property
     def stated(self) -> tuple[str, Scalar] | None:
         """The rule that was given, as its name and its number; None if none was."""
-        for name in RULES:
-            number: Scalar | None = getattr(self, name)
-            if number is not None and number is not False:
+        for name, number in zip(RULES, self.numbers(), strict=True):
+            if number is not None:
                 return name, number
         return None
 
     def half_width(self, key: Value) -> Value:
         """Return the largest accepted distance from a key, exactly."""
         name, number = self.stated or self.unstated
-        if name == "exact":
-            return fmpq(0)
-        if name == "decimals":
-            return exact_value(self.within) / 10 ** int(number)
-        if name == "sigfigs":
-            return exact_value(self.within) * fmpq(10) ** (magnitude(key) + 1 - int(number))
-        return exact_value(number) * (abs(key) if name == "rel" else 1)
+        match name:
+            case "rel":
+                return exact_value(number) * abs(key)
+            case "abs":
+                return exact_value(number)
+            case "decimals":
+                return exact_value(self.within) / 10 ** int(number)
+            case "sigfigs":
+                return exact_value(self.within) * fmpq(10) ** (magnitude(key) + 1 - int(number))
+        return fmpq(0)
 
     def outer_width(self, key: float) -> float:
         """Return the half-width around an approximate key, never too small.

@@ -11,6 +11,7 @@ from flint import arb
 
 from quizgen.errors import FormulaError
 from quizgen.maths.numbers import rational
+from quizgen.maths.precision import working_precision
 from quizgen.maths.units import SIMPLE, Unit, unit
 
 WORDS = {
@@ -144,6 +145,8 @@ class TypedUnit:
     dimension: tuple[tuple[str, int], ...]
 
 
+@lru_cache(maxsize=2048)
+@working_precision()
 def plain_unit(listed: str) -> TypedUnit:
     """Look up a listed unit; ``rad`` counts as 180/π degrees."""
     if listed == "rad":
