@@ -24,6 +24,13 @@ def test_examples_of_the_readme_run():
     assert result.failed == 0
 
 
+def test_examples_of_the_python_interface_run():
+    page = str(ROOT / "docs" / "api.md")
+    result = doctest.testfile(page, module_relative=False, optionflags=doctest.ELLIPSIS)
+    assert result.attempted >= 25
+    assert result.failed == 0
+
+
 @pytest.mark.parametrize("module", [quizgen, model, typeset], ids=lambda m: m.__name__)
 def test_examples_in_docstrings_run(module):
     result = doctest.testmod(module)

@@ -102,3 +102,16 @@ def test_notebooks_show_question_figure_and_verdict_as_html(asked):
     verdict = quizgen.mark(key.specs[0], "<b>5</b>")
     assert "<b>" not in verdict._repr_html_()
     parsed(verdict._repr_html_())
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"lang": "fr"}, "language: 'fr' .allowed: en, bn"),
+        ({"decimal": "dot"}, "decimal: 'dot' .allowed: auto, point, comma"),
+        ({"typed": 3}, "text is expected, not int"),
+    ],
+)
+def test_wrong_arguments_of_marking_are_named(asked, change, message):
+    with pytest.raises((ValueError, TypeError), match=message):
+        quizgen.mark(asked[1].specs[0], **{"typed": "1", **change})

@@ -42,7 +42,7 @@ class Figure:
     dark: str
 
     def __repr__(self) -> str:
-        return f"<Figure {self.width_pt:g} x {self.height_pt:g} pt: {self.alt}>"
+        return f"<Figure {self.width_pt:g} x {self.height_pt:g} pt, {len(self.svg)} bytes of SVG>"
 
     def _repr_html_(self) -> str:
         """The figure as a notebook shows it."""

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from quizgen.errors import KeyFileError
+from quizgen.errors import KeyFileError, one_of
+from quizgen.locale import languages
 from quizgen.marking.kinds import KINDS
 from quizgen.marking.kinds.contract import Kind
 from quizgen.marking.messages import say
@@ -55,7 +56,7 @@ def mark(
     typed : str
         What the student typed.
     lang : str
-        Language of the message; English if there is none of this name.
+        Language of the message.
     decimal : str
         The student's decimal sign: ``auto``, ``point`` or ``comma``.
     context : Context, optional
@@ -63,20 +64,25 @@ def mark(
     settle : bool
         Allow a few seconds of SymPy, in its own process, for a formula that stays undecided.
 
-    Returns
-    -------
-    Verdict
-        With the message in the student's language.
-
     Raises
     ------
     KeyFileError
         If the spec is wrong (never because of what was typed).
+    ChoiceError
+        If there is no such language or decimal sign.
+    TypeError
+        If what was typed is no text.
     """
-    if decimal not in DECIMALS:
-        raise KeyFileError(f"decimal: {decimal!r} is not one of {', '.join(DECIMALS)}")
+    _check_arguments(typed, lang, decimal)
     kind = load_spec(spec) if isinstance(spec, Mapping) else spec
     return explained(kind, judge(kind, typed, Options(lang, decimal, context, settle)), lang)
+
+
+def _check_arguments(typed: object, lang: str, decimal: str) -> None:
+    if not isinstance(typed, str):
+        raise TypeError(f"typed: text is expected, not {type(typed).__name__}")
+    one_of("language", lang, languages())
+    one_of("decimal", decimal, DECIMALS)
 
 
 def judge(spec: Kind, typed: str, options: Options) -> Verdict:
