@@ -24,7 +24,7 @@ from quizgen.errors import DrawError, MathError
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.numbers import exact_text, places, rational, rounded_text, to_float
 from quizgen.maths.precision import working_precision
-from quizgen.maths.systems import Compiled, compile_expr, exact
+from quizgen.maths.systems import Compiled, compile_expr, compile_inner, exact
 from quizgen.maths.tree import names
 from quizgen.maths.units import factor
 from quizgen.maths.values import Value, Values
@@ -188,14 +188,13 @@ class Plan:
     def _conditions(self) -> Iterator[_Condition]:
         for text in self.template.rules.where:
             expr = self.template.formula(text)
-            yield _Condition(text, compile_expr(expr, exact()), names(expr))
+            yield _Condition(text, compile_inner(expr, exact()), names(expr))
         for name, rule in self.template.rules.keep.items():
             test = keep_test(rule)
             yield _Condition(f"keep.{name}", _of(name, test), frozenset({name}))
 
-    @working_precision()
     def candidate(self, stem: str, attempt: int) -> tuple[dict[str, fmpq], dict[str, str]]:
-        """Values of one try, before any condition."""
+        """Values of one try, before any condition; each formula states its own precision."""
         shown: dict[str, fmpq] = {}
         words: dict[str, str] = {}
         for variable in self.variables:
