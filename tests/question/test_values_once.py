@@ -11,7 +11,7 @@ import pytest
 
 from quizgen.bank.draw import draw
 from quizgen.bank.folder import builtin
-from quizgen.paper.blueprint import load
+from quizgen.paper.blueprint import load_blueprint
 from quizgen.paper.key import key_bytes
 from quizgen.paper.paper import build, single
 
@@ -71,14 +71,14 @@ def test_keys_are_the_same_from_any_number_of_threads(threads):
 def test_a_paper_is_the_same_at_any_precision_and_in_threads():
     def paper(bits):
         with disturbed(bits):
-            return key_bytes(build(BANK, load("mock"), 11, "en", figures=False))
+            return key_bytes(build(BANK, load_blueprint("mock"), 11, "en", figures=False))
 
     found = paper(53)
     assert paper(20) == found
     assert paper(1000) == found
     with ThreadPoolExecutor(3) as pool:
         assert set(pool.map(lambda _: key_bytes(
-            build(BANK, load("mock"), 11, "en", figures=False)), range(3))) == {found}  # fmt: skip
+            build(BANK, load_blueprint("mock"), 11, "en", figures=False)), range(3))) == {found}  # fmt: skip
 
 
 @pytest.mark.parametrize("seed", range(6))
