@@ -1,4 +1,4 @@
-"""Coefficients computed by ``tests/stability/make_coefficients.py``."""
+"""Coefficients computed by ``tests/arrays/make_coefficients.py``."""
 
 MILLS_SHIFT = 0.75
 MILLS_SCALE = 4.0

@@ -14,7 +14,7 @@ import pytest
 from quizgen.marking.mark import mark, show
 from quizgen.maths.precision import working_precision
 
-TABLES = sorted((Path(__file__).parents[1] / "answers").glob("*.toml"))
+TABLES = sorted((Path(__file__).parent / "answers").glob("*.toml"))
 
 
 def tasks() -> list[tuple[dict, str, str]]:

@@ -8,8 +8,9 @@ import pytest
 
 from quizgen.bank.prose import Block, CodeBlock, Formula, Inline, Printed, Slot, Words
 from quizgen.errors import RenderError
+from quizgen.question import markup
 from quizgen.question.filling import Maths
-from quizgen.render import html, pdf, text
+from quizgen.render import pdf, text
 from quizgen.typeset import latex, mathml, nodes, spoken, typst
 
 PRINTERS = [latex, mathml, typst, spoken]
@@ -31,7 +32,7 @@ def test_a_stranger_is_refused_by_name(printer):
         printer(Words("x"), "en")
 
 
-@pytest.mark.parametrize("inline", [html.inline, pdf.inline, text.inline])
+@pytest.mark.parametrize("inline", [markup.inline, pdf.inline, text.inline])
 def test_every_piece_of_a_filled_sentence_has_a_rule(inline):
     filled = set(get_args(Inline)) - {Slot, Formula, Printed} | {Maths, tuple}
     assert inline.registry.keys() - {object} == filled
@@ -39,13 +40,13 @@ def test_every_piece_of_a_filled_sentence_has_a_rule(inline):
         inline(Slot("f"), *["en"] * (inline is not text.inline))
 
 
-@pytest.mark.parametrize("block", [html.block, pdf._block, text._lines])
+@pytest.mark.parametrize("block", [markup.block, pdf._block, text._lines])
 def test_every_block_has_a_rule(block):
     assert block.registry.keys() - {object} == set(get_args(Block))
 
 
 def test_program_text_keeps_its_spaces_in_every_format():
     code = CodeBlock("if a < b:\n    c")
-    assert html.block(code, "en") == '<pre tabindex="0"><code>if a &lt; b:\n    c</code></pre>'
+    assert markup.block(code, "en") == '<pre tabindex="0"><code>if a &lt; b:\n    c</code></pre>'
     assert list(text.blocks([code])) == ["    if a < b:", "        c"]
     assert pdf.blocks([code], "en") == '#raw("if a < b:\\n    c", block: true);'

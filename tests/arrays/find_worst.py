@@ -1,6 +1,6 @@
 """Search for inputs with large errors: random starts near a singularity, then local moves.
 
-Run: ``python tests/stability/find_worst.py [seed]``. Writes ``worst_inputs.tsv``; the functions
+Run: ``python tests/arrays/find_worst.py [seed]``. Writes ``worst_inputs.tsv``; the functions
 under test only choose the inputs, the expected values come from ``oracle``.
 """
 

@@ -1,6 +1,6 @@
 """Compute the coefficients in ``quizgen/arrays/tables.py`` with mpmath; prints the module.
 
-Run: ``python tests/stability/make_coefficients.py > quizgen/arrays/tables.py``
+Run: ``python tests/arrays/make_coefficients.py > quizgen/arrays/tables.py``
 """
 
 from __future__ import annotations
@@ -127,7 +127,7 @@ def show(name, values, note):
 
 
 if __name__ == "__main__":
-    print('"""Coefficients computed by ``tests/stability/make_coefficients.py``."""\n')
+    print('"""Coefficients computed by ``tests/arrays/make_coefficients.py``."""\n')
     print(f"MILLS_SHIFT = {float(SHIFT)!r}\nMILLS_SCALE = {float(SCALE)!r}\n")
     show("MILLS", to_powers(chebyshev(shaped, TERMS)), "Shaped Mills ratio, powers of t.")
     show("CENTRAL", central(19), "P(0 < n < k)/k, powers of k**2.")

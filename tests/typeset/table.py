@@ -1,6 +1,6 @@
 """The formulas of the golden table: F01 to F46 of the chapter, then one entry per typesetting rule.
 
-``python -m tests.formula.table`` writes ``golden.toml`` anew; read the difference before keeping it.
+``python -m tests.typeset.table`` writes ``golden.toml`` anew; read the difference before keeping it.
 """
 
 from __future__ import annotations

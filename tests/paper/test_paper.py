@@ -22,7 +22,7 @@ from quizgen.paper.key import key_bytes
 from quizgen.paper.paper import build, rebuild, reference_paper
 from quizgen.render import KINDS, RENDERERS, render_paper
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 SMALL = """
 import hashlib
 from quizgen.bank.folder import builtin

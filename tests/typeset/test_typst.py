@@ -10,7 +10,7 @@ import typst as engine
 
 from quizgen.typeset import spoken, typst
 from quizgen.typeset.typst import quoted
-from tests.formula.table import nodes
+from tests.typeset.table import nodes
 
 
 def _document(lang):

@@ -1,6 +1,6 @@
 """Write the reference rows: hard inputs and stored worst cases with 40-digit results.
 
-Run: ``python tests/stability/make_references.py``. Results come from ``oracle`` (mpmath) only.
+Run: ``python tests/arrays/make_references.py``. Results come from ``oracle`` (mpmath) only.
 Each row: function, arguments as hexadecimal doubles, result, tolerance in ulp, origin.
 """
 

@@ -11,7 +11,7 @@ from latex2mathml.converter import convert as latex_to_mathml
 from matplotlib.mathtext import MathTextParser
 
 from quizgen.typeset import latex, mathml, spoken, typst
-from tests.formula.table import FORMULAS, GOLDEN, nodes, outputs
+from tests.typeset.table import FORMULAS, GOLDEN, nodes, outputs
 
 TABLE = tomllib.loads(GOLDEN.read_text(encoding="utf-8"))
 NODES = nodes()

@@ -11,8 +11,8 @@ from pathlib import Path
 import mpmath
 import pytest
 
-ROOT = Path(__file__).parent.parent
-CONTENT = ROOT / "quizgen" / "cards" / "content"
+ROOT = Path(__file__).parents[2]
+CONTENT = ROOT / "templates" / "cards"
 TEXT = (ROOT / "docs" / "errata.md").read_text(encoding="utf-8")
 CELLS = [
     [cell.strip() for cell in line.strip("|").split("|")]

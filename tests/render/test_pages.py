@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from quizgen.paper.blueprint import load
+from quizgen.paper.blueprint import load_blueprint
 from quizgen.paper.paper import build
 from quizgen.render import KINDS, render_paper
 
@@ -17,7 +17,7 @@ pytestmark = pytest.mark.browser
 @pytest.fixture(scope="module")
 def pages(bank, tmp_path_factory):
     folder = tmp_path_factory.mktemp("pages")
-    paper = build(bank, load("mock"), 11, "both")
+    paper = build(bank, load_blueprint("mock"), 11, "both")
     for kind in KINDS:
         (folder / f"{kind}.html").write_bytes(render_paper(paper, kind, "html"))
     return folder, paper

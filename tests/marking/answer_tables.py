@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-FOLDER = Path(__file__).parents[1] / "answers"
+FOLDER = Path(__file__).parent / "answers"
 PAGE = Path(__file__).parents[2] / "docs" / "answers.md"
 START, END = "<!-- marking tables -->", "<!-- end of marking tables -->"
 

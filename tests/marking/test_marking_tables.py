@@ -49,4 +49,4 @@ def test_bangla_gives_the_same_verdict_in_other_words(row: Row):
 
 
 def test_documentation_prints_these_tables():
-    assert page() == PAGE.read_text("utf-8"), "run python tests/check/answer_tables.py"
+    assert page() == PAGE.read_text("utf-8"), "run python tests/marking/answer_tables.py"
