@@ -46,21 +46,22 @@ def open_bank(options: BankOptions) -> Bank:
 
 def language_option(command: Callable[P, T]) -> Callable[P, T]:
     """Add ``--lang``, one of the languages there are."""
-    kind = click.Choice(languages())
+    kind = click.Choice(languages(), case_sensitive=False)
     return click.option("--lang", type=kind, default=FIRST, show_default=True)(command)
 
 
 def checked(option: str, name: str, allowed: Collection[str]) -> str:
-    """Return a name that is one of those allowed.
+    """Return the allowed name that this one is, in capitals or not.
 
     Raises
     ------
     click.BadParameter
-        If it is not.
+        If there is none; it names all.
     """
-    if name not in allowed:
-        raise click.BadParameter(f"{name!r} (allowed: {', '.join(allowed)})", param_hint=option)
-    return name
+    for known in allowed:
+        if known.casefold() == name.strip().casefold():
+            return known
+    raise click.BadParameter(f"{name!r} (allowed: {', '.join(allowed)})", param_hint=option)
 
 
 def split(text: str | None) -> tuple[str, ...]:

@@ -1,0 +1,162 @@
+"""What commands share of a terminal: its width, wrapping, colours, progress, harmless text."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import sys
+import time
+import unicodedata
+from collections.abc import Callable, Iterable, Iterator
+from types import TracebackType
+from typing import TYPE_CHECKING, Self
+
+import click
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+NARROWEST = 20
+"""Columns that text is laid out for at least."""
+HARMLESS = frozenset("\n\u200c\u200d")
+"""Line break and the two joiners, which Bangla needs: shown as they are."""
+PATIENCE = 1.0
+"""Seconds before progress is shown."""
+
+
+def columns() -> int:
+    """Width of the terminal; 80 where there is none."""
+    return max(shutil.get_terminal_size((80, 24)).columns, NARROWEST)
+
+
+def colour_choice() -> bool | None:
+    """``False`` where the environment asks for plain text; ``None`` leaves it to the stream.
+
+    ``click`` takes it from the context of the outermost command, for every ``echo`` below it.
+    """
+    plain = os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"
+    return False if plain else None
+
+
+def console() -> Console:
+    """Where tables are printed: with colours only if ``colour_choice`` has nothing against it."""
+    from rich.console import Console
+
+    return Console(color_system=None if colour_choice() is False else "auto", markup=False)
+
+
+def visible(text: str) -> str:
+    """A text with its control characters named, so that it moves no cursor and rings no bell."""
+    return "".join(_named(c) if _is_control(c) else c for c in text)
+
+
+def _is_control(character: str) -> bool:
+    return unicodedata.category(character)[0] == "C" and character not in HARMLESS
+
+
+def _named(character: str) -> str:
+    name = unicodedata.name(character, "control character")
+    return f"[U+{ord(character):04X} {name}]"
+
+
+def wrapped(text: str, room: int, first: str = "", rest: str = "") -> Iterator[str]:
+    """Lines of a text, broken between words.
+
+    Parameters
+    ----------
+    text : str
+        A word that is longer than a line stays whole; characters of double width may part.
+    room : int
+        Columns of a line.
+    first, rest : str
+        What the first line and the others begin with.
+    """
+    from quizgen.paper.report import width
+
+    line, used, empty = first, width(first), True
+    for glue, piece in _pieces(text):
+        more = width(piece)
+        if not empty and used + len(glue) + more > room:
+            yield line.rstrip(" ")
+            line, used, empty = rest, width(rest), True
+        if not empty:
+            line, used = line + glue, used + len(glue)
+        line, used, empty = line + piece, used + more, False
+    yield line.rstrip(" ")
+
+
+def _pieces(text: str) -> Iterator[tuple[str, str]]:
+    """What may stand on a line of its own, and the blank in front of it."""
+    for word in filter(None, text.split(" ")):
+        glue = " "
+        for piece in _unbreakable(word):
+            yield glue, piece
+            glue = ""
+
+
+def _unbreakable(word: str) -> Iterator[str]:
+    piece = ""
+    for character in word:
+        if piece and _is_wide(character):
+            yield piece
+            piece = ""
+        piece += character
+    yield piece
+
+
+def _is_wide(character: str) -> bool:
+    return unicodedata.east_asian_width(character) in {"W", "F"}
+
+
+class Progress:
+    """One line on the error stream, if that is a terminal and it takes longer than a second.
+
+    Parameters
+    ----------
+    what : str
+        What is being done.
+    total : int
+        How many steps there are; 0 if that is not known.
+    clock : callable
+        Seconds.
+    """
+
+    def __init__(
+        self, what: str, total: int = 0, clock: Callable[[], float] = time.monotonic
+    ) -> None:
+        self.what, self.total, self.clock = what, total, clock
+        self.done = 0
+        self._shown = 0
+        self._start = clock()
+
+    def __call__(self, name: str) -> None:
+        """Tell what is done now."""
+        self.done += 1
+        if self.clock() - self._start < PATIENCE or not sys.stderr.isatty():
+            return
+        count = f"{self.done}/{self.total}" if self.total else f"{self.done}"
+        self._overwrite(visible(f"{self.what} {count} {name}")[: columns() - 1])
+
+    def _overwrite(self, line: str) -> None:
+        click.echo(f"\r{line.ljust(self._shown)}\r{line}", nl=False, err=True)
+        self._shown = len(line)
+
+    def over(self, things: Iterable[str]) -> Iterator[str]:
+        """Things in their order, each told as it comes."""
+        for thing in things:
+            self(thing)
+            yield thing
+
+    def __enter__(self) -> Self:
+        """Begin."""
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Leave the line as it was."""
+        if self._shown:
+            self._overwrite("")

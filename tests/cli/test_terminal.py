@@ -1,0 +1,77 @@
+"""What commands share of a terminal."""
+
+from __future__ import annotations
+
+import sys
+
+import pytest
+from rich.cells import cell_len
+
+from quizgen.cli import terminal
+from quizgen.cli.terminal import Progress, console, visible, wrapped
+
+ENGLISH = "The pupil lets in less light, and shorter wavelengths are refracted with more power."
+BANGLA = "একটি পিনহোল ক্যামেরায় ফোকাস দূরত্ব দেওয়া আছে; বিন্দুটি ছবিতে কোথায় দেখা যাবে তা বের করো।"
+JAPANESE = "焦点距離が与えられたとき、点はどこに写りますか。カメラの前の点を答えなさい。"
+
+
+@pytest.mark.parametrize("room", [20, 33, 40, 80])
+@pytest.mark.parametrize("text", [ENGLISH, BANGLA, JAPANESE], ids=["en", "bn", "ja"])
+def test_no_line_is_wider_than_there_is_room(text, room):
+    lines = list(wrapped(text, room, "(a) ", "    "))
+    assert max(map(cell_len, lines)) <= room
+    glue = "" if text is JAPANESE else " "
+    assert glue.join(line[4:] for line in lines) == text
+
+
+def test_words_stay_whole():
+    assert list(wrapped("shorter wavelengths", 12)) == ["shorter", "wavelengths"]
+    assert list(wrapped("a wavelengths b", 5)) == ["a", "wavelengths", "b"]
+    assert list(wrapped("f =\u00a0660 nm", 8)) == ["f =\u00a0660", "nm"]
+    assert list(wrapped("", 8)) == [""]
+
+
+def test_lines_are_as_full_as_they_can_be():
+    assert list(wrapped("aa bb cc dd", 5)) == ["aa bb", "cc dd"]
+
+
+def test_control_characters_are_named_and_bangla_joiners_kept():
+    assert visible("a\x1b[31m") == "a[U+001B control character][31m"
+    assert visible("\u202e") == "[U+202E RIGHT-TO-LEFT OVERRIDE]"
+    assert visible("উদ্\u200cযাপন\n") == "উদ্\u200cযাপন\n"
+
+
+def progress(monkeypatch, times, *, terminal_there):
+    ticks = iter(times)
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: terminal_there, raising=False)
+    with Progress("lint", 3, clock=lambda: next(ticks)) as tell:
+        for name in ("a", "b", "c"):
+            tell(name)
+
+
+@pytest.mark.parametrize(
+    ("times", "there", "shown"),
+    [([0, 0.1, 0.2, 0.9], True, False), ([0, 1, 2, 3], False, False), ([0, 0.5, 2, 3], True, True)],
+    ids=["quick", "no terminal", "slow"],
+)
+def test_progress_is_shown_only_when_slow_and_on_a_terminal(
+    monkeypatch, capsys, times, there, shown
+):
+    progress(monkeypatch, times, terminal_there=there)
+    written = capsys.readouterr()
+    assert written.out == ""
+    assert ("lint 2/3 b" in written.err) == shown
+    assert "lint 1/3" not in written.err
+    assert written.err == "" or written.err.endswith("\r")
+
+
+def test_no_color_takes_every_code_out_of_tables(monkeypatch):
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    monkeypatch.delenv("TERM", raising=False)
+    monkeypatch.delenv("NO_COLOR", raising=False)
+    assert console().color_system is not None
+    monkeypatch.setenv("NO_COLOR", "1")
+    assert console().color_system is None
+    assert terminal.colour_choice() is False
+    monkeypatch.setenv("NO_COLOR", "")
+    assert terminal.colour_choice() is None
