@@ -2,13 +2,24 @@
 
 from __future__ import annotations
 
+import contextlib
+import io
+import os
+import signal
 import sys
 from importlib import import_module
-from typing import Any
+from types import FrameType
+from typing import NoReturn
 
 import click
 
+from quizgen.cli.terminal import colour_choice, visible
 from quizgen.errors import QuizgenError
+
+WRONG = 2
+"""Exit code of wrong use, and of files that cannot be read or written."""
+INTERRUPTED = 130
+"""Exit code after Ctrl-C: 128 and the number of the signal, as shells have it."""
 
 COMMANDS = {
     "exam": ("quizgen.cli.exam", "Make a mock exam with solutions and key."),
@@ -49,31 +60,79 @@ class _Lazy(click.Group):
 
 @click.group(cls=_Lazy, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(package_name="quizgen")
-def group() -> None:
-    """Mock exams from parametric templates: exact solutions, figures, typed answers checked."""
+@click.pass_context
+def group(context: click.Context) -> None:
+    """Mock exams from parametric templates: exact solutions, figures, typed answers checked.
+
+    Exit codes: 0 all went well, 1 something was found (a problem, a form that cannot be read), 2
+    wrong use or a file that cannot be read or written, 130 interrupted by Ctrl-C. NO_COLOR=1
+    switches colours off.
+    """
+    context.color = colour_choice()
 
 
-def main(arguments: list[str] | None = None) -> Any:
+class _Interrupt:
+    """Remembers Ctrl-C, for it may come out of an extension as any other error."""
+
+    came = False
+
+    def __call__(self, number: int, frame: FrameType | None) -> None:
+        """Stop whatever is running; a second Ctrl-C has nothing left to do."""
+        del frame
+        self.came = True
+        signal.signal(number, signal.SIG_IGN)
+        raise KeyboardInterrupt
+
+
+def main(arguments: list[str] | None = None) -> None:
     """Run the command line; every expected error is one line and exit code 2."""
-    for stream in (sys.stdout, sys.stderr):
+    for stream in (sys.stdin, sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")
+    interrupt = _Interrupt()
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, interrupt)
     try:
-        return group.main(arguments, prog_name="quizgen", standalone_mode=False)
+        status = _run(arguments)
+    except (click.exceptions.Abort, KeyboardInterrupt):
+        _interrupted()
+    except Exception:
+        if not interrupt.came:
+            raise
+        _interrupted()
+    if status:
+        sys.exit(status)
+
+
+def _run(arguments: list[str] | None) -> int:
+    """The exit code of a command."""
+    try:
+        status = group.main(arguments, prog_name="quizgen", standalone_mode=False)
     except click.exceptions.Abort:
-        _fail("interrupted; nothing was written")
+        raise
     except click.ClickException as error:
-        error.show()
-        sys.exit(2)
+        shown = io.StringIO()
+        error.show(shown)
+        click.echo(visible(shown.getvalue()), nl=False, err=True)
     except QuizgenError as error:
-        _fail(str(error))
-    except (BrokenPipeError, KeyboardInterrupt):
+        _tell(str(error))
+    except BrokenPipeError:
         sys.stderr.close()
-        sys.exit(2)
     except OSError as error:
-        _fail(f"{error.filename or 'file'}: {error.strerror or error}")
+        _tell(f"{error.filename or 'file'}: {error.strerror or error}")
+    else:
+        return status if isinstance(status, int) else 0
+    return WRONG
 
 
-def _fail(message: str) -> None:
-    click.echo(f"quizgen: {' '.join(message.split())}", err=True)
-    sys.exit(2)
+def _tell(message: str) -> None:
+    click.echo(f"quizgen: {visible(' '.join(message.split()))}", err=True)
+
+
+def _interrupted() -> NoReturn:
+    """Say so and end at once: finalisers of extensions have hung after an interrupt."""
+    with contextlib.suppress(OSError, ValueError):
+        _tell("interrupted")
+        sys.stdout.flush()
+        sys.stderr.flush()
+    os._exit(INTERRUPTED)

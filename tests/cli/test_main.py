@@ -1,0 +1,91 @@
+"""The shell around every command: interrupts, exit codes, colours, harmless messages, help."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+from click.testing import CliRunner
+
+from quizgen.cli.main import COMMANDS, group
+
+STOPPED = """
+import signal
+signal.signal(signal.SIGINT, signal.default_int_handler)
+import {module} as module
+def stopped(*arguments, **options):
+    {how}
+    raise AssertionError("went on")
+{place} = stopped
+from quizgen.cli.main import main
+main({arguments})
+"""
+"""A run that is interrupted where a function is called (a background job ignores SIGINT)."""
+
+RAISED = "signal.raise_signal(signal.SIGINT)"
+SWALLOWED = """try:
+        signal.raise_signal(signal.SIGINT)
+    except KeyboardInterrupt:
+        raise ValueError("Invalid affine transformation matrix")"""
+
+PLACES = [
+    ("quizgen.bank.folder", "module.Bank.rules", ["templates"]),
+    ("quizgen.audit.lint", "module.lint_template", ["lint", "--only", "rgb-to-hsv"]),
+    ("quizgen.bank.folder", "module.Bank.template", ["preview", "rgb-to-hsv"]),
+    ("quizgen.audit.doctor", "module.checks", ["doctor"]),
+    ("quizgen.tradeoff.report", "module.measure", ["tradeoff", "thin-lens"]),
+    ("quizgen.camera.reading", "module.load", ["simulate", "flat"]),
+    ("quizgen.paper.key", "module.read_key", ["check", "key.json", "answers.toml"]),
+    ("quizgen.cards", "module.build", ["cards"]),
+    ("quizgen.marking.mark", "module.mark", ["mark", "{}", "1"]),
+]
+
+
+def run(code, cwd):
+    return subprocess.run([sys.executable, "-c", code], cwd=cwd, capture_output=True,
+                          text=True, check=False)  # fmt: skip
+
+
+@pytest.mark.parametrize("how", [RAISED, SWALLOWED], ids=["raised", "as another error"])
+@pytest.mark.parametrize(("module", "place", "arguments"), PLACES, ids=lambda p: str(p)[-20:])
+def test_an_interrupt_is_one_line_and_status_130(tmp_path, module, place, arguments, how):
+    code = STOPPED.format(module=module, place=place, arguments=arguments, how=how)
+    done = run(code, tmp_path)
+    assert (done.returncode, done.stderr.strip()) == (130, "quizgen: interrupted")
+    assert not list(tmp_path.iterdir())
+
+
+def test_an_interrupt_while_commands_are_still_loaded_is_one_line(tmp_path):
+    code = """
+import signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)
+class Slow:
+    def find_spec(self, name, *others):
+        if name == "quizgen.cli.main":
+            signal.raise_signal(signal.SIGINT)
+sys.meta_path.insert(0, Slow())
+from quizgen.__main__ import main
+main()
+"""
+    done = run(code, tmp_path)
+    assert (done.returncode, done.stderr) == (130, "quizgen: interrupted\n")
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [["exam", "--topic", "\x1b]0;x\x07"], ["preview", "\x1b[31m"], ["mark", "\x1b[2J"],
+     ["check", "\x1b[2J", "b"], ["lint", "\x9b31m"]],
+)  # fmt: skip
+def test_control_characters_in_messages_are_named(tmp_path, arguments):
+    done = subprocess.run([sys.executable, "-m", "quizgen", *arguments], cwd=tmp_path,
+                          capture_output=True, text=True, check=False)  # fmt: skip
+    assert done.returncode == 2
+    assert not {c for c in done.stderr if c != "\n" and (ord(c) < 32 or 127 <= ord(c) < 160)}
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_help_fits_80_columns(name):
+    done = CliRunner().invoke(group, [name, "--help"], terminal_width=80)
+    assert done.exit_code == 0
+    assert max(map(len, done.output.splitlines())) <= 80
