@@ -13,7 +13,7 @@ import operator
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache, reduce
+from functools import cache, partial, reduce
 from typing import TypeAlias
 
 from quizgen.errors import MathError
@@ -34,7 +34,10 @@ Op: TypeAlias = Callable[..., AnyNumber]
 
 @dataclass(frozen=True, slots=True)
 class NumberSystem:
-    """A number system: how to make a constant and what each operator does."""
+    """A number system: how to make a constant and what each operator does.
+
+    Operators that take any number of arguments are functions of two: formulas fold them.
+    """
 
     name: str
     constant: Callable[[Fraction], AnyNumber]
@@ -72,7 +75,10 @@ def compile_inner(expr: Expr, system: NumberSystem) -> Compiled:
         return _lookup(expr.name)
     if expr.op == "piecewise":
         return _compile_piecewise(expr, system)
-    return _compile_call(system.ops[expr.op], [compile_inner(arg, system) for arg in expr.args])
+    args = [compile_inner(arg, system) for arg in expr.args]
+    if OPERATORS[expr.op].folds:
+        return reduce(partial(_compile_pair, system.ops[expr.op]), args)
+    return _compile_call(system.ops[expr.op], args)
 
 
 def _lookup(name: str) -> Compiled:
@@ -84,9 +90,12 @@ def _compile_call(op: Op, args: list[Compiled]) -> Compiled:
         (first,) = args
         return lambda env: op(first(env))
     if len(args) == 2:
-        first, second = args
-        return lambda env: op(first(env), second(env))
+        return _compile_pair(op, *args)
     return lambda env: op(*[arg(env) for arg in args])
+
+
+def _compile_pair(op: Op, first: Compiled, second: Compiled) -> Compiled:
+    return lambda env: op(first(env), second(env))
 
 
 def _compile_piecewise(expr: Call, system: NumberSystem) -> Compiled:
@@ -135,18 +144,13 @@ def functions(system: str, *sources: object, **own: Op) -> dict[str, Op]:
     for row in OPERATORS.values():
         if system not in row.absent:
             name = row.function_in(system)
-            op = own[name] if name in own else _looked_up(name, sources)
-            found[row.name] = _folded(op) if row.folds else op
+            found[row.name] = own[name] if name in own else _looked_up(name, sources)
     return found
 
 
 def _looked_up(name: str, sources: tuple[object, ...]) -> Op:
     op: Op = next(getattr(source, name) for source in sources if hasattr(source, name))
     return op
-
-
-def _folded(op: Op) -> Op:
-    return lambda first, *rest: reduce(op, rest, first)
 
 
 @cache

@@ -51,11 +51,8 @@ def _quotients(ctx: fmpq_mpoly_ctx) -> NumberSystem:
     )
 
 
-def _add(*terms: Quotient) -> Quotient:
-    top, low = terms[0]
-    for next_top, next_low in terms[1:]:
-        top, low = top * next_low + next_top * low, low * next_low
-    return top, low
+def _add(a: Quotient, b: Quotient) -> Quotient:
+    return a[0] * b[1] + b[0] * a[1], a[1] * b[1]
 
 
 def _neg(a: Quotient) -> Quotient:
@@ -66,11 +63,8 @@ def _sub(a: Quotient, b: Quotient) -> Quotient:
     return _add(a, _neg(b))
 
 
-def _mul(*factors: Quotient) -> Quotient:
-    top, low = factors[0]
-    for next_top, next_low in factors[1:]:
-        top, low = top * next_top, low * next_low
-    return top, low
+def _mul(a: Quotient, b: Quotient) -> Quotient:
+    return a[0] * b[0], a[1] * b[1]
 
 
 def _div(a: Quotient, b: Quotient) -> Quotient:
