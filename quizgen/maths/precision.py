@@ -61,10 +61,13 @@ class working_precision(ContextDecorator):  # noqa: N801 - reads as a statement
     def __enter__(self) -> None:
         _LOCK.acquire()
         _OUTER.append(ctx.prec)
-        ctx.prec = self.bits
+        if _OUTER[-1] != self.bits:  # setting it costs ten times as much as reading it
+            ctx.prec = self.bits
 
     def __exit__(self, *_error: object) -> None:
-        ctx.prec = _OUTER.pop()
+        outer = _OUTER.pop()
+        if ctx.prec != outer:
+            ctx.prec = outer
         _LOCK.release()
 
 
