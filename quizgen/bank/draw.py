@@ -181,7 +181,7 @@ class Plan:
     def _variable(self, name: str) -> _Variable:
         rule = self.template.rules.draw[name]
         source = rule.formula or rule.by
-        formula = compile_expr(self.template.formula(source), exact()) if source else None
+        formula = compile_inner(self.template.formula(source), exact()) if source else None
         listed = () if source else candidates(rule.pick, rule.range, rule.skip)
         return _Variable(name, listed, rule.words, formula)
 
@@ -194,7 +194,7 @@ class Plan:
             yield _Condition(f"keep.{name}", _of(name, test), frozenset({name}))
 
     def candidate(self, stem: str, attempt: int) -> tuple[dict[str, fmpq], dict[str, str]]:
-        """Values of one try, before any condition; each formula states its own precision."""
+        """Values of one try, before any condition; the precision is stated around it."""
         shown: dict[str, fmpq] = {}
         words: dict[str, str] = {}
         for variable in self.variables:
@@ -325,7 +325,13 @@ def draw(template: Template, seed: str | int, slot: str | int = "0") -> Draw:
     DrawError
         If no try within ``MAX_TRIES`` is admissible; names the condition met most often.
     """
-    plan = plan_of(template)
+    return _first(plan_of(template), str(seed), str(slot))
+
+
+@working_precision()
+def _first(plan: Plan, seed: str, slot: str) -> Draw:
+    """The first admissible try; the plan is made before, under no lock of the precision."""
+    template = plan.template
     stem = f"{template.origin}/{template.rules.version}/{seed}/{slot}"
     reasons: Counter[str] = Counter()
     for attempt in range(MAX_TRIES):
@@ -333,7 +339,7 @@ def draw(template: Template, seed: str | int, slot: str | int = "0") -> Draw:
         result = admissible(plan, shown)
         if not isinstance(result, str):
             values, traps = result
-            return Draw(template, str(seed), str(slot), attempt + 1, shown, words, values, traps)
+            return Draw(template, seed, slot, attempt + 1, shown, words, values, traps)
         reasons[result] += 1
     worst, count = reasons.most_common(1)[0]
     raise DrawError(
@@ -353,7 +359,12 @@ def reference(template: Template) -> Draw:
     given = template.rules.reference
     if given is None:
         raise DrawError(f"template {template.id!r} has no reference instance")
-    plan = plan_of(template)
+    return _referred(plan_of(template), given)
+
+
+@working_precision()
+def _referred(plan: Plan, given: Mapping[str, Scalar]) -> Draw:
+    template = plan.template
     shown, words = plan.candidate(f"{template.origin}/reference", 0)
     for variable in plan.variables:
         if variable.name in given and variable.words:

@@ -193,7 +193,11 @@ class _Bound:
 
 
 def _close(a: tuple[float, ...], b: tuple[float, ...], widths: tuple[float, ...]) -> bool:
-    return all(abs(x - y) <= w for x, y, w in zip(a, b, widths, strict=True))
+    return all(map(_within, a, b, widths))
+
+
+def _within(x: float, y: float, width: float) -> bool:
+    return abs(x - y) <= width
 
 
 def _same(a: tuple[float, ...], b: tuple[float, ...]) -> bool:

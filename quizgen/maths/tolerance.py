@@ -101,6 +101,9 @@ class Tolerance(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
         """
         if self.exact:
             return min(ROUNDED, ROUNDED_REL * abs(key))
+        name, number = self.stated or self.unstated
+        if name == "rel":
+            return to_float(exact_value(number)) * abs(key) * MARGIN
         beyond = fmpq(*(abs(key) * MARGIN).as_integer_ratio())
         return to_float(self.half_width(beyond)) * MARGIN
 
