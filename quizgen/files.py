@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 import contextlib
-import json
 import os
 import secrets
-import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from quizgen.errors import KeyFileError, RenderError
-
-LARGEST_FILE = 20_000_000
-"""Bytes of the largest table that is read."""
+from quizgen.outside import parse_json, parse_toml, read_text
 
 
 def write_all(folder: Path, contents: Mapping[str, bytes]) -> list[Path]:
@@ -69,26 +65,10 @@ def read_table(path: Path) -> Mapping[str, Any]:
     KeyFileError
         Naming the file and, if possible, the line.
     """
-    text = _text(path)
-    try:
-        if path.suffix == ".toml":
-            return tomllib.loads(text, parse_float=str)
-        table = json.loads(text, parse_float=str)
-    except json.JSONDecodeError as error:
-        raise KeyFileError(f"{path}: line {error.lineno}: {error.msg}") from None
-    except (tomllib.TOMLDecodeError, RecursionError, ValueError) as error:
-        raise KeyFileError(f"{path}: {error}") from None
+    text = read_text(path, KeyFileError)
+    if path.suffix == ".toml":
+        return parse_toml(text, path, KeyFileError, parse_float=str)
+    table = parse_json(text, path, KeyFileError)
     if not isinstance(table, dict):
         raise KeyFileError(f"{path}: a table is expected, not {type(table).__name__}")
     return table
-
-
-def _text(path: Path) -> str:
-    try:
-        if path.stat().st_size > LARGEST_FILE:
-            raise KeyFileError(f"{path}: larger than {LARGEST_FILE // 10**6} MB")
-        return path.read_text("utf-8")
-    except OSError as error:
-        raise KeyFileError(f"{path}: {error.strerror or error}") from None
-    except UnicodeDecodeError as error:
-        raise KeyFileError(f"{path}: not UTF-8 text (byte {error.start})") from None

@@ -8,6 +8,8 @@ which suits flat pictures well. A photograph that goes into a file of its own is
 
 from __future__ import annotations
 
+import struct
+import zlib
 from collections.abc import Sequence
 from functools import cache
 from io import BytesIO
@@ -172,7 +174,9 @@ def compact(codes: NDArray[np.uint8]) -> bytes:
     return stream.getvalue()
 
 
-MOST_MEGAPIXELS = 50
+MOST_MEGAPIXELS = 24
+_BROKEN = (OSError, SyntaxError, ArithmeticError, LookupError, struct.error, zlib.error)
+"""What Pillow raises for broken files, beside ValueError."""
 
 
 def decode(data: bytes) -> Codes:
@@ -196,7 +200,7 @@ def decode(data: bytes) -> Codes:
         raise ValueError(f"more than {MOST_MEGAPIXELS} megapixels")
     try:
         return _decoded(data).reshape(height, width, -1)
-    except (OSError, SyntaxError) as error:
+    except _BROKEN as error:
         raise ValueError("a broken PNG file") from error
 
 

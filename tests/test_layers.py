@@ -15,24 +15,25 @@ PACKAGE = ROOT / "quizgen"
 
 LAYERS = {
     "errors": "",
-    "files": "errors",
+    "outside": "errors",
+    "files": "errors outside",
     "png": "",
     "locale": "errors",
-    "maths": "errors",
+    "maths": "errors outside",
     "arrays": "errors",
     "typeset": "errors locale maths",
-    "bank": "errors files locale maths",
-    "camera": "errors files png maths arrays",
+    "bank": "errors outside files locale maths",
+    "camera": "errors outside files png maths arrays",
     "figures": "errors png locale arrays camera",
     "marking": "errors locale maths",
     "question": "errors locale maths typeset bank figures marking",
-    "paper": "errors files locale maths bank marking question",
-    "practice": "errors files locale maths bank marking question paper",
-    "render": "errors files locale typeset bank question paper",
-    "cards": "errors files locale maths typeset bank figures question paper render",
-    "tradeoff": "errors files locale maths arrays typeset bank figures render",
-    "audit": "errors files locale maths bank figures marking question paper render",
-    "cli": "errors files png locale maths bank camera figures marking question paper practice render cards "
+    "paper": "errors outside files locale maths bank marking question",
+    "practice": "errors outside files locale maths bank marking question paper",
+    "render": "errors outside files locale typeset bank question paper",
+    "cards": "errors outside files locale maths typeset bank figures question paper render",
+    "tradeoff": "errors outside files locale maths arrays typeset bank figures render",
+    "audit": "errors outside files locale maths bank figures marking question paper render",
+    "cli": "errors outside files png locale maths bank camera figures marking question paper practice render cards "
     "tradeoff audit",
 }
 """Package to the packages below it that it may use. Solvers use ``maths.model`` alone."""

@@ -6,7 +6,6 @@ Both may be missing: a bank needs nothing but its templates.
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TypeVar
@@ -15,6 +14,7 @@ import msgspec
 
 from quizgen.errors import BankError
 from quizgen.locale import FIRST
+from quizgen.outside import parse_toml, read_text
 
 S = TypeVar("S", bound=msgspec.Struct)
 
@@ -72,14 +72,10 @@ def read_struct(path: Path, kind: type[S]) -> S:
     BankError
         Naming the file and the key.
     """
-    if not path.is_file():
+    if not path.exists():
         return kind()
     try:
-        return msgspec.convert(tomllib.loads(path.read_text(encoding="utf-8")), kind)
-    except (OSError, UnicodeDecodeError) as error:
-        raise BankError(f"{path}: {error}") from error
-    except tomllib.TOMLDecodeError as error:
-        raise BankError(f"{path}: not valid TOML: {error}") from error
+        return msgspec.convert(parse_toml(read_text(path, BankError), path, BankError), kind)
     except msgspec.ValidationError as error:
         raise BankError(f"{path}: {error}") from error
 

@@ -28,6 +28,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Protocol
 
+from quizgen import outside
 from quizgen.errors import BankError, FormulaError
 from quizgen.maths.notation import parse
 from quizgen.maths.tree import Expr
@@ -268,10 +269,9 @@ def read_text(path: Path) -> Text:
     BankError
         Naming the file and what is wrong in it.
     """
+    source = outside.read_text(path, BankError)
     try:
-        return parse_text(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError) as error:
-        raise BankError(f"{path}: {error}") from error
+        return parse_text(source)
     except BankError as error:
         raise BankError(f"{path}: {error}") from error
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -30,6 +29,7 @@ from quizgen.camera.values import (
     whole,
     words,
 )
+from quizgen.outside import LARGEST_PICTURE, parse_toml, read_bytes, read_text
 
 Readers = Mapping[str, Reader[Any]]
 """Readers of the keys of one table; each gives the type of its own field."""
@@ -101,13 +101,8 @@ class _File:
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        try:
-            text = path.read_text("utf-8")
-            self.tables = tomllib.loads(text)
-        except OSError as error:
-            raise SceneError(f"{path}: {error.strerror or error}") from error
-        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-            raise SceneError(f"{path}: {error}") from error
+        text = read_text(path, SceneError)
+        self.tables: dict[str, Any] = parse_toml(text, path, SceneError)
         self.lines = _lines(text)
 
     def fail(self, table: str, which: int, key: str, message: str) -> SceneError:
@@ -215,9 +210,9 @@ def _picture(file: _File, key: str, name: str) -> NDArray[np.float64]:
     """Values in [0, 1], shape (H, W, 3)."""
     path = file.path.parent / name
     try:
-        pixels = png.decode(path.read_bytes())
-    except OSError as error:
-        raise file.fail("scene", 0, key, f"{name}: {error.strerror or error}") from error
+        pixels = png.decode(read_bytes(path, SceneError, LARGEST_PICTURE))
+    except SceneError as error:
+        raise file.fail("scene", 0, key, str(error)) from error
     except ValueError as error:
         raise file.fail("scene", 0, key, f"{name}: {error}") from error
     values = pixels / float(np.iinfo(pixels.dtype).max)

@@ -7,12 +7,12 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable
-from fractions import Fraction
 from typing import TypeVar
 
 from quizgen.arrays.gamma import srgb_decode
 from quizgen.camera.scene import Colour, Length
 from quizgen.errors import FormulaError
+from quizgen.maths.numbers import written
 from quizgen.maths.units import Dimension, unit
 
 T = TypeVar("T")
@@ -32,8 +32,8 @@ def _measure(text: object) -> tuple[float, Dimension]:
         raise ValueError(f"cannot read {text!r}; expected a number and a unit")
     try:
         found = unit(match["unit"])
-        value = float(Fraction(match["number"]) * found.factor)
-    except (FormulaError, ZeroDivisionError) as error:
+        value = float(written(match["number"]) * found.factor)
+    except (FormulaError, OverflowError) as error:
         raise ValueError(str(error)) from error
     turn = math.pi / 180.0 if ("deg", 1) in found.dimension else 1.0
     return value * turn, found.dimension

@@ -6,7 +6,6 @@ signs and formula lines are written in the grammar that students type.
 
 from __future__ import annotations
 
-import tomllib
 from functools import cache
 from typing import Literal, TypeVar
 
@@ -18,6 +17,7 @@ from quizgen.bank.prose import Block, Formula, Inline, Slot, blocks, fill, fill_
 from quizgen.cards.equations import Piece, inline
 from quizgen.errors import BankError
 from quizgen.locale import table
+from quizgen.outside import parse_toml, read_text
 
 Tier = Literal["A", "B", "C", "D"]
 
@@ -120,13 +120,11 @@ def load(source: str, kind: type[E], where: str, langs: tuple[str, ...] = ()) ->
     BankError
         Naming file, entry and key.
     """
-    try:
-        table = tomllib.loads(source)
-    except tomllib.TOMLDecodeError as error:
-        raise BankError(f"{where}: not valid TOML: {error}") from error
-    if set(table) != {"entry"}:
+    table = parse_toml(source, where, BankError)
+    rows = table.get("entry")
+    if set(table) != {"entry"} or not isinstance(rows, list):
         raise BankError(f"{where}: expected [[entry]] and nothing else, found {sorted(table)}")
-    found = tuple(_entry(row, kind, where, langs) for row in table["entry"])
+    found = tuple(_entry(row, kind, where, langs) for row in rows)
     names = [entry.id for entry in found]
     for name in names:
         if names.count(name) > 1:
@@ -165,7 +163,7 @@ def entries(bank: Bank, kind: type[E]) -> tuple[E, ...]:
     (name,) = (name for name, entry in KINDS.items() if entry is kind)
     if name not in bank.cards:
         return ()
-    source = bank.cards[name].read_text(encoding="utf-8")
+    source = read_text(bank.cards[name], BankError)
     return load(source, kind, f"{name}.toml", bank.languages)
 
 

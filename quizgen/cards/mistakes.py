@@ -7,7 +7,6 @@ wrong and how it is done.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -26,6 +25,7 @@ from quizgen.cards.versions import template_version
 from quizgen.cards.wish import Wish
 from quizgen.errors import KeyFileError
 from quizgen.locale import chosen
+from quizgen.outside import parse_json, read_text
 from quizgen.paper.blueprint import load_blueprint
 from quizgen.paper.code import parse_code
 from quizgen.paper.paper import Item, Paper, rebuild
@@ -63,13 +63,11 @@ def read_marks(path: Path) -> tuple[Marked, ...]:
     KeyFileError
         Naming the file and what is wrong in it.
     """
+    table = parse_json(read_text(path, KeyFileError), path, KeyFileError)
+    papers = table if isinstance(table, list) else [table]
     try:
-        table = json.loads(path.read_text(encoding="utf-8"))
-        papers = table if isinstance(table, list) else [table]
         return tuple(msgspec.convert(paper, Marked) for paper in papers)
-    except OSError as error:
-        raise KeyFileError(f"{path}: {error.strerror or error}") from error
-    except (ValueError, RecursionError) as error:
+    except msgspec.ValidationError as error:
         raise KeyFileError(f"{path}: not a result of `quizgen check --json`: {error}") from error
 
 

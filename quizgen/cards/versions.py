@@ -12,13 +12,16 @@ counts as one version newer until the list is written again.
 from __future__ import annotations
 
 import hashlib
-import tomllib
 from functools import cache
+
+import msgspec
 
 from quizgen.bank.folder import Bank
 from quizgen.bank.template import Template
 from quizgen.cards.note import Note
+from quizgen.errors import BankError
 from quizgen.locale import FIRST
+from quizgen.outside import parse_toml, read_text
 
 BASE = 1_577_836_800
 """Modification time of version 0, 1 January 2020: earlier than any change a learner makes."""
@@ -39,8 +42,11 @@ def registry(bank: Bank) -> Registry:
     """Note key to its version and digest, as the bank lists them; nothing if it has no list."""
     if FILE not in bank.cards:
         return {}
-    table = tomllib.loads(bank.cards[FILE].read_text(encoding="utf-8"))
-    return {key: (int(version), str(digest)) for key, (version, digest) in table.items()}
+    path = bank.cards[FILE]
+    try:
+        return msgspec.convert(parse_toml(read_text(path, BankError), path, BankError), Registry)
+    except msgspec.ValidationError as error:
+        raise BankError(f"{path}: {error}") from error
 
 
 def version_of(note: Note, bank: Bank) -> int:

@@ -69,11 +69,10 @@ def _find(scene: str) -> Path:
 
 
 def _list_scenes() -> None:
-    import tomllib
+    from quizgen.camera.reading import load
 
     for path in sorted(SCENES.glob("*.toml")):
-        title = tomllib.loads(path.read_text("utf-8")).get("scene", {}).get("title", "")
-        click.echo(f"{path.stem:14} {title}")
+        click.echo(f"{path.stem:14} {load(path)[0].title}")
 
 
 def _write(photo: Photo, target: Path | None) -> None:

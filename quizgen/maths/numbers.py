@@ -6,11 +6,12 @@ balls that exclude a tie; binary floating point never decides a digit.
 
 from __future__ import annotations
 
+import re
 from fractions import Fraction
 
 from flint import arb, fmpq, fmpz
 
-from quizgen.errors import Undecided
+from quizgen.errors import FormulaError, Undecided
 from quizgen.maths.precision import WIDE, working_precision
 from quizgen.maths.values import Value
 
@@ -18,13 +19,44 @@ MINUS = "\u2212"
 LONGEST_DECIMAL = 6
 """A terminating decimal with more places than this is shown as a fraction or rounded."""
 LARGEST_DENOMINATOR = 9999
+LONGEST_NUMBER = 4000
+"""Characters, and size of the power of ten, of a number that is read."""
+_WRITTEN = re.compile(
+    r"\s*[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?(?P<power>\d+))?(?:/\d+)?\s*", re.ASCII
+)
 SMALLEST_MAGNITUDE = -6
 """Power of ten below which a value is written with one."""
 
 
+def written(value: float | str | Fraction) -> Fraction:
+    """An integer, ``"1/500"`` or a decimal text as it is meant; a float as what it prints as.
+
+    Raises
+    ------
+    FormulaError
+        If it is no number, or has so many digits that nobody can mean it.
+    """
+    if isinstance(value, (int, Fraction)):
+        return Fraction(value)
+    text = str(value)
+    match = _WRITTEN.fullmatch(text) if len(text) <= LONGEST_NUMBER else None
+    if match is None or len(match["power"] or "") > len(str(LONGEST_NUMBER)):
+        raise FormulaError(f"{text[:40]!r} is no number (allowed: 12, 0.5, 1e-3, 1/500)")
+    try:
+        return Fraction(text)
+    except ZeroDivisionError:
+        raise FormulaError(f"{text[:40]!r} divides by zero") from None
+
+
 def rational(value: int | str | Fraction) -> fmpq:
-    """Make an exact rational from an integer, ``"1/500"`` or a decimal text."""
-    fraction = Fraction(value)
+    """Make an exact rational from an integer, ``"1/500"`` or a decimal text.
+
+    Raises
+    ------
+    FormulaError
+        If it is no number.
+    """
+    fraction = written(value)
     return fmpq(fraction.numerator, fraction.denominator)
 
 

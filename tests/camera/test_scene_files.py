@@ -61,7 +61,7 @@ def a_picture(name):
 @pytest.mark.parametrize(
     ("name", "words"),
     [("other", "not a PNG file"), ("short", "a broken PNG file"), ("none", "not a PNG file"),
-     ("huge", "more than 50 megapixels")],
+     ("huge", "more than 24 megapixels")],
 )  # fmt: skip
 @pytest.mark.parametrize("key", ["image", "depth_map"])
 def test_a_bad_picture_is_one_line_with_its_place(tmp_path, key, name, words):

@@ -1,0 +1,255 @@
+"""Reading what comes from outside - banks, papers, forms, scenes - and believing none of it.
+
+A file is read only if it is a regular one (a pipe or a device would hang or never end) and not
+larger than expected; a table only if it is not too deep, too long, or made of numbers that nobody
+means. Whoever reads says which error is raised, so that it names the file in the reader's own kind.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import stat
+import tomllib
+import unicodedata
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import TypeAlias
+
+from quizgen.errors import QuizgenError
+
+Failure: TypeAlias = type[QuizgenError]
+"""The kind of error that a reader raises."""
+
+LARGEST_FILE = 20_000_000
+"""Bytes of the largest text that is read."""
+LARGEST_PICTURE = 100_000_000
+"""Bytes of the largest picture that is read."""
+DEEPEST = 30
+"""Tables and lists within each other."""
+MOST_VALUES = 500_000
+"""Values of one file."""
+MOST_DIGITS = 400
+"""Digits of one whole number."""
+LONGEST_NAME = 100
+
+_NAME = re.compile(rf"(?!\.+$)[A-Za-z0-9_.-]{{1,{LONGEST_NAME}}}")
+_TOO_LARGE = 10**MOST_DIGITS
+_STARTS_FORMULA = frozenset({"=", "+", "-", "@", "\u2212", "\t"})
+NAMES = "letters A-Z, digits, '_', '.' and '-'"
+"""What a name may consist of, for messages."""
+
+
+def is_name(text: str) -> bool:
+    """Whether a text can name a template, a topic, a figure or a solver, in any output."""
+    return _NAME.fullmatch(text) is not None
+
+
+def named(text: str, what: str, error: Failure) -> str:
+    """Return a text that is a name.
+
+    Raises
+    ------
+    QuizgenError
+        Of the kind asked for, if it is none.
+    """
+    if is_name(text):
+        return text
+    raise error(f"{what}: {text[:LONGEST_NAME]!r} is no name (allowed: {NAMES})")
+
+
+def defused(cell: str) -> str:
+    """A cell of a table that no spreadsheet runs as a formula.
+
+    Spreadsheets skip blanks, line breaks and invisible marks before the sign, and some read the
+    full-width signs, too.
+    """
+    return f"'{cell}" if _first(cell) in _STARTS_FORMULA else cell
+
+
+def _first(cell: str) -> str:
+    """The first character that is seen; a control character counts as seen."""
+    hidden = {"Zs", "Zl", "Zp", "Cf"}
+    seen = (c for c in cell if c not in "\n\r\v\f" and unicodedata.category(c) not in hidden)
+    return unicodedata.normalize("NFKC", next(seen, ""))
+
+
+def printable(text: str) -> str:
+    """A text for a terminal: what would steer it, or hide or reorder letters, by its number."""
+    return "".join(_printable(character) for character in text)
+
+
+def _printable(character: str) -> str:
+    steers = unicodedata.category(character) in {"Cc", "Cs", "Zl", "Zp"} and character != "\n"
+    reorders = (
+        character in "\u061c\u200e\u200f\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069"
+    )
+    return f"<U+{ord(character):04X}>" if steers or reorders else character
+
+
+def read_bytes(path: Path, error: Failure, most: int = LARGEST_FILE) -> bytes:
+    """Read a regular file.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+    error : type
+        What to raise.
+    most : int
+        Bytes.
+
+    Raises
+    ------
+    QuizgenError
+        Of the kind asked for, naming the file.
+    """
+    try:
+        _refuse_special(path.stat(), path, error)
+        number = os.open(
+            path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
+        )
+        with os.fdopen(number, "rb") as stream:
+            _refuse_special(os.fstat(number), path, error)
+            data = stream.read(most + 1)
+    except (OSError, ValueError) as found:
+        raise error(f"{path}: {getattr(found, 'strerror', None) or found}") from None
+    if len(data) > most:
+        raise error(f"{path}: larger than {most // 10**6} MB")
+    return data
+
+
+def _refuse_special(found: os.stat_result, path: Path, error: Failure) -> None:
+    """Refuse what has no end or no beginning: once before opening, once for what was opened."""
+    if not stat.S_ISREG(found.st_mode):
+        raise error(f"{path}: not a file that can be read (a folder, a pipe or a device)")
+
+
+def read_text(path: Path, error: Failure, most: int = LARGEST_FILE) -> str:
+    """Read a regular file of UTF-8 text, with the line ends of any system.
+
+    Raises
+    ------
+    QuizgenError
+        Of the kind asked for, naming the file.
+    """
+    try:
+        text = read_bytes(path, error, most).decode("utf-8")
+    except UnicodeDecodeError as found:
+        raise error(f"{path}: not UTF-8 text (byte {found.start})") from None
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def parse_toml(
+    text: str, where: object, error: Failure, parse_float: Callable[[str], object] = float
+) -> dict[str, object]:
+    """Read TOML.
+
+    Parameters
+    ----------
+    text : str
+    where : object
+        The file, for messages.
+    error : type
+        What to raise.
+    parse_float : callable
+        What becomes of a number with a point.
+
+    Raises
+    ------
+    QuizgenError
+        Of the kind asked for, naming the file and the line or the place.
+    """
+    try:
+        table = tomllib.loads(text, parse_float=parse_float)
+    except RecursionError:
+        raise error(f"{where}: more than {DEEPEST} tables and lists within each other") from None
+    except (tomllib.TOMLDecodeError, ValueError) as found:
+        raise error(f"{where}: not valid TOML: {_short(found)}") from None
+    _check(table, where, error)
+    return table
+
+
+def parse_json(text: str, where: object, error: Failure) -> object:
+    """Read JSON; numbers with a point stay text, and a name stands in a table once.
+
+    Raises
+    ------
+    QuizgenError
+        Of the kind asked for, naming the file and the line or the place.
+    """
+    try:
+        value = json.loads(
+            text, parse_float=str, parse_constant=_no_number, object_pairs_hook=_without_twins
+        )
+    except RecursionError:
+        raise error(f"{where}: more than {DEEPEST} tables and lists within each other") from None
+    except json.JSONDecodeError as found:
+        raise error(f"{where}: line {found.lineno}: {found.msg}") from None
+    except ValueError as found:
+        raise error(f"{where}: {_short(found)}") from None
+    _check(value, where, error)
+    return value
+
+
+def _no_number(text: str) -> object:
+    raise ValueError(f"{text} is no number")
+
+
+def _without_twins(pairs: list[tuple[str, object]]) -> dict[str, object]:
+    table = dict(pairs)
+    if len(table) < len(pairs):
+        names = [name for name, _ in pairs]
+        twin = next(name for place, name in enumerate(names) if name in names[:place])
+        raise ValueError(f"{twin!r} stands twice in a table")
+    return table
+
+
+def _short(found: Exception) -> str:
+    return str(found)[:300]
+
+
+def _check(table: object, where: object, error: Failure) -> None:
+    """Refuse a table that is too deep or too long, and numbers and texts that nobody means."""
+    for count, (place, value, depth) in enumerate(_values(table)):
+        problem = _problem(value)
+        if problem:
+            raise error(f"{where}: {printable(place) or 'the file'}: {problem}")
+        if depth > DEEPEST:
+            raise error(f"{where}: {printable(place)}: more than {DEEPEST} tables and lists "
+                        "within each other")  # fmt: skip
+        if count > MOST_VALUES:
+            raise error(f"{where}: more than {MOST_VALUES} values")
+
+
+def _values(table: object) -> Iterator[tuple[str, object, int]]:
+    """Every key and value with its place and depth, without recursion."""
+    todo: list[tuple[str, object, int]] = [("", table, 0)]
+    while todo:
+        place, value, depth = todo.pop()
+        yield place, value, depth
+        if depth > DEEPEST:
+            continue
+        if isinstance(value, dict):
+            for key, inner in value.items():
+                yield place, key, depth
+                todo.append(
+                    (
+                        f"{place}.{key[:LONGEST_NAME]}" if place else key[:LONGEST_NAME],
+                        inner,
+                        depth + 1,
+                    )
+                )
+        elif isinstance(value, list):
+            todo += [(f"{place}[{i}]", inner, depth + 1) for i, inner in enumerate(value)]
+
+
+def _problem(value: object) -> str:
+    if isinstance(value, int) and not -_TOO_LARGE < value < _TOO_LARGE:
+        return f"a number of more than {MOST_DIGITS} digits"
+    if isinstance(value, str):
+        try:
+            value.encode()
+        except UnicodeEncodeError as found:
+            return f"half a character (U+{ord(value[found.start]):04X}) in a text"
+    return ""
