@@ -10,7 +10,7 @@ import pytest
 
 import quizgen
 from quizgen import typeset
-from quizgen.bank.template import Rules
+from quizgen.bank.rules import Rules
 from quizgen.cli.main import COMMANDS, group
 from quizgen.locale import table
 from quizgen.maths import model

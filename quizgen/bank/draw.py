@@ -12,17 +12,17 @@ import hashlib
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from fractions import Fraction
 from functools import cache, cached_property, partial
 from typing import Any, TypeVar
 
 from flint import fmpq
 
-from quizgen.bank.template import KeepRule, Scalar, Template
+from quizgen.bank.rules import KeepRule, Scalar
+from quizgen.bank.template import Template
 from quizgen.bank.traps import PartPlan
 from quizgen.errors import DrawError, MathError
 from quizgen.maths.chain import ChainStep
-from quizgen.maths.numbers import exact_text, places, rational, rounded_text, to_float
+from quizgen.maths.numbers import exact_text, places, rational, rounded_text, to_float, written
 from quizgen.maths.precision import working_precision
 from quizgen.maths.systems import Compiled, compile_expr, compile_inner, exact
 from quizgen.maths.tree import names
@@ -232,8 +232,8 @@ def candidates(
         return tuple(rational(str(v)) for v in listed)
     if not span:
         return ()
-    first, last, step = (Fraction(str(v)) for v in span)
-    left_out = {Fraction(str(v)) for v in skip}
+    first, last, step = map(written, span)
+    left_out = {written(v) for v in skip}
     count = int((last - first) / step) + 1
     return tuple(
         rational(first + i * step) for i in range(count) if first + i * step not in left_out

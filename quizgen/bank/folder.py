@@ -14,17 +14,22 @@ import importlib
 import importlib.util
 import re
 import sys
+import traceback
 from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import cache, cached_property
 from pathlib import Path
 from types import ModuleType
 
 from quizgen.bank.about import About, Curriculum, in_language, read_struct
 from quizgen.bank.prose import Text, read_text
-from quizgen.bank.template import Rules, Template, check_against_chain, digest_of, read_rules
+from quizgen.bank.rules import Rules
+from quizgen.bank.template import Template, check_against_chain, digest_of, read_rules
 from quizgen.errors import BankError, QuizgenError
 from quizgen.locale import languages
 from quizgen.maths.chain import Chain
+from quizgen.maths.model import Model
+from quizgen.outside import NAMES, is_name, named, read_bytes
 
 PROSE = re.compile(r"[a-z]{2,3}\.md")
 """What a language's file is called."""
@@ -136,7 +141,7 @@ class Bank:
             path for path in self.folder.glob("**/template.toml")
             if path.parent not in {self.folder / "blueprints", self.folder / "cards"}
         )  # fmt: skip
-        names = [path.parent.name for path in found]
+        names = [named(path.parent.name, f"{self.root}: template", BankError) for path in found]
         twins = {name for name in names if names.count(name) > 1}
         if twins:
             raise BankError(f"{self.root}: two templates share the name {min(twins)!r}")
@@ -155,8 +160,10 @@ class Bank:
         Raises
         ------
         BankError
-            If it does not exist, or the bank has solvers of its own and is not trusted.
+            If it does not exist or fails, or the bank has solvers of its own and is not trusted.
         """
+        if not all(map(is_name, name.split("/"))):
+            raise BankError(f"solver: {name!r} is no name (allowed: {NAMES}, folders by '/')")
         file = self.root / "solvers" / f"{name}.py"
         if not file.exists():
             if self.root != builtin_root():
@@ -164,12 +171,18 @@ class Bank:
             raise BankError(f"{file}: no such solver")
         if not self.trusted:
             raise BankError(f"{file}: this bank brings its own Python; allow it with --trust")
-        return importlib.import_module(f"{self._package}.{name.replace('/', '.')}")
+        with authored(file):
+            return importlib.import_module(f"{self._package}.{name.replace('/', '.')}")
 
     def rules(self, name: str) -> Rules:
         """Checked ``template.toml`` of a template, without loading solver or prose."""
         if name not in self._rules:
-            self._rules[name] = read_rules(self._folder(name) / "template.toml")
+            path = self._folder(name) / "template.toml"
+            rules = read_rules(path)
+            if rules.topic not in (self.about.topics or {rules.topic}):
+                allowed = ", ".join(self.about.topics)
+                raise BankError(f"{path}: topic {rules.topic!r} is not in bank.toml ({allowed})")
+            self._rules[name] = rules
         return self._rules[name]
 
     def origin(self, name: str) -> str:
@@ -216,7 +229,7 @@ class Bank:
         texts = {path.stem: read_text(path) for path in prose}
         known = languages()
         order = [lang for lang in known if lang in texts] + sorted(set(texts) - set(known))
-        digest = digest_of(*(path.read_bytes() for path in files), source)
+        digest = digest_of(*(read_bytes(path, BankError) for path in files), source)
         ordered: dict[str, Text] = {lang: texts[lang] for lang in order}
         template = Template(name, rules, chain, ordered, digest, folder)
         try:
@@ -229,7 +242,7 @@ class Bank:
         if not rules.solver:
             return Chain({}, ()), b""
         module = self.solver(rules.solver)
-        source = Path(str(module.__file__)).read_bytes()
+        source = read_bytes(Path(str(module.__file__)), BankError)
         return _chain_of(module), source
 
     def __iter__(self) -> Iterator[Template]:
@@ -247,13 +260,33 @@ def _titled(name: str) -> str:
 
 @cache
 def _chain_of(module: ModuleType) -> Chain:
-    try:
+    if not isinstance(getattr(module, "MODEL", None), Model):
+        raise BankError(f"{module.__file__}: no MODEL in this solver")
+    with authored(Path(str(module.__file__))):
         chain: Chain = module.MODEL.chain()
-    except AttributeError as error:
-        raise BankError(f"{module.__file__}: no MODEL in this solver") from error
-    except BankError as error:
-        raise BankError(f"{module.__file__}: {error}") from error
     return chain
+
+
+@contextmanager
+def authored(file: Path) -> Iterator[None]:
+    """Run an author's Python: whatever goes wrong in it is one line that names the place.
+
+    Raises
+    ------
+    BankError
+        Naming the file, its last line that ran, and what was wrong there.
+    """
+    try:
+        yield
+    except BankError as error:
+        raise BankError(f"{file}: {error}") from error
+    except (Exception, SystemExit) as error:  # an author's Python may raise anything
+        lines = [at.lineno for at in traceback.extract_tb(error.__traceback__)
+                 if Path(at.filename) == file]  # fmt: skip
+        number = getattr(error, "lineno", None) if isinstance(error, SyntaxError) else None
+        number = number or (lines[-1] if lines else None)
+        place = f"{file}:{number}" if number else f"{file}"
+        raise BankError(f"{place}: {type(error).__name__}: {error}") from error
 
 
 @cache

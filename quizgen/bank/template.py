@@ -7,98 +7,24 @@ are written in the grammar that students type, over quantities in the units they
 from __future__ import annotations
 
 import hashlib
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import msgspec
 
+from quizgen.bank.limits import problems
+from quizgen.bank.rules import DrawRule, FigureRule, KeepRule, PartRule, Rules, minutes_of
 from quizgen.errors import BankError, FormulaError
 from quizgen.maths.chain import Chain
 from quizgen.maths.notation import parse
 from quizgen.maths.tree import Expr, names
 from quizgen.maths.units import unit
-
-Scalar = int | float | str
-
-
-class DrawRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
-    """How one quantity is drawn.
-
-    Exactly one of ``pick`` (a list), ``range`` (first, last, step), ``words`` (names of phrases
-    in the language files) and ``is`` (a formula over quantities drawn before) is given. With
-    ``by`` (a formula counting from 0) a phrase is not drawn but follows from numbers.
-    """
-
-    unit: str = ""
-    pick: tuple[Scalar, ...] = ()
-    range: tuple[Scalar, ...] = ()
-    skip: tuple[Scalar, ...] = ()
-    words: tuple[str, ...] = ()
-    by: str = ""
-    formula: str = msgspec.field(name="is", default="")
-
-
-class KeepRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
-    """Which values of a solved quantity are kept, in the unit it is shown in."""
-
-    min: Scalar | None = None
-    max: Scalar | None = None
-    multiple: Scalar | None = None
-    decimals: int | None = None
-    denominator: int | None = None
-    skip: tuple[Scalar, ...] = ()
-
-
-class FigureRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
-    """The figure and the formulas of its parameters."""
-
-    name: str
-    values: dict[str, Scalar] = {}
-    quiz: bool = True
-
-
-class PartRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
-    """One sub-question: its marks and its answer."""
-
-    answer: dict[str, Any]
-    points: Scalar = 1
-    show: tuple[str, ...] | None = None
-
-
-class Rules(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
-    """The whole of ``template.toml``."""
-
-    topic: str
-    tier: Literal["A", "B", "C", "D"]
-    part: tuple[PartRule, ...]
-    version: int = 1
-    formerly: str = ""
-    minutes: int | None = None
-    solver: str = ""
-    covers: tuple[str, ...] = ()
-    draw: dict[str, DrawRule] = {}
-    keep: dict[str, KeepRule] = {}
-    where: tuple[str, ...] = ()
-    may_vanish: tuple[str, ...] = ()
-    drop: tuple[str, ...] = ()
-    figure: FigureRule | None = None
-    reference: dict[str, Scalar] | None = None
-    pool: int | None = None
-    apart: tuple[str, ...] = ()
-    precision: tuple[str, ...] = ()
-
+from quizgen.outside import parse_toml, read_text
 
 PART_LABELS = "abcdefghij"
-TIER_MINUTES = {"A": 3, "B": 5, "C": 10, "D": 12}
-
-
-def minutes_of(rules: Rules) -> int:
-    """Suggested working time of a template."""
-    return rules.minutes or TIER_MINUTES[rules.tier]
 
 
 @dataclass(frozen=True)
@@ -196,12 +122,8 @@ def read_rules(path: Path) -> Rules:
         Naming the file, the key and what is allowed.
     """
     try:
-        table = tomllib.loads(path.read_text(encoding="utf-8"), parse_float=str)
+        table = parse_toml(read_text(path, BankError), path, BankError, parse_float=str)
         rules = msgspec.convert(table, Rules, strict=True)
-    except (OSError, UnicodeDecodeError) as error:
-        raise BankError(f"{path}: {error}") from error
-    except tomllib.TOMLDecodeError as error:
-        raise BankError(f"{path}: not valid TOML: {error}") from error
     except msgspec.ValidationError as error:
         raise BankError(f"{path}: {error}{_allowed(str(error))}") from error
     _check_draws(path, rules)
@@ -223,18 +145,16 @@ def _allowed(message: str) -> str:
 
 
 def _check_draws(path: Path, rules: Rules) -> None:
+    for place, problem in problems(rules):
+        raise BankError(f"{path}: {place}: {problem}")
     for name, rule in rules.draw.items():
         ways = [w for w in ("pick", "range", "words", "formula") if getattr(rule, w)]
         if len(ways) != 1:
             raise BankError(f"{path}: draw.{name}: give exactly one of pick, range, words, is")
-        if rule.range and len(rule.range) != len(("first", "last", "step")):
-            raise BankError(f"{path}: draw.{name}: range is [first, last, step]")
         try:
             unit(rule.unit)
         except FormulaError as error:
             raise BankError(f"{path}: draw.{name}: {error}") from error
-    if not rules.part:
-        raise BankError(f"{path}: at least one [[part]] is needed")
 
 
 def check_against_chain(template: Template) -> None:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from itertools import repeat
 
 from quizgen.bank.folder import Bank
-from quizgen.bank.template import minutes_of
+from quizgen.bank.rules import minutes_of
 from quizgen.errors import BlueprintError
 from quizgen.paper.blueprint import EVERYTHING, Blueprint, SlotRule
 

@@ -17,6 +17,7 @@ from quizgen.files import read_table
 from quizgen.marking.options import Context
 from quizgen.maths.chain import Chain, ChainStep
 from quizgen.maths.constants import exact_value
+from quizgen.maths.numbers import written
 
 if TYPE_CHECKING:
     from quizgen.paper.paper import Item, Paper
@@ -73,7 +74,7 @@ class KeyPart(msgspec.Struct):
 
     def worth(self) -> Fraction:
         """Points as an exact number."""
-        return Fraction(self.points)
+        return written(self.points)
 
 
 class KeyQuestion(msgspec.Struct):

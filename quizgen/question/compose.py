@@ -14,13 +14,14 @@ from markupsafe import Markup
 
 from quizgen.bank.draw import Draw, draw, reference
 from quizgen.bank.prose import Block, Inline
-from quizgen.bank.template import Scalar, Template
+from quizgen.bank.rules import Scalar
+from quizgen.bank.template import Template
 from quizgen.errors import BankError
 from quizgen.figures import Figure
 from quizgen.figures import render as render_figure
 from quizgen.marking.specs import AnySpec
 from quizgen.maths.notation import to_text
-from quizgen.maths.numbers import key_text, to_float
+from quizgen.maths.numbers import key_text, to_float, written
 from quizgen.maths.units import factor
 from quizgen.question.contract import Built, Control, Named
 from quizgen.question.filling import Filler
@@ -227,7 +228,7 @@ def _part(filler: Filler, index: int, number: str, built: Built[Any]) -> Part:
         options=_choices(filler, built.options),
         targets=_choices(filler, built.targets),
     )
-    return Part(label, Fraction(str(template.rules.part[index].points)), body, field)
+    return Part(label, written(template.rules.part[index].points), body, field)
 
 
 def _choices(filler: Filler, names: tuple[Named, ...]) -> tuple[Choice, ...]:

@@ -15,7 +15,8 @@ import quizgen.marking.kinds
 import quizgen.question.kinds
 from quizgen.bank.draw import draw
 from quizgen.bank.prose import parse_text
-from quizgen.bank.template import DrawRule, PartRule, Rules, Template
+from quizgen.bank.rules import DrawRule, PartRule, Rules
+from quizgen.bank.template import Template
 from quizgen.maths.chain import Chain
 from quizgen.paper.key import key_bytes, load_key
 from quizgen.paper.marking import mark_paper

@@ -9,7 +9,8 @@ import pytest
 from quizgen import typeset
 from quizgen.bank.draw import Draw, plan_of
 from quizgen.bank.prose import parse_text
-from quizgen.bank.template import DrawRule, PartRule, Rules, Template
+from quizgen.bank.rules import DrawRule, PartRule, Rules
+from quizgen.bank.template import Template
 from quizgen.errors import BankError
 from quizgen.maths.chain import Chain, ChainStep
 from quizgen.maths.notation import parse

@@ -1,0 +1,187 @@
+"""What a template's rules may hold: numbers that can be read, names, shapes and sizes of lists.
+
+Types alone let through what nobody means (no points, a step of 0, a range of a billion values) or
+what would stop a later stage without saying where. Here each such field is one located line.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from fractions import Fraction
+from typing import Any
+
+import msgspec
+
+from quizgen.bank.rules import DrawRule, KeepRule, Rules
+from quizgen.errors import FormulaError
+from quizgen.maths.constants import Scalar
+from quizgen.maths.numbers import written
+from quizgen.maths.tolerance import MOST_DIGITS
+from quizgen.outside import NAMES, is_name
+
+LARGEST = 10**100
+"""Largest size of an authored number, and of its inverse."""
+MOST_CHOICES = 10_000
+"""Values of a range, and entries of a list."""
+MOST_POINTS, MOST_MINUTES, MOST_PARTS, MOST_OPTIONS = 1000, 9999, 10, 12
+MOST_FORMULAS = 500
+
+Problems = Iterator[tuple[str, str]]
+"""Field and what is wrong in it."""
+
+
+class Answer(msgspec.Struct, frozen=True):
+    """The shapes of what an authored answer may name; each kind checks the rest."""
+
+    kind: str
+    of: str | tuple[str, ...] | dict[str, str] = ()
+    options: dict[str, bool | str] = {}
+    pairs: dict[str, str] = {}
+    steps: tuple[str, ...] = ()
+    before: tuple[tuple[str, str], ...] = ()
+    distractors: tuple[str, ...] = ()
+    gaps: tuple[str, ...] = ()
+    points: tuple[str, ...] = ()
+    true: bool | str = True
+    cells: dict[str, dict[str, bool | Scalar]] = {}
+    accept: tuple[Scalar, Scalar] | None = None
+    traps: dict[str, Any] = {}
+    let: dict[str, str] = {}
+    example: dict[str, Scalar] = {}
+    where: tuple[str, ...] = ()
+    predicate: str = ""
+    output: str = ""
+    unit: str = ""
+    percent: bool = False
+    symbols: tuple[str, ...] | dict[str, Any] = ()
+
+
+def number(text: Scalar) -> Fraction:
+    """An authored number.
+
+    Raises
+    ------
+    ValueError
+        If it cannot be read or is larger or smaller than anyone could mean.
+    """
+    value = written(text)
+    if value and not 1 <= abs(value) * LARGEST <= LARGEST**2:
+        raise FormulaError(f"{text!r} is too large or too small")
+    return value
+
+
+def problems(rules: Rules) -> Problems:
+    """Every field of the rules that holds what it cannot."""
+    yield from _names(rules)
+    yield from _sizes(rules)
+    for name, rule in rules.draw.items():
+        yield from ((f"draw.{name}.{field}", what) for field, what in _draw(rule))
+    for name, keep in rules.keep.items():
+        yield from ((f"keep.{name}.{field}", what) for field, what in _keep(keep))
+    for name, value in (rules.reference or {}).items():
+        if not rules.draw.get(name) or not rules.draw[name].words:
+            yield from _unreadable(f"reference.{name}", (value,))
+    for place, part in enumerate(rules.part, 1):
+        yield from ((f"part {place}: {field}", what) for field, what in _answer(part.answer))
+        yield from _out_of(f"part {place}: points", part.points, MOST_POINTS)
+
+
+def _names(rules: Rules) -> Problems:
+    figure = rules.figure.name if rules.figure else ""
+    single = {"topic": rules.topic, "formerly": rules.formerly or "-", "figure.name": figure or "-"}
+    listed = {"apart": rules.apart, "covers": rules.covers}
+    folders = rules.solver.split("/") if rules.solver else ()
+    pairs = [*single.items(), *(("solver", folder) for folder in folders)]
+    pairs += [(field, name) for field, names in listed.items() for name in names]
+    for field, name in pairs:
+        if not is_name(name):
+            yield field, f"{name!r} is no name (allowed: {NAMES})"
+
+
+def _sizes(rules: Rules) -> Problems:
+    if not 1 <= len(rules.part) <= MOST_PARTS:
+        yield "part", f"1 to {MOST_PARTS} tables [[part]] are needed"
+    whole = (
+        ("minutes", rules.minutes, MOST_MINUTES),
+        ("version", rules.version, 10**6),
+        ("pool", rules.pool, LARGEST),
+    )
+    for field, value, most in whole:
+        if value is not None and not 1 <= value <= most:
+            yield field, f"{value} is not between 1 and {'10^100' if most == LARGEST else most}"
+    for field, several in (("draw", rules.draw), ("keep", rules.keep), ("where", rules.where)):
+        if len(several) > MOST_FORMULAS:
+            yield field, f"more than {MOST_FORMULAS} entries"
+
+
+def _draw(rule: DrawRule) -> Problems:
+    for field in ("pick", "range", "skip", "words"):
+        if len(getattr(rule, field)) > MOST_CHOICES:
+            yield field, f"more than {MOST_CHOICES} entries"
+    wrong = [
+        (f, what) for f in ("pick", "range", "skip") for f, what in _unreadable(f, getattr(rule, f))
+    ]
+    yield from wrong
+    if rule.range and not wrong:
+        yield from _range(*rule.range)
+
+
+def _range(*span: Scalar) -> Problems:
+    if len(span) != len(("first", "last", "step")):
+        yield "range", "is [first, last, step]"
+        return
+    first, last, step = map(number, span)
+    if step == 0 or (last - first) / step < 0:
+        yield "range", "the step does not lead from the first to the last value"
+    elif (last - first) / step >= MOST_CHOICES:
+        yield "range", f"more than {MOST_CHOICES} values"
+
+
+def _keep(rule: KeepRule) -> Problems:
+    for field in ("min", "max", "multiple"):
+        yield from _unreadable(field, [v for v in (getattr(rule, field),) if v is not None])
+    yield from _unreadable("skip", rule.skip)
+    if (
+        rule.multiple is not None
+        and not list(_unreadable("", [rule.multiple]))
+        and not number(rule.multiple)
+    ):
+        yield "multiple", "of 0 is only 0"
+    if not 0 <= (rule.decimals or 0) <= MOST_DIGITS:
+        yield "decimals", f"must be 0 to {MOST_DIGITS}"
+    if rule.denominator is not None and rule.denominator < 1:
+        yield "denominator", "must be 1 or more"
+
+
+def _unreadable(field: str, values: Iterable[Scalar]) -> Problems:
+    for value in values:
+        try:
+            number(value)
+        except ValueError as error:
+            yield field, str(error)
+
+
+def _out_of(field: str, value: Scalar, most: int) -> Problems:
+    wrong = list(_unreadable(field, (value,)))
+    yield from wrong
+    if not wrong and not 0 < number(value) <= most:
+        yield field, f"{value} is not more than 0 and at most {most}"
+
+
+def _answer(table: Mapping[str, object]) -> Problems:
+    try:
+        answer = msgspec.convert(table, Answer)
+    except msgspec.ValidationError as error:
+        yield "answer", str(error)
+        return
+    listed: dict[str, Collection[str]] = {"options": answer.options, "pairs": answer.pairs,
+              "steps": (*answer.steps, *answer.distractors), "gaps": answer.gaps,
+              "points": answer.points}  # fmt: skip
+    for field, names in listed.items():
+        if len(names) > MOST_OPTIONS or (field in table and not names):
+            yield f"answer.{field}", f"1 to {MOST_OPTIONS} are needed"
+        if len(set(names)) < len(names):
+            yield f"answer.{field}", "a name stands twice"
+    strangers = {name for pair in answer.before for name in pair} - set(answer.steps)
+    if strangers:
+        yield "answer.before", f"names {sorted(strangers)}, which are not steps"

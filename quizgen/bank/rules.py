@@ -1,0 +1,84 @@
+"""What stands in ``template.toml``, as types: what to draw, what to keep, what is asked."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+import msgspec
+
+Scalar = int | float | str
+
+
+class DrawRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """How one quantity is drawn.
+
+    Exactly one of ``pick`` (a list), ``range`` (first, last, step), ``words`` (names of phrases
+    in the language files) and ``is`` (a formula over quantities drawn before) is given. With
+    ``by`` (a formula counting from 0) a phrase is not drawn but follows from numbers.
+    """
+
+    unit: str = ""
+    pick: tuple[Scalar, ...] = ()
+    range: tuple[Scalar, ...] = ()
+    skip: tuple[Scalar, ...] = ()
+    words: tuple[str, ...] = ()
+    by: str = ""
+    formula: str = msgspec.field(name="is", default="")
+
+
+class KeepRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """Which values of a solved quantity are kept, in the unit it is shown in."""
+
+    min: Scalar | None = None
+    max: Scalar | None = None
+    multiple: Scalar | None = None
+    decimals: int | None = None
+    denominator: int | None = None
+    skip: tuple[Scalar, ...] = ()
+
+
+class FigureRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """The figure and the formulas of its parameters."""
+
+    name: str
+    values: dict[str, Scalar] = {}
+    quiz: bool = True
+
+
+class PartRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """One sub-question: its marks and its answer."""
+
+    answer: dict[str, Any]
+    points: Scalar = 1
+    show: tuple[str, ...] | None = None
+
+
+class Rules(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """The whole of ``template.toml``."""
+
+    topic: str
+    tier: Literal["A", "B", "C", "D"]
+    part: tuple[PartRule, ...]
+    version: int = 1
+    formerly: str = ""
+    minutes: int | None = None
+    solver: str = ""
+    covers: tuple[str, ...] = ()
+    draw: dict[str, DrawRule] = {}
+    keep: dict[str, KeepRule] = {}
+    where: tuple[str, ...] = ()
+    may_vanish: tuple[str, ...] = ()
+    drop: tuple[str, ...] = ()
+    figure: FigureRule | None = None
+    reference: dict[str, Scalar] | None = None
+    pool: int | None = None
+    apart: tuple[str, ...] = ()
+    precision: tuple[str, ...] = ()
+
+
+TIER_MINUTES = {"A": 3, "B": 5, "C": 10, "D": 12}
+
+
+def minutes_of(rules: Rules) -> int:
+    """Suggested working time of a template."""
+    return rules.minutes or TIER_MINUTES[rules.tier]
