@@ -40,6 +40,8 @@ Inside = Mapping[str, Piece]
 
 _SIGN = re.compile(r"\s(!=|<=|>=|[=<>≠≤≥∝≈→∈~≪≫⇒])\s")
 _SPELLED = {"!=": "≠", "<=": "≤", ">=": "≥"}
+_SYMBOL = re.compile(r"\w[\w']*")
+_ENDS = ("()", "(]", "[)", "[]")
 _NAME = re.compile(r"[^\W\d_][^\W_]*'*(?:_[^\W_]+'*)*")
 
 
@@ -124,7 +126,17 @@ def piece(table: Piece, inside: Inside) -> Maths:
 
 def _text(table: Piece, name: str) -> str:
     """One text of a description."""
-    (text,) = _texts(table, name)
+    texts = _texts(table, name)
+    if len(texts) != 1:
+        raise RenderError(f"{name!r} is one text")
+    return texts[0]
+
+
+def _symbol(table: Piece, name: str) -> str:
+    """One letter or name of a description: nothing that MathJax could read as a command."""
+    text = _text(table, name)
+    if not _SYMBOL.fullmatch(text):
+        raise RenderError(f"{name} = {text!r} is no letter or name")
     return text
 
 
@@ -151,7 +163,7 @@ def _woven(parts: list[str], signs: list[str]) -> Iterator[str]:
 
 
 def _integral(table: Piece, inside: Inside) -> Maths:
-    body, over = _part(_text(table, "integral"), inside), _text(table, "over")
+    body, over = _part(_text(table, "integral"), inside), _symbol(table, "over")
     bounds = [_part(_text(table, end), inside) for end in ("low", "high") if end in table]
     sign = Big("∫", *[bound.node for bound in bounds])
     factors = body.node.items if isinstance(body.node, Row) else (body.node,)
@@ -162,7 +174,7 @@ def _integral(table: Piece, inside: Inside) -> Maths:
 
 def _apply(table: Piece, inside: Inside) -> Maths:
     parts = [_part(text, inside) for text in _texts(table, "to")]
-    head = _text(table, "apply")
+    head = _symbol(table, "apply")
     node = Func(_letter({"letter": head}, inside).node, tuple(part.node for part in parts))
     return Maths(node, f"{head}({', '.join(part.typed for part in parts)})")
 
@@ -176,18 +188,23 @@ def _tuple(table: Piece, inside: Inside) -> Maths:
 def _interval(table: Piece, inside: Inside) -> Maths:
     parts = [_part(text, inside) for text in _texts(table, "interval")]
     ends = _text(table, "ends")
+    if ends not in _ENDS:
+        raise RenderError(f"ends {ends!r} (allowed: {', '.join(_ENDS)})")
     typed = f"{ends[0]}{', '.join(part.typed for part in parts)}{ends[1]}"
     return Maths(typeset.fenced([part.node for part in parts], ends), typed)
 
 
 def _bold(table: Piece, inside: Inside) -> Maths:
     del inside
-    text = _text(table, "bold")
+    text = _symbol(table, "bold")
     return Maths(Ident(text, bold=True), text)
 
 
 def _quadratic(table: Piece, inside: Inside) -> Maths:
-    vector, matrix = (_part(text, inside) for text in _texts(table, "quadratic"))
+    texts = _texts(table, "quadratic")
+    if len(texts) != len(("vector", "matrix")):
+        raise RenderError("'quadratic' is a vector and a matrix")
+    vector, matrix = (_part(text, inside) for text in texts)
     held = typeset.bracketed(vector.node, ATOM)
     inverse = Scripts(matrix.node, None, typeset.negative(Number("1")))
     turned = typeset.power(held, Op("ᵀ"))
@@ -197,13 +214,13 @@ def _quadratic(table: Piece, inside: Inside) -> Maths:
 
 def _accent(table: Piece, inside: Inside) -> Maths:
     del inside
-    name = f"{_text(table, 'on')}_{_text(table, 'accent')}"
+    name = f"{_symbol(table, 'on')}_{_symbol(table, 'accent')}"
     return Maths(typeset.name(name), name)
 
 
 def _letter(table: Piece, inside: Inside) -> Maths:
     del inside
-    text = _text(table, "letter")
+    text = _symbol(table, "letter")
     return Maths(Ident(text) if len(text) == 1 else typeset.name(text), text)
 
 

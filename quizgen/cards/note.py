@@ -8,8 +8,10 @@ in which field is decided here, once, for Anki and for tables alike.
 from __future__ import annotations
 
 import hashlib
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from html import escape
 from typing import Any
 
 from quizgen.cards.prose import Hole, Picture, Said, html, pictures, plain
@@ -18,6 +20,8 @@ from quizgen.locale import FIRST, language
 Blocks = tuple[Any, ...]
 Words = Mapping[str, Blocks]
 """Language to blocks."""
+
+_NO_TAG = re.compile(r"[^\w:.§+-]")
 
 SAID = {"basic": ("Front", "Back", "More"), "term": ("Term", "Meaning"),
         "cloze": ("Title", "Extra")}  # fmt: skip
@@ -103,11 +107,11 @@ class Note:
         named += [f"section::{self.section}"] if self.section else []
         named += [f"lang::{lang}" for lang in self.langs]
         named += [f"ref::{ref}" for ref in self.refs]
-        return tuple(sorted(f"quizgen::{name}" for name in named))
+        return tuple(sorted(_tag(f"quizgen::{name}") for name in named))
 
     def fields(self) -> tuple[str, ...]:
         """HTML of every field of the note type, in order; a language not asked for is empty."""
-        filled = {"Key": self.key, "Source": self.source}
+        filled = {"Key": escape(self.key), "Source": escape(self.source)}
         main = self.langs[0]
         filled |= {name: html(blocks, main) for name, blocks in self.shared.items()}
         for name, words in self.words.items():
@@ -156,6 +160,11 @@ class Note:
         """A field in every language of the note, one after the other."""
         words = self.words.get(name, {})
         return tuple(Said(lang, words[lang]) for lang in self.langs if lang in words)
+
+
+def _tag(name: str) -> str:
+    """A tag: blanks would part it, control characters and quotes would leave its cell."""
+    return _NO_TAG.sub("_", name)
 
 
 def side_html(blocks: Blocks, lang: str, *, ask: bool) -> str:

@@ -134,6 +134,18 @@ def _piece(style: str, text: str) -> str:
     return rf"\({style}{escape(text, quote=False)}\)"
 
 
+_MARKS = re.compile(r"\\(?=[(\[]|begin|(?:eq)?ref)|\[(?=\$|/?latex|sound:|anki:)|\{(?=\{)|\}(?=\})")
+"""Where MathJax or Anki would take words for a formula, a sound or a blank of theirs."""
+BULLET = "•"
+"""Before an item in plain text; a spreadsheet would take a hyphen for the start of a formula."""
+WORD_JOINER = "\u2060"
+
+
+def text(words: str, *, quote: bool = False) -> str:
+    """Words as HTML that no reader of the card takes for anything but words."""
+    return escape(_MARKS.sub(rf"\g<0>{WORD_JOINER}", words), quote=quote)
+
+
 @singledispatch
 def html(part: object, lang: str, *, ask: bool | None = None) -> str:
     """One block, inline or tuple of them as HTML.
@@ -189,7 +201,7 @@ def _(part: Together, lang: str, *, ask: bool | None = None) -> str:
 @html.register
 def _(part: Words, lang: str, *, ask: bool | None = None) -> str:
     del lang, ask
-    return escape(part.text, quote=False)
+    return text(part.text)
 
 
 @html.register
@@ -201,7 +213,7 @@ def _(part: Maths, lang: str, *, ask: bool | None = None) -> str:
 @html.register
 def _(part: Code, lang: str, *, ask: bool | None = None) -> str:
     del lang, ask
-    return f"<code>{escape(part.text, quote=False)}</code>"
+    return f"<code>{text(part.text)}</code>"
 
 
 @html.register
@@ -217,7 +229,7 @@ def _(part: Paragraph, lang: str, *, ask: bool | None = None) -> str:
 @html.register
 def _(part: CodeBlock, lang: str, *, ask: bool | None = None) -> str:
     del lang, ask
-    lines = escape(part.text, quote=False).replace("\n", "<br>")
+    lines = text(part.text).replace("\n", "<br>")
     return f"<pre>{lines}</pre>"
 
 
@@ -263,27 +275,28 @@ def _(part: Hole, lang: str, *, ask: bool | None = None) -> str:
 @html.register
 def _(part: Picture, lang: str, *, ask: bool | None = None) -> str:
     del lang, ask
-    alt = escape(part.alt, quote=True)
-    return f'<img class="qg-{part.figure.dark}" src="{part.file}" alt="{alt}">'
+    alt = text(part.alt, quote=True)
+    return f'<img class="qg-{part.figure.dark}" src="{escape(part.file, quote=True)}" alt="{alt}">'
 
 
 @html.register
 def _(part: Fold, lang: str, *, ask: bool | None = None) -> str:
     body = html(part.body, lang, ask=ask)
-    title = escape(part.title, quote=False)
-    return f"<details><summary>{title}</summary>{body}</details>"
+    return f"<details><summary>{text(part.title)}</summary>{body}</details>"
 
 
 @html.register
 def _(part: Said, lang: str, *, ask: bool | None = None) -> str:
     del lang
-    return f'<div lang="{part.lang}">{html(part.body, part.lang, ask=ask)}</div>'
+    return (
+        f'<div lang="{escape(part.lang, quote=True)}">{html(part.body, part.lang, ask=ask)}</div>'
+    )
 
 
 @html.register
 def _(part: Label, lang: str, *, ask: bool | None = None) -> str:
     del lang, ask
-    return f'<div class="qg-label">{escape(part.text, quote=False)}</div>'
+    return f'<div class="qg-label">{text(part.text)}</div>'
 
 
 @singledispatch
@@ -340,7 +353,7 @@ def _(part: CodeBlock | Label, *, ask: bool = False) -> str:
 
 @plain.register
 def _(part: Items, *, ask: bool = False) -> str:
-    return "".join(f"- {plain(item, ask=ask).strip()}\n" for item in part.items)
+    return "".join(f"{BULLET} {plain(item, ask=ask).strip()}\n" for item in part.items)
 
 
 @plain.register

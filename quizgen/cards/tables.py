@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from quizgen.cards.apkg import deck_name
 from quizgen.cards.deck import Deck
 from quizgen.cards.note import side_html, side_text
+from quizgen.outside import defused
 
 COLUMNS = ("id", "deck", "kind", "front", "back", "tags")
 HEADER = (
@@ -57,7 +58,7 @@ def tsv(deck: Deck) -> bytes:
 
 def _cell(text: str) -> str:
     """A cell in quotes where it needs them; a tab or a line break cannot stand in HTML anyway."""
-    flat = text.replace("\t", " ").replace("\r", "").replace("\n", "<br>")
+    flat = defused(text).replace("\t", " ").replace("\r", "").replace("\n", "<br>")
     return '"' + flat.replace('"', '""') + '"' if '"' in flat or flat.startswith("#") else flat
 
 
@@ -66,5 +67,5 @@ def as_csv(deck: Deck) -> bytes:
     out = io.StringIO(newline="")
     writer = csv.writer(out, lineterminator="\r\n")
     writer.writerow(COLUMNS)
-    writer.writerows(rows(deck, rich=False))
+    writer.writerows(map(defused, row) for row in rows(deck, rich=False))
     return "\ufeff".encode() + out.getvalue().encode()
