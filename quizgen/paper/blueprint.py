@@ -18,16 +18,20 @@ topic, tiers in turn, as many as the time allows.
 from __future__ import annotations
 
 import re
-import tomllib
+from collections.abc import Iterator
 from pathlib import Path
 
 import msgspec
 
 from quizgen.bank.folder import Bank, builtin
+from quizgen.bank.limits import MOST_MINUTES, MOST_POINTS
 from quizgen.errors import BlueprintError
 from quizgen.locale import languages, word
+from quizgen.outside import NAMES, is_name, parse_toml, read_text
 
 MOST_QUESTIONS = 200
+"""Questions of a paper."""
+_CODE_NAME = re.compile(r"[\w .-]{1,80}")
 
 
 class SlotRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
@@ -89,28 +93,51 @@ def load_blueprint(name_or_file: str, bank: Bank | None = None) -> Blueprint:
         Naming file, key and what is allowed.
     """
     bank = builtin() if bank is None else bank
-    known = bank.blueprints
-    topic = re.fullmatch(r"(.+?)(?:\.(\d{1,4}))?", name_or_file)
-    if name_or_file not in known and topic and topic[1] in topics(bank):
-        return of_topic(bank, topic[1], int(topic[2] or 0))
-    path = known.get(name_or_file, Path(name_or_file))
-    try:
-        source = path.read_text(encoding="utf-8")
-    except OSError as error:
-        names = ", ".join(known) or "none"
+    found = named_blueprint(name_or_file, bank)
+    if found is not None:
+        return found
+    path = Path(name_or_file)
+    if not _is_there(path):
+        names = ", ".join(bank.blueprints) or "none"
         raise BlueprintError(
             f"no blueprint {name_or_file!r} (the bank has: {names}; or the path of a TOML file)"
-        ) from error
-    except UnicodeDecodeError as error:
-        raise BlueprintError(f"{path}: {error}") from error
-    return _convert(source, path.stem, str(path))
+        )
+    return _read(path)
+
+
+def _is_there(path: Path) -> bool:
+    try:
+        return path.exists()
+    except (OSError, ValueError):
+        return False
+
+
+def named_blueprint(name: str, bank: Bank) -> Blueprint | None:
+    """A bank's blueprint by its name, or a topic of the bank; None if it has neither.
+
+    Never a file by its path: names also come from papers' codes, which anyone may have written.
+    """
+    topic = re.fullmatch(r"(.+?)(?:\.(\d{1,4}))?", name, re.ASCII)
+    if name in bank.blueprints:
+        return _read(bank.blueprints[name])
+    if topic and topic[1] in topics(bank):
+        return of_topic(bank, topic[1], int(topic[2] or 0))
+    return None
+
+
+def _read(path: Path) -> Blueprint:
+    """Read a blueprint's file; its name becomes part of every code."""
+    if not _CODE_NAME.fullmatch(path.stem):
+        raise BlueprintError(
+            f"{path}: {path.stem!r} cannot stand in a code (allowed: letters, digits, blanks, '_', "
+            "'.' and '-', at most 80)"
+        )
+    return _convert(read_text(path, BlueprintError), path.stem, str(path))
 
 
 def _convert(source: str, name: str, where: str) -> Blueprint:
     try:
-        blueprint = msgspec.convert(tomllib.loads(source), Blueprint)
-    except tomllib.TOMLDecodeError as error:
-        raise BlueprintError(f"{where}: not valid TOML: {error}") from error
+        blueprint = msgspec.convert(parse_toml(source, where, BlueprintError), Blueprint)
     except msgspec.ValidationError as error:
         raise BlueprintError(f"{where}: {error}{_allowed(str(error))}") from error
     _check(blueprint, where)
@@ -130,11 +157,26 @@ def _check(blueprint: Blueprint, where: str) -> None:
     if not blueprint.slot:
         raise BlueprintError(f"{where}: at least one [[slot]] is needed")
     for index, slot in enumerate(blueprint.slot, 1):
-        if slot.tier is not None and slot.tier not in tuple("ABCD"):
-            raise BlueprintError(f"{where}: slot {index}: tier {slot.tier!r} (allowed: A, B, C, D)")
-        if slot.points is not None and slot.points <= 0:
-            raise BlueprintError(f"{where}: slot {index}: points must be positive")
-        if not 1 <= slot.count <= MOST_QUESTIONS:
-            raise BlueprintError(f"{where}: slot {index}: count must be 1 to {MOST_QUESTIONS}")
+        for problem in _problems(slot):
+            raise BlueprintError(f"{where}: slot {index}: {problem}")
+    for name in blueprint.reference:
+        if not is_name(name):
+            raise BlueprintError(f"{where}: reference: {name!r} is no name (allowed: {NAMES})")
+    total = max(sum(slot.count for slot in blueprint.slot), len(blueprint.reference))
+    if total > MOST_QUESTIONS:
+        raise BlueprintError(f"{where}: {total} questions (at most {MOST_QUESTIONS})")
+    if blueprint.minutes is not None and not 1 <= blueprint.minutes <= MOST_MINUTES:
+        raise BlueprintError(f"{where}: minutes must be 1 to {MOST_MINUTES}")
     if "en" not in blueprint.title:
         raise BlueprintError(f"{where}: title.en is missing")
+
+
+def _problems(slot: SlotRule) -> Iterator[str]:
+    if slot.tier is not None and slot.tier not in tuple("ABCD"):
+        yield f"tier {slot.tier!r} (allowed: A, B, C, D)"
+    if slot.points is not None and not 0 < slot.points <= MOST_POINTS:
+        yield f"points must be positive and at most {MOST_POINTS}"
+    if not 1 <= slot.count <= MOST_QUESTIONS:
+        yield f"count must be 1 to {MOST_QUESTIONS}"
+    names = (*slot.templates, *(() if slot.topic is None else (slot.topic,)))
+    yield from (f"{name!r} is no name (allowed: {NAMES})" for name in names if not is_name(name))

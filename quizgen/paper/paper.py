@@ -14,7 +14,7 @@ from quizgen.bank.template import Template
 from quizgen.errors import BlueprintError, CodeError, DrawError
 from quizgen.locale import chosen
 from quizgen.maths.superscripts import RAISED
-from quizgen.paper.blueprint import Blueprint, SlotRule, load_blueprint
+from quizgen.paper.blueprint import Blueprint, SlotRule, named_blueprint
 from quizgen.paper.choose import choose, variety, weights
 from quizgen.paper.code import REFERENCE, Code, checked_seed, digest_of, parse_code
 from quizgen.question.compose import Key, Question, identity, instance, put_into_words
@@ -148,7 +148,7 @@ def rebuild(
         If it is not a code, or the templates behind it have changed since.
     """
     wanted = parse_code(code)
-    plan = blueprint or load_blueprint(wanted.blueprint, bank)
+    plan = blueprint or _plan(wanted, bank)
     if wanted.is_reference:
         paper = reference_paper(bank, plan, wanted.choice, figures=figures, progress=progress)
     else:
@@ -161,6 +161,17 @@ def rebuild(
             f"this installation would make {paper.code}"
         )
     return paper
+
+
+def _plan(code: Code, bank: Bank) -> Blueprint:
+    """The blueprint that a code names: one of the bank's own, never a file."""
+    plan = named_blueprint(code.blueprint, bank)
+    if plan is None:
+        raise CodeError(
+            f"{code}: this bank has no blueprint {code.blueprint!r}; "
+            "give the file that the paper was made with (--blueprint FILE)"
+        )
+    return plan
 
 
 def reference_paper(

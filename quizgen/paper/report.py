@@ -10,6 +10,7 @@ from fractions import Fraction
 
 from quizgen.marking.echo import safe
 from quizgen.marking.messages import words
+from quizgen.outside import defused, printable
 from quizgen.paper.marking import PaperResult, PartResult
 
 COLOURS = {
@@ -21,6 +22,9 @@ COLOURS = {
     "open": "cyan",
     "blank": "bright_black",
 }
+
+MOST_UNKNOWN = 10
+"""Answers to parts that the paper does not have, of one form, that are named."""
 
 
 def points_text(value: Fraction | None) -> str:
@@ -69,8 +73,10 @@ def table_lines(result: PaperResult, lang: str, columns: int, paint: bool) -> It
     yield f"{table['total']}: {points_text(result.marks)} / {points_text(result.points)}"
     if result.asked_back:
         yield table["asked-back"].format(count=result.asked_back)
-    for part in result.unknown:
+    for part in result.unknown[:MOST_UNKNOWN]:
         yield table["unknown-part"].format(part=safe(part))
+    if len(result.unknown) > MOST_UNKNOWN:
+        yield f"... (+{len(result.unknown) - MOST_UNKNOWN})"
 
 
 def _line(cells: list[str], sizes: list[int]) -> str:
@@ -101,8 +107,8 @@ def class_csv(results: list[tuple[str, str, PaperResult]]) -> str:
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(
         ["file", "name", "marks", "points", "asked_back", "to_decide"]
-        + [f"{name} marks" for name in ids]
-        + [f"{name} note" for name in ids]
+        + [_cell(f"{name} marks") for name in ids]
+        + [_cell(f"{name} note") for name in ids]
     )
     for file, name, result in results:
         writer.writerow(_class_row(file, name, result))
@@ -114,13 +120,13 @@ def _class_row(file: str, name: str, result: PaperResult) -> list[str]:
     counts = [str(result.asked_back), str(result.to_decide)]
     marks = ["" if part.marks is None else points_text(part.marks) for part in result.parts]
     notes = [_note(part) for part in result.parts]
-    return [_harmless(file), _harmless(name), *totals, *counts, *marks, *notes]
+    return [_cell(file), _cell(name), *totals, *counts, *marks, *map(_cell, notes)]
+
+
+def _cell(text: str) -> str:
+    """A text that a spreadsheet does not run and a terminal does not obey."""
+    return defused(printable(text))
 
 
 def _note(part: PartResult) -> str:
     return part.status if part.blank else part.verdict.note or part.verdict.verdict
-
-
-def _harmless(text: str) -> str:
-    """Keep a spreadsheet from running a name as a formula."""
-    return f"'{text}" if text[:1] in {"=", "+", "-", "@", "\t", "\r"} else text
