@@ -1,8 +1,10 @@
-"""Showing a learner's own text back: shortened, and harmless in a terminal or a page."""
+"""Showing a learner's own text back: shortened, and harmless in a terminal.
+
+Who writes a page escapes there: a message is text, also for JSON and for listeners.
+"""
 
 from __future__ import annotations
 
-import html
 import unicodedata
 
 LONGEST_ECHO = 40
@@ -14,9 +16,8 @@ def shorten(text: str, longest: int = LONGEST_ECHO) -> str:
 
 
 def safe(text: str, longest: int = LONGEST_ECHO) -> str:
-    """Shorten, name control characters, and escape what a page would read as markup."""
-    visible = "".join(map(_visible, shorten(text, longest)))
-    return html.escape(visible, quote=False)
+    """Shorten, and name control characters."""
+    return "".join(map(_visible, shorten(text, longest)))
 
 
 def _visible(character: str) -> str:

@@ -121,7 +121,7 @@ def test_a_missing_end_points_behind_the_text():
 @pytest.mark.parametrize(
     ("text", "shown"),
     [
-        ("<b>", "&lt;b&gt;"),
+        ("<b>", "<b>"),
         ("a\x00b", "a[U+0000 control character]b"),
         ("a\u200bb", "a[U+200B ZERO WIDTH SPACE]b"),
         ("\x1b[31m", "[U+001B control character][31m"),
