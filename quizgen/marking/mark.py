@@ -10,6 +10,7 @@ from collections.abc import Mapping
 
 from quizgen.errors import KeyFileError, one_of
 from quizgen.locale import languages
+from quizgen.marking.diagnosis.slips import common_slip
 from quizgen.marking.kinds import KINDS
 from quizgen.marking.kinds.contract import Kind
 from quizgen.marking.messages import say
@@ -21,6 +22,9 @@ from quizgen.maths.precision import working_precision
 
 TWO_READINGS = frozenset({"comma-twice", "two-readings"})
 """Reasons for asking back that are not the learner's slip: the text can be read in two ways."""
+
+NAMING = frozenset({"cells", "coordinate"})
+"""Notes that only name what is wrong."""
 
 
 def load_spec(spec: Table) -> Kind:
@@ -112,8 +116,18 @@ def explained(spec: Kind, verdict: Verdict, lang: str) -> Verdict:
 def _sentence(spec: Kind, verdict: Verdict, lang: str) -> str:
     name = verdict.note.removeprefix("trap:")
     if name == verdict.note:
-        return say(lang, verdict.note, verdict.fields) if name else ""
+        said = say(lang, verdict.note, verdict.fields) if name else ""
+        return f"{said} {_shared(verdict, lang)}".strip()
     return spec.notes.get(lang, {}).get(name) or say(lang, "trap", verdict.fields)
+
+
+def _shared(verdict: Verdict, lang: str) -> str:
+    """What all wrong cells have in common, behind the names of the wrong ones."""
+    missed = [cell for cell in verdict.cells if cell.credit < 1]
+    if verdict.note not in NAMING or len({cell.note for cell in missed}) != 1:
+        return ""
+    note, fields = common_slip(missed)
+    return "" if note.startswith("trap:") else say(lang, note, fields)
 
 
 @working_precision()

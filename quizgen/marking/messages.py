@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 
 from quizgen.locale import known, table
 from quizgen.marking.echo import safe
+
+_CLAUSE = re.compile("⟨([^⟩]*)⟩")
+"""Part of a sentence that is left out where nothing is known to fill it in."""
 
 
 def _table(lang: str) -> dict[str, dict[str, str]]:
@@ -37,12 +41,18 @@ def say(lang: str, note: str, fields: Mapping[str, object]) -> str:
     note : str
         Key of the sentence; an empty or unknown note has no sentence.
     fields : mapping
-        Texts and numbers to fill in; learner's text among them is escaped and shortened.
+        Texts and numbers to fill in; control characters in them are named, long ones cut.
     """
     sentence = sentences(lang).get(note, "")
-    if not fields or "{" not in sentence:
+    if "{" not in sentence:
         return sentence
-    return sentence.format_map(_Blanks({key: _shown(lang, v) for key, v in fields.items()}))
+    shown = _Blanks({key: _shown(lang, v) for key, v in fields.items()})
+    return _CLAUSE.sub(lambda clause: _known(clause[1], shown), sentence).format_map(shown)
+
+
+def _known(clause: str, shown: Mapping[str, str]) -> str:
+    """A clause, if there is something to say in it."""
+    return clause if all(shown.get(name) for name in re.findall(r"{(\w+)}", clause)) else ""
 
 
 class _Blanks(dict[str, str]):

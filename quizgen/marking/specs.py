@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import TypeVar
 
 import msgspec
+from flint import fmpq
 
 from quizgen.errors import FormulaError, KeyFileError
 from quizgen.marking.diagnosis.slips import CLOSE
@@ -23,6 +24,9 @@ Notes = dict[str, dict[str, str]]
 
 Table = Mapping[str, object]
 """A specification as a key stores it."""
+
+WIDEST = fmpq(1, 20)
+"""Share of a mistake's value beyond which a number is no longer called by its name."""
 
 Shape = TypeVar("Shape", bound="Worded | Measured")
 
@@ -145,6 +149,27 @@ def gives(spec: Tolerance, number: Number, value: Value, target: Value) -> bool:
     distance = abs(value - target)
     rounded = number.places and distance * 2 * 10**number.places <= 1
     return bool(rounded and distance <= CLOSE * abs(target))
+
+
+def mistaken(spec: Tolerance, number: Number, value: Value, trap: Value) -> bool:
+    """Whether a value is what a mistake gives, with a tolerance of the mistake's own.
+
+    The key's tolerance may be far wider than a small mistake, and would then call any small
+    number by its name; so the distance counts relative to the mistake, or to the places written.
+    """
+    if not gives(spec, number, value, trap):
+        return False
+    distance = abs(value - trap)
+    if distance * 2 * 10**number.places <= 1:
+        return True
+    width, share = spec.half_width(trap), CLOSE * abs(trap)
+    return bool(distance <= max(share, min(width, WIDEST * abs(trap))))
+
+
+def all_mistaken(spec: Tolerance, numbers: Sequence[Number], traps: Sequence[Value]) -> bool:
+    """Whether each number is what a mistake gives for it."""
+    pairs = zip(numbers, traps, strict=True)
+    return all(mistaken(spec, number, number.value, trap) for number, trap in pairs)
 
 
 def all_given(spec: Tolerance, numbers: Sequence[Number], targets: Sequence[Value]) -> bool:

@@ -50,7 +50,7 @@ ANGLE = {"kind": "number", "value": "39.5977527", "decimals": 1, "of": ["a"]}
     ("spec", "typed", "model", "given", "note"),
     [
         (IMAGE, "40 mm", LENS, LENS_GIVEN, "operator"),  # 1/f + 1/z
-        (IMAGE, "-66.67 mm", LENS, LENS_GIVEN, "operands"),
+        (IMAGE, "-66.67 mm", LENS, LENS_GIVEN, "sign"),
         (LIGHT, "8", STOPS, STOPS_GIVEN, "square-forgotten"),
         (LIGHT, "1/64", STOPS, STOPS_GIVEN, "ratio-inverted"),
         (STOP, "3", STOPS, STOPS_GIVEN, "square-forgotten"),

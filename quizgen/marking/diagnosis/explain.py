@@ -10,7 +10,6 @@ from typing import Any
 
 from quizgen.marking.diagnosis.mutations import variants
 from quizgen.maths.chain import Chain, ChainStep, Plan
-from quizgen.maths.notation import to_text
 from quizgen.maths.systems import compile_expr, floats
 from quizgen.maths.tree import Call, Expr, Num, Sym, names
 from quizgen.maths.units import unit
@@ -60,9 +59,8 @@ class Explainer:
         yield from self._prefixes(needed)
 
     def _variants(self, step: ChainStep) -> Iterator[tuple[str, str, Expr]]:
-        where = f"{step.name} = {to_text(step.expr)}"
         for note, detail, changed in variants(step.expr, self._alike):
-            yield note, detail if note in {"wrong-parameter", "log-base"} else where, changed
+            yield note, detail if note in {"wrong-parameter", "log-base"} else step.name, changed
         for name in sorted(names(step.expr)):
             yield "step-left-out", step.name, Sym(name)
 
@@ -94,7 +92,9 @@ class Explainer:
         Returns
         -------
         tuple of str
-            Note and detail; empty if no slip or more than one kind of slip explains the value.
+            Note, and the step or the names concerned (never a formula: it may be asked for); the
+            detail is empty if several slips of the kind explain the value, both if none or more
+            than one kind does.
         """
         env = {name: float(number) for name, number in solved.items()}
         right = env[target]
@@ -102,7 +102,7 @@ class Explainer:
         for slip in self.slips(target):
             result = _run(slip.plan, env, target)
             if result is not None and abs(result - value) <= slack and result != right:
-                hits[slip.note] = "" if slip.note in hits else slip.detail
+                hits[slip.note] = slip.detail if hits.get(slip.note) in {None, slip.detail} else ""
         if len(hits) != 1:
             return "", ""
         ((note, detail),) = hits.items()

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from flint import arb, fmpq
 
 from quizgen.marking.reading.scalars import Number
+from quizgen.marking.verdict import Verdict
 from quizgen.maths.numbers import magnitude, to_float
 from quizgen.maths.precision import working_precision
 from quizgen.maths.values import Value
@@ -50,8 +52,24 @@ def power_of_ten(value: Value, key: Value) -> int:
     return power if power and close(value, key * _TENS[power]) else 0
 
 
-def slip(number: Number, value: Value, key: Value) -> tuple[str, dict[str, object]]:
+def radians(value: Value, key: Value) -> bool:
+    """Whether a number is the key's angle, given in radians for degrees."""
+    return value != 0 and close(value * 180 / arb.pi(), key)
+
+
+def slip(
+    number: Number, value: Value, key: Value, *, ratio: bool = True
+) -> tuple[str, dict[str, object]]:
     """Explain a wrong number by one generic slip.
+
+    Parameters
+    ----------
+    number : Number
+        How it was written.
+    value, key : Value
+        The wrong number and the right one, in one unit.
+    ratio : bool
+        Whether the key is a plain ratio: only one of these can be upside down.
 
     Returns
     -------
@@ -65,11 +83,24 @@ def slip(number: Number, value: Value, key: Value) -> tuple[str, dict[str, objec
     power = power_of_ten(value, key)
     if power:
         return _power_note(number, key, power)
-    if close(value * key, fmpq(1)):
+    if ratio and close(value * key, fmpq(1)):
         return "reciprocal", {}
     if power_of_ten(-value, key):
         return "sign-and-power", {}
     return _factor(value, key)
+
+
+def common_slip(cells: Sequence[Verdict]) -> tuple[str, dict[str, object]]:
+    """The slip that all cells of a table or coordinates of a point share.
+
+    Its fields are kept where they are the same, too; a sentence does without the others.
+    """
+    notes = {cell.note for cell in cells if cell.credit < 1}
+    if len(notes) != 1 or any(cell.credit == 1 for cell in cells):
+        return "", {}
+    first = cells[0].fields
+    same = {k: v for k, v in first.items() if all(c.fields.get(k) == v for c in cells)}
+    return notes.pop(), same
 
 
 def _power_note(number: Number, key: Value, power: int) -> tuple[str, dict[str, object]]:

@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 from flint import fmpq
 
 from quizgen.marking.diagnosis.context import Hints
-from quizgen.marking.diagnosis.slips import slip
+from quizgen.marking.diagnosis.slips import close, slip
 from quizgen.marking.reading.literals import Doubt
 from quizgen.marking.reading.scalars import Number, Readings
-from quizgen.marking.specs import gives
+from quizgen.marking.specs import mistaken
 from quizgen.marking.verdict import HALF, Verdict, ambiguous, correct, partial, wrong
 from quizgen.maths.tolerance import Tolerance
 from quizgen.maths.values import Value
@@ -59,6 +59,8 @@ class Asked:
         ``fraction``, ``lowest``, ``decimal`` or empty.
     hints : Hints, optional
         The question around: errors carried forward, slips in its chain.
+    ratio : bool
+        Whether it is a plain ratio, which can be upside down.
     """
 
     spec: Tolerance
@@ -66,6 +68,7 @@ class Asked:
     traps: Sequence[tuple[str, Value]] = ()
     form: str = ""
     hints: Hints | None = None
+    ratio: bool = False
 
 
 def judge_value(asked: Asked, number: Number, value: Value, read_as: str = "") -> Verdict:
@@ -87,10 +90,12 @@ def judge_value(asked: Asked, number: Number, value: Value, read_as: str = "") -
 
 
 def _slipped(asked: Asked, number: Number, value: Value, read_as: str) -> Verdict:
+    if value != 0 and close(-value, asked.key):
+        return wrong(read_as, "sign")
     diagnosed = asked.hints.slip(value) if asked.hints else None
     if diagnosed is not None:
         return replace(diagnosed, read_as=read_as)
-    note, fields = slip(number, value, asked.key)
+    note, fields = slip(number, value, asked.key, ratio=asked.ratio)
     return wrong(read_as, note, **fields)
 
 
@@ -105,7 +110,9 @@ def trapped(
     spec: Tolerance, number: Number, value: Value, traps: Iterable[tuple[str, Value]]
 ) -> str:
     """Name of the nearest known mistake that gives the value, or an empty text."""
-    hits = [(abs(value - trap), name) for name, trap in traps if gives(spec, number, value, trap)]
+    hits = [
+        (abs(value - trap), name) for name, trap in traps if mistaken(spec, number, value, trap)
+    ]
     if not hits:
         return ""
     nearest = hits[0]

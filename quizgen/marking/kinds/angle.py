@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from flint import arb, fmpq
+from flint import fmpq
 
 from quizgen.marking.diagnosis.context import hints_for
-from quizgen.marking.diagnosis.slips import close
+from quizgen.marking.diagnosis.slips import close, radians
 from quizgen.marking.judging.number import Asked, judge_value, resolve
+from quizgen.marking.kinds.quantity import DEGREES
 from quizgen.marking.options import Options
 from quizgen.marking.reading.named import without_name
 from quizgen.marking.reading.quantities import TypedQuantity, split_quantity
@@ -21,8 +22,6 @@ from quizgen.maths.constants import Scalar, exact_value
 from quizgen.maths.tolerance import AngleTolerance
 from quizgen.maths.units import shown as shown_unit
 from quizgen.maths.values import Value
-
-DEGREES = (("deg", 1),)
 
 
 class Spec(OneNumber, kw_only=True, frozen=True):
@@ -61,7 +60,11 @@ def _judge(spec: Spec, number: Number, quantity: TypedQuantity, options: Options
     value = number.value * factor
     verdict = _on_circle(spec, number, value, read_as, options)
     bare = quantity.unit is None and not verdict.credit
-    if bare and not verdict.note.startswith("trap:") and _radians(spec, number.value):
+    if (
+        bare
+        and not verdict.note.startswith("trap:")
+        and radians(number.value, exact_value(spec.value))
+    ):
         verdict = wrong(read_as, "radians")
     elif not verdict.credit and not verdict.note and close(-value, exact_value(spec.value)):
         verdict = wrong(read_as, "sign")
@@ -89,7 +92,3 @@ def around(spec: Spec, target: Value, value: Value) -> Value:
     turns = (value - target) / period
     exact = turns if isinstance(turns, fmpq) else turns.mid().fmpq()
     return target + period * fmpq((exact + fmpq(1, 2)).floor())
-
-
-def _radians(spec: Spec, value: Value) -> bool:
-    return close(value * 180 / arb.pi(), exact_value(spec.value)) and value != 0

@@ -10,7 +10,7 @@ from quizgen.marking.echo import safe
 from quizgen.marking.options import Options
 from quizgen.marking.reading.rewrites import LONGEST_PROSE, REWRITES, Source, refuse_invisible
 from quizgen.marking.specs import Worded
-from quizgen.marking.verdict import Verdict, correct, wrong
+from quizgen.marking.verdict import HALF, Verdict, correct, partial, wrong
 from quizgen.maths.notation import ReadError
 
 
@@ -28,6 +28,7 @@ class Spec(Worded, kw_only=True, frozen=True):
         source = Source.of(typed)
         for name in ("direction marks around", "blanks", "digits", "minus and dashes"):
             source = source.sub(*REWRITES[name])
+        source = source.sub(_QUOTES, lambda quote: _STRAIGHT[quote[0]])
         refuse_invisible(source, "\r\n")
         given = folded(source.text)
         if not given:
@@ -35,13 +36,20 @@ class Spec(Worded, kw_only=True, frozen=True):
         for output in (self.output, *self.also):
             if given == folded(output):
                 return correct(safe(given))
-        return wrong(safe(given), _note(self, given))
+        note = _note(self, given)
+        if note == "output-brackets":
+            return partial(HALF, safe(given), note)
+        return wrong(safe(given), note)
 
     def show(self) -> str:
         """Return the output."""
         return self.output
 
 
+_BRACKETS = re.compile(r"[\[\](){}]")
+_STRAIGHT = {**dict.fromkeys("“”„‟«»", '"'), **dict.fromkeys("‘’‚‛", "'")}
+"""Quotation marks that an editor puts in place of those of a program."""
+_QUOTES = re.compile(f"[{''.join(_STRAIGHT)}]")
 _INSIDE = re.compile(r"\s*([\[\](){},:=])\s*")
 
 
@@ -57,6 +65,8 @@ def _note(spec: Spec, given: str) -> str:
         if given == folded(output):
             return f"trap:{name}"
     wanted = folded(spec.output)
+    if given == _BRACKETS.sub("", wanted):
+        return "output-brackets"
     if given.casefold() == wanted.casefold():
         return "output-case"
     if re.sub(r"\s", "", given) == re.sub(r"\s", "", wanted):

@@ -9,7 +9,7 @@ import msgspec
 from flint import fmpq
 
 from quizgen.marking.diagnosis.context import CARRIED, hints_for
-from quizgen.marking.diagnosis.slips import close
+from quizgen.marking.diagnosis.slips import close, common_slip
 from quizgen.marking.judging.number import Asked, judge_value, settle
 from quizgen.marking.options import Options
 from quizgen.marking.reading.lists import read_list
@@ -19,7 +19,7 @@ from quizgen.marking.reading.rewrites import Source
 from quizgen.marking.reading.scalars import Number
 from quizgen.marking.reading.unit_words import TypedUnit
 from quizgen.marking.rounding import shown
-from quizgen.marking.specs import Numbers, all_given
+from quizgen.marking.specs import Numbers, all_given, all_mistaken
 from quizgen.marking.verdict import Verdict, correct, partial, shared, with_values, wrong
 from quizgen.maths.constants import exact_value
 from quizgen.maths.notation import ReadError
@@ -116,7 +116,7 @@ def _cell(spec: Spec, index: int, number: Number, key: Value, options: Options) 
 
 def _trap(spec: Spec, numbers: list[Number]) -> str:
     for name, values in spec.traps.items():
-        if all_given(spec, numbers, [exact_value(value) for value in values]):
+        if all_mistaken(spec, numbers, [exact_value(value) for value in values]):
             return name
     return ""
 
@@ -133,18 +133,8 @@ def _hint(
     if all(keys[i] != 0 and close(-values[i], keys[i]) for i in missed):
         note = "coordinate-sign"
     elif len(missed) == len(cells):
-        note, fields = _common(cells)
+        note, fields = common_slip(cells)
     return shared(_credit(keys, cells), read_as, note, names=_names(spec, missed), **fields)
-
-
-_SHARED = frozenset({"power-of-ten", "factor", "reciprocal", "percent-slip"})
-
-
-def _common(cells: tuple[Verdict, ...]) -> tuple[str, dict[str, object]]:
-    """Return the slip that all coordinates share."""
-    slips = {(cell.note, tuple(cell.fields.items())) for cell in cells}
-    note, fields = slips.pop()
-    return (note, dict(fields)) if not slips and note in _SHARED else ("", {})
 
 
 def _credit(keys: list[Value], cells: tuple[Verdict, ...]) -> Fraction:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from flint import fmpq
 
 from quizgen.marking.diagnosis.context import hints_for
-from quizgen.marking.diagnosis.slips import close, power_of_ten
+from quizgen.marking.diagnosis.slips import close, power_of_ten, radians
 from quizgen.marking.judging.number import Asked, judge_value, resolve
 from quizgen.marking.options import Options
 from quizgen.marking.reading.named import without_name
@@ -19,6 +19,10 @@ from quizgen.marking.verdict import HALF, Verdict, partial, with_values, wrong
 from quizgen.maths.constants import exact_value
 from quizgen.maths.units import shown as shown_unit
 from quizgen.maths.values import Value
+
+DEGREES = (("deg", 1),)
+POWERS = frozenset({"power-of-ten", "percent-slip"})
+"""Slips of a number that are those of a prefix where the number has a unit."""
 
 
 class Spec(OneNumber, kw_only=True, frozen=True):
@@ -105,10 +109,14 @@ def _prefix(
     key = exact_value(spec.value)
     if verdict.note == "factor" and spec.unit == "dB":
         return _decibel(value, key, verdict)
-    if verdict.note not in {"power-of-ten", "percent-slip"}:
+    if verdict.credit or verdict.note.startswith("trap:"):
+        return verdict
+    if typed.dimension == DEGREES and typed.factor == 1 and radians(number.value, key):
+        return with_values(wrong(verdict.read_as, "radians"), *verdict.values)
+    same = close(number.value, key) and typed.text != spec.unit
+    if not (same and power_of_ten(value, key)) and verdict.note not in POWERS:
         return verdict
     asked = shown_unit(spec.unit)
-    same = close(number.value, key) and typed.text != spec.unit
     note = "unit-prefix" if same else "unit-prefix-power"
     fields = {"asked": asked, "power": power_of_ten(value, key)}
     return with_values(wrong(verdict.read_as, note, **fields), *verdict.values)

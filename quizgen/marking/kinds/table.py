@@ -9,6 +9,7 @@ from typing import Any
 
 import msgspec
 
+from quizgen.marking.diagnosis.slips import common_slip
 from quizgen.marking.kinds import angle, number, quantity
 from quizgen.marking.options import Options
 from quizgen.marking.reading.lists import read_list
@@ -132,7 +133,8 @@ def _together(names: list[str], cells: list[Verdict], read_as: str, trap: str) -
     if not missed:
         notes = {c.note for c in cells if c.verdict == "partial"}
         return partial(credit, read_as, notes.pop()) if notes else correct(read_as)
-    return shared(credit, read_as, f"trap:{trap}" if trap else "cells", names=missed)
+    note, fields = (f"trap:{trap}", {}) if trap else common_slip(cells)
+    return shared(credit, read_as, note or "cells", names=missed, **fields)
 
 
 def _trap(spec: Spec, placed: Mapping[str, Source], options: Options) -> str:
@@ -144,13 +146,22 @@ def _trap(spec: Spec, placed: Mapping[str, Source], options: Options) -> str:
 def _gives(spec: Spec, trap: str, placed: Mapping[str, Source], options: Options) -> bool:
     """Whether a mistake explains all cells: whoever made it typed its values throughout."""
     values = spec.traps[trap]
-    for name in spec.values:
-        if name not in placed:
-            return False
-        wrong_cell = cell(replace_values(spec, name, values.get(name, spec.values[name])), name)
-        if wrong_cell.judge(placed[name].text, options).credit < 1:
-            return False
-    return True
+    return all(
+        name in placed
+        and _gives_cell(spec, trap, name, values.get(name, right), placed[name].text, options)
+        for name, right in spec.values.items()
+    )
+
+
+def _gives_cell(
+    spec: Spec, trap: str, name: str, value: Scalar, typed: str, options: Options
+) -> bool:
+    """Whether a mistake gives one cell, which may be right all the same."""
+    named = msgspec.structs.replace(spec, traps={trap: {name: value}})
+    verdict = cell(named, name).judge(typed, options)
+    if not verdict.credit:
+        return verdict.note == f"trap:{trap}"
+    return cell(replace_values(spec, name, value), name).judge(typed, options).credit == 1
 
 
 def replace_values(spec: Spec, name: str, value: Scalar) -> Spec:

@@ -21,7 +21,7 @@ from quizgen.marking.rounding import exact_or_figures
 from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, ambiguous, correct, with_values, wrong
 from quizgen.maths.constants import Scalar, exact_value
-from quizgen.maths.notation import ReadError, to_text
+from quizgen.maths.notation import ReadError
 from quizgen.maths.operators import CONDITIONS
 from quizgen.maths.precision import working_precision
 from quizgen.maths.tree import Call, Expr
@@ -91,9 +91,12 @@ def _extended(spec: Spec, env: dict[str, Any]) -> dict[str, Any]:
 
 
 def _tested(spec: Spec, env: dict[str, Any], read_as: str) -> Verdict:
-    for text in (*_domains(spec), *spec.where):
+    for text, shown in _domains(spec):
         if _holds(spec, text, env) is not True:
-            return wrong(read_as, "constraint", constraint=_filled(spec, text, env))
+            return wrong(read_as, "constraint", constraint=shown)
+    for text in spec.where:
+        if _holds(spec, text, env) is not True:
+            return wrong(read_as, "constraint", claim=_filled(spec, text, env))
     held = _holds(spec, spec.predicate, env)
     if held is True:
         return correct(read_as)
@@ -110,31 +113,37 @@ def _holds(spec: Spec, text: str, env: dict[str, Any]) -> bool | None:
     return bool(result)
 
 
-def _domains(spec: Spec) -> Iterator[str]:
-    """Constraints that the symbols' domains state."""
+def _domains(spec: Spec) -> Iterator[tuple[str, str]]:
+    """Constraints that the symbols' domains state, and how they are shown."""
     if not isinstance(spec.symbols, dict):
         return
     for name, domain in spec.symbols.items():
         if domain == "positive":
-            yield f"{name} > 0"
+            yield f"{name} > 0", f"{name} > 0"
         elif isinstance(domain, list):
             low, high = (exact_or_figures(exact_value(bound), 12) for bound in domain)
-            yield f"{_signed(low)} <= {name} <= {_signed(high)}"
+            relation = f"{_signed(low)} <= {name} <= {_signed(high)}"
+            yield relation, f"{low} ≤ {name} ≤ {high}"
 
 
 def _signed(text: str) -> str:
     return f"({text})" if text.startswith("-") else text
 
 
+_SIGNS = {"lt": "<", "le": "≤", "gt": ">", "ge": "≥", "eq": "=", "ne": "≠"}
+
+
 def _filled(spec: Spec, text: str, env: dict[str, Any]) -> str:
-    """Return a failing relation with both sides' values: ``x^2 < x: 4 < 2``."""
+    """Return a failing relation with both sides' values, ``4 < 2``; empty if they say nothing.
+
+    The relation itself is program text and may hold names that no question mentions.
+    """
     tree = author(text, spec.known())
-    sides = tree.args if isinstance(tree, Call) and len(tree.args) == 2 else ()
+    sides = tree.args if isinstance(tree, Call) and tree.op in _SIGNS else ()
     values = [_side(side, env) for side in sides]
-    if not sides or None in values or tree.op in {"and", "or"}:  # type: ignore[union-attr]
-        return text
-    sign = {"lt": "<", "le": "≤", "gt": ">", "ge": "≥", "eq": "=", "ne": "≠"}[tree.op]  # type: ignore[union-attr]
-    return f"{to_text(sides[0])} {sign} {to_text(sides[1])}: {values[0]} {sign} {values[1]}"
+    if len(values) != 2 or None in values:
+        return ""
+    return f"{values[0]} {_SIGNS[tree.op]} {values[1]}"  # type: ignore[union-attr]
 
 
 def _side(side: Expr, env: dict[str, Any]) -> str | None:
