@@ -264,7 +264,7 @@ def test_no_line_is_thinner_than_print_can_hold(drawn):
         ("pinhole", {"f": 2, "p_z": float("nan"), "p_y": 1}, "en", "p_z = nan"),
         ("pinhole", {"f": 2, "p_z": float("inf"), "p_y": 1}, "en", "p_z = inf"),
         ("pinhole", {"f": 2, "p_z": "3", "p_y": 1}, "en", "'3' is not a number"),
-        ("pinhole", {"f": 2, "p_z": 3, "p_y": 1}, "de", "'de'"),
+        ("pinhole", {"f": 2, "p_z": 3, "p_y": 1}, "xx", "'xx'"),
         ("bayer", {"x": 4}, "en", "outside the tile"),
         ("bayer", {"channel": 3}, "en", "is B itself"),
         ("bayer", {"phase": 0.5}, "en", "not whole"),

@@ -11,7 +11,6 @@ import pytest
 from quizgen.audit.lint import lint_template
 from quizgen.bank.draw import admissible, draw, plan_of
 from quizgen.bank.folder import builtin
-from quizgen.locale import languages
 from quizgen.marking.mark import mark, show
 from quizgen.maths.numbers import to_float
 from quizgen.maths.tree import Call, Expr, Num, Sym
@@ -32,8 +31,8 @@ def test_lint_finds_nothing(bank, name):
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_written_in_both_languages(bank, name):
-    assert bank.template(name).languages == languages()
+def test_written_in_every_language_of_the_bank(bank, name):
+    assert set(bank.languages) <= set(bank.template(name).languages)
 
 
 BANGLA = str.maketrans("0123456789", "০১২৩৪৫৬৭৮৯")
