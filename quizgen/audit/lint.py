@@ -20,7 +20,6 @@ from quizgen.bank.prose import Text, slots
 from quizgen.bank.template import Template
 from quizgen.bank.traps import answer_names
 from quizgen.errors import QuizgenError
-from quizgen.locale import languages
 from quizgen.marking.mark import mark, show
 from quizgen.marking.specs import AnySpec
 from quizgen.maths.numbers import to_float
@@ -59,7 +58,7 @@ class Report:
         return 1 - self.distinct / self.seeds if self.seeds else 0.0
 
 
-def lint_template(template: Template, seeds: int = 200) -> Report:
+def lint_template(template: Template, seeds: int = 200, langs: tuple[str, ...] = ()) -> Report:
     """Examine one template.
 
     Parameters
@@ -67,9 +66,11 @@ def lint_template(template: Template, seeds: int = 200) -> Report:
     template : Template
     seeds : int
         How many draws to look at.
+    langs : tuple of str
+        Languages that it must be written in: those of its bank.
     """
     report = Report(template.id)
-    report.problems += _language_problems(template)
+    report.problems += _language_problems(template, langs)
     if report.problems:
         return report
     try:
@@ -117,8 +118,8 @@ def _widen(report: Report, one: Draw) -> None:
             report.ranges[name] = (min(low, value), max(high, value))
 
 
-def _language_problems(template: Template) -> list[str]:
-    problems = [f"no {lang}.md" for lang in languages() if lang not in template.texts]
+def _language_problems(template: Template, langs: tuple[str, ...]) -> list[str]:
+    problems = [f"no {lang}.md" for lang in langs if lang not in template.texts]
     for lang in template.texts:
         problems += [f"{lang}.md: {p}" for p in _missing(template, lang)]
     problems += _unequal_slots(template)

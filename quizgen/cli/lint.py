@@ -47,7 +47,7 @@ def _examined(bank: Bank, name: str, seeds: int) -> tuple[tuple[str, ...], list[
     from quizgen.audit.lint import lint_template
 
     try:
-        report = lint_template(bank.template(name), seeds)
+        report = lint_template(bank.template(name), seeds, bank.languages)
     except BankError as error:
         return ("0", "", "", "", "", "1"), [str(error)]
     return _cells(report), [f"{name}: {problem}" for problem in report.problems]

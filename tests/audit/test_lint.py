@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import pytest
+from click.testing import CliRunner
 
 from quizgen.audit.lint import lint_template
 from quizgen.bank.folder import Bank
+from quizgen.cli.lint import lint
 
 RULES = """
 topic = "colour"
@@ -50,3 +52,25 @@ def test_languages_that_show_other_values_are_told_apart(tmp_path, english, bang
 def test_languages_with_other_options_are_told_apart(tmp_path):
     found = problems(tmp_path, ENGLISH, ENGLISH.replace("- no: No.", "- not: No."))
     assert found == ["bn.md: section 'options' differs by ['no', 'not']"]
+
+
+@pytest.mark.parametrize(
+    ("about", "missing"),
+    [
+        ("", []),
+        ('languages = ["en"]', []),
+        ('languages = ["en", "bn"]', ["no bn.md"]),
+    ],
+    ids=["the templates' own", "one", "two"],
+)
+def test_the_bank_says_in_which_languages_a_template_must_be(tmp_path, about, missing):
+    template = tmp_path / "templates" / "colour" / "one"
+    template.mkdir(parents=True)
+    (tmp_path / "templates" / "bank.toml").write_text(about)
+    (template / "template.toml").write_text(RULES)
+    (template / "en.md").write_text(ENGLISH, "utf-8")
+    done = CliRunner().invoke(lint, [str(tmp_path), "--seeds", "5"])
+    assert [line for line in done.output.splitlines() if line.startswith("one: ")] == [
+        f"one: {problem}" for problem in missing
+    ]
+    assert done.exit_code == bool(missing)

@@ -25,7 +25,7 @@ COUNTED = 60_000
 
 @pytest.mark.parametrize("name", NAMES)
 def test_lint_finds_nothing(bank, name):
-    report = lint_template(bank.template(name), SEEDS)
+    report = lint_template(bank.template(name), SEEDS, bank.languages)
     assert report.problems == []
     assert report.seeds == SEEDS
 
