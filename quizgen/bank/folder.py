@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import difflib
 import importlib
-import importlib.util
 import re
 import sys
 import traceback
@@ -42,19 +41,11 @@ def builtin_root() -> Path:
     return installed if installed.is_dir() else package.parent
 
 
-def mount(folder: Path, name: str) -> ModuleType:
+def mount(folder: Path, name: str) -> None:
     """Make a folder of solvers importable as a package under a private name."""
-    if name in sys.modules:
-        return sys.modules[name]
-    spec = importlib.util.spec_from_file_location(
-        name, folder / "__init__.py", submodule_search_locations=[str(folder)]
-    )
-    if spec is None or spec.loader is None:
-        raise BankError(f"{folder}: not a folder of solvers")
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
-    spec.loader.exec_module(module)
-    return module
+    if name not in sys.modules:
+        sys.modules[name] = ModuleType(name)
+        sys.modules[name].__path__ = [str(folder)]
 
 
 def solver_module(name: str) -> ModuleType:
