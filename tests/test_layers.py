@@ -41,6 +41,7 @@ LAYERS = {
 MAY_IMPORT_BY_NAME = {"__init__.py", "cli/main.py", "bank/folder.py"}
 """The lazy public names, the lazy commands, and a bank's own solvers."""
 
+
 def package_of(path: Path) -> str:
     return path.relative_to(PACKAGE).parts[0].removesuffix(".py")
 

@@ -15,7 +15,8 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
-from quizgen.bank.draw import Draw, draw, plan_of, reference
+from quizgen.bank.draw import Draw, draw, reference
+from quizgen.bank.plan import plan_of
 from quizgen.bank.prose import Text, slots
 from quizgen.bank.template import Template
 from quizgen.bank.traps import answer_names

@@ -8,7 +8,8 @@ from typing import Any, TypeAlias, TypeVar
 
 import msgspec
 
-from quizgen.bank.draw import Draw, shuffled
+from quizgen.bank.draw import Draw
+from quizgen.bank.plan import shuffled
 from quizgen.bank.traps import answer_names
 from quizgen.errors import BankError, FormulaError
 from quizgen.marking.mark import show

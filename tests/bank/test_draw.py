@@ -9,8 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from quizgen.bank.draw import candidates, draw, pick, plan_of, shuffled
+from quizgen.bank.draw import draw
 from quizgen.bank.folder import Bank, builtin_root
+from quizgen.bank.plan import candidates, pick, plan_of, shuffled
 from quizgen.errors import BankError, DrawError
 
 
@@ -153,4 +154,12 @@ def test_a_foreign_bank_runs_no_python_unless_trusted(tmp_path):
                     ignore=shutil.ignore_patterns("__pycache__"))  # fmt: skip
     with pytest.raises(BankError, match="--trust"):
         Bank(tmp_path).template("mine")
+    assert draw(Bank(tmp_path, trusted=True).template("mine"), 0).values
+
+
+def test_a_folder_of_solvers_needs_no_init_file(tmp_path):
+    make_bank(tmp_path, BASE)
+    solver = Path("solvers") / "projection" / "perspective.py"
+    (tmp_path / solver).parent.mkdir(parents=True)
+    shutil.copy(builtin_root() / solver, tmp_path / solver)
     assert draw(Bank(tmp_path, trusted=True).template("mine"), 0).values

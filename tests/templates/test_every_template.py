@@ -9,8 +9,9 @@ import mpmath
 import pytest
 
 from quizgen.audit.lint import lint_template
-from quizgen.bank.draw import admissible, draw, plan_of
+from quizgen.bank.draw import draw
 from quizgen.bank.folder import builtin
+from quizgen.bank.plan import admissible, plan_of
 from quizgen.marking.mark import mark, show
 from quizgen.maths.numbers import to_float
 from quizgen.maths.tree import Call, Expr, Num, Sym

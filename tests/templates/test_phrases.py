@@ -7,8 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from quizgen.bank.draw import admissible, draw, plan_of, reference
+from quizgen.bank.draw import draw, reference
 from quizgen.bank.folder import Bank
+from quizgen.bank.plan import admissible, plan_of
 from quizgen.marking.mark import mark
 from quizgen.maths.numbers import rational
 from quizgen.question.compose import compose

@@ -1,0 +1,211 @@
+"""The drawing plan of a template: its variables, conditions and parts, whatever the seed."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache, cached_property, partial
+from typing import Any, TypeVar
+
+from flint import fmpq
+
+from quizgen.bank.rules import KeepRule, Scalar
+from quizgen.bank.template import Template
+from quizgen.bank.traps import PartPlan
+from quizgen.errors import MathError
+from quizgen.maths.numbers import places, rational, to_float, written
+from quizgen.maths.precision import working_precision
+from quizgen.maths.systems import Compiled, compile_inner, exact
+from quizgen.maths.tree import names
+from quizgen.maths.units import factor
+from quizgen.maths.values import Value, Values
+
+T = TypeVar("T")
+
+
+def pick(key: str, count: int) -> int:
+    """Index below ``count`` that belongs to a key, the same on every machine."""
+    return int.from_bytes(hashlib.sha256(key.encode()).digest()[:8], "big") % count
+
+
+def shuffled(key: str, items: Sequence[T]) -> list[T]:
+    """Deterministic permutation that belongs to a key."""
+    ranked = sorted(range(len(items)), key=lambda i: hashlib.sha256(f"{key}/{i}".encode()).digest())
+    return [items[i] for i in ranked]
+
+
+@dataclass(frozen=True)
+class _Variable:
+    """One drawn quantity: its candidates, or the formula that derives it (or its phrase)."""
+
+    name: str
+    choices: tuple[fmpq, ...]
+    words: tuple[str, ...]
+    formula: Compiled | None
+
+    def derive(self, shown: dict[str, fmpq], words: dict[str, str]) -> None:
+        """Set the quantity, or the phrase at the place that the formula counts from 0."""
+        value = self.formula(shown) if self.formula else fmpq(0)
+        if self.words:
+            words[self.name] = self.words[int(value.floor()) % len(self.words)]
+        else:
+            shown[self.name] = value
+
+
+@dataclass(frozen=True)
+class _Condition:
+    """A condition over shown values, and the quantities it needs."""
+
+    text: str
+    test: Callable[[Values], bool]
+    needs: frozenset[str]
+
+
+def _of(name: str, test: Callable[[Value], bool]) -> Callable[[Values], bool]:
+    return lambda env: test(env[name])
+
+
+class Plan:
+    """Everything about drawing a template that does not depend on the seed."""
+
+    def __init__(self, template: Template) -> None:
+        self.template = template
+        self.variables = [self._variable(name) for name in template.rules.draw]
+        conditions = list(self._conditions())
+        drawn = {v.name for v in self.variables}
+        self.early = [c for c in conditions if c.needs <= drawn]
+        self.late = [c for c in conditions if not c.needs <= drawn]
+        self.parts = [PartPlan(template, index) for index in range(len(template.rules.part))]
+
+    def _variable(self, name: str) -> _Variable:
+        rule = self.template.rules.draw[name]
+        source = rule.formula or rule.by
+        formula = compile_inner(self.template.formula(source), exact()) if source else None
+        listed = () if source else candidates(rule.pick, rule.range, rule.skip)
+        return _Variable(name, listed, rule.words, formula)
+
+    def _conditions(self) -> Iterator[_Condition]:
+        for text in self.template.rules.where:
+            expr = self.template.formula(text)
+            yield _Condition(text, compile_inner(expr, exact()), names(expr))
+        for name, rule in self.template.rules.keep.items():
+            test = keep_test(rule)
+            yield _Condition(f"keep.{name}", _of(name, test), frozenset({name}))
+
+    def candidate(self, stem: str, attempt: int) -> tuple[dict[str, fmpq], dict[str, str]]:
+        """Values of one try, before any condition; the precision is stated around it."""
+        shown: dict[str, fmpq] = {}
+        words: dict[str, str] = {}
+        for variable in self.variables:
+            if variable.formula is not None:
+                variable.derive(shown, words)
+            elif variable.words:
+                index = pick(f"{stem}/{variable.name}/{attempt}", len(variable.words))
+                words[variable.name] = variable.words[index]
+            else:
+                index = pick(f"{stem}/{variable.name}/{attempt}", len(variable.choices))
+                shown[variable.name] = variable.choices[index]
+        return shown, words
+
+    @cached_property
+    def base_factors(self) -> dict[str, fmpq]:
+        """Given quantity to the factor from its shown unit to base units."""
+        return {n: factor(self.template.units.get(n, "")) for n in self.template.chain.given}
+
+    def solve(self, shown: Mapping[str, fmpq]) -> dict[str, Value]:
+        """Run the chain on shown values."""
+        return self.template.chain.solve({n: shown[n] * f for n, f in self.base_factors.items()})
+
+    def shown_env(self, shown: Mapping[str, fmpq], values: Values) -> dict[str, Value]:
+        """Drawn and solved quantities in shown units."""
+        steps = self.template.chain.steps
+        return {**{step.name: values[step.name] / factor(step.unit) for step in steps}, **shown}
+
+
+@cache
+def candidates(
+    listed: tuple[Scalar, ...], span: tuple[Scalar, ...], skip: tuple[Scalar, ...]
+) -> tuple[fmpq, ...]:
+    """The values a rule allows, in order."""
+    if listed:
+        return tuple(rational(str(v)) for v in listed)
+    if not span:
+        return ()
+    first, last, step = map(written, span)
+    left_out = {written(v) for v in skip}
+    count = int((last - first) / step) + 1
+    return tuple(
+        rational(first + i * step) for i in range(count) if first + i * step not in left_out
+    )
+
+
+def keep_test(rule: KeepRule) -> Callable[[Value], bool]:
+    """Compile a keep rule into a test of one value."""
+    tests = [
+        partial(KEEP_TESTS[name], _limit(name, getattr(rule, name)))
+        for name in KEEP_TESTS
+        if getattr(rule, name) not in (None, ())
+    ]
+    return lambda value: all(test(value) for test in tests)
+
+
+def _limit(name: str, written: Scalar | tuple[Scalar, ...]) -> object:
+    """A limit as written, made exact."""
+    if name == "skip":
+        return {rational(str(v)) for v in written}  # type: ignore[union-attr]
+    return written if name in {"decimals", "denominator"} else rational(str(written))
+
+
+KEEP_TESTS: dict[str, Callable[[Any, Any], bool]] = {
+    "min": lambda least, v: bool(v >= least),
+    "max": lambda most, v: bool(v <= most),
+    "multiple": lambda step, v: isinstance(v, fmpq) and (v / step).q == 1,
+    "decimals": lambda count, v: _terminates(v, count),
+    "denominator": lambda most, v: isinstance(v, fmpq) and v.q <= most,
+    "skip": lambda left_out, v: not (isinstance(v, fmpq) and v in left_out),
+}
+"""Field of a keep rule to the test of (limit, value)."""
+
+
+def _terminates(value: Value, decimals: int) -> bool:
+    count = places(value) if isinstance(value, fmpq) else None
+    return count is not None and count <= decimals
+
+
+_PLANS: dict[str, Plan] = {}
+
+
+def plan_of(template: Template) -> Plan:
+    """The drawing plan of a template, built once per content."""
+    key = f"{template.id}/{template.digest}"
+    if key not in _PLANS:
+        _PLANS[key] = Plan(template)
+    return _PLANS[key]
+
+
+@working_precision()
+def admissible(
+    plan: Plan, shown: Mapping[str, fmpq], *, lenient: bool = False
+) -> tuple[dict[str, Value], tuple[tuple[str, ...], ...]] | str:
+    """Solve a candidate; its values and traps per part, or the reason to reject it."""
+    try:
+        for condition in () if lenient else plan.early:
+            if not condition.test(shown):
+                return condition.text
+        values = plan.solve(shown)
+        if plan.late and not lenient:
+            env = plan.shown_env(shown, values)
+            for condition in plan.late:
+                if not condition.test(env):
+                    return condition.text
+    except (MathError, ZeroDivisionError) as error:
+        return f"no value: {error}"
+    approximate = {name: to_float(value) for name, value in values.items()}
+    traps = []
+    for part in plan.parts:
+        usable = part.check(approximate, shown, lenient=lenient)
+        if isinstance(usable, str):
+            return usable
+        traps.append(usable)
+    return values, tuple(traps)
