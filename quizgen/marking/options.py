@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from functools import cached_property
 
+import msgspec
+
 from quizgen.errors import MathError
 from quizgen.maths.chain import Chain
 from quizgen.maths.values import Values
@@ -39,8 +41,7 @@ class Context:
             return {}
 
 
-@dataclass(frozen=True, slots=True)
-class Options:
+class Options(msgspec.Struct, frozen=True):
     """Reading options: language of the sentences, decimal sign, and the question around.
 
     ``settle`` allows a few seconds of a computer algebra system, in a process of its own, for a

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from fractions import Fraction
 from html import escape
 from typing import Any
+
+import msgspec
 
 from quizgen.maths.values import Value
 
@@ -24,8 +25,7 @@ HALF = Fraction(1, 2)
 """Credit for a right value in the wrong form, precision or without its unit."""
 
 
-@dataclass(frozen=True, slots=True)
-class Verdict:
+class Verdict(msgspec.Struct, frozen=True):
     """The judgement of one typed answer.
 
     Parameters
@@ -54,7 +54,7 @@ class Verdict:
     read_as: str = ""
     note: str = ""
     message: str = ""
-    fields: Mapping[str, object] = field(default_factory=dict)
+    fields: Mapping[str, object] = msgspec.field(default_factory=dict)
     cells: tuple[Verdict, ...] = ()
     values: tuple[Value | None, ...] = ()
 

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
+
+import msgspec
 
 from quizgen.errors import FormulaError, KeyFileError, one_of
 from quizgen.locale import languages
@@ -194,7 +196,7 @@ def _verdict(
     if not around or not verdict.graded or verdict.verdict == "correct":
         return verdict
     context = _context(question, earlier)
-    return judge(spec, typed, replace(options, context=context))
+    return judge(spec, typed, msgspec.structs.replace(options, context=context))
 
 
 def _context(question: KeyQuestion, earlier: dict[str, Any]) -> Context | None:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 
+import msgspec
 from flint import arb, fmpq
 
 from quizgen.errors import MathError
@@ -24,8 +24,7 @@ CARRIED = "carried-forward"
 EARLY = "rounded-too-early"
 
 
-@dataclass(frozen=True, slots=True)
-class Hints:
+class Hints(msgspec.Struct, frozen=True):
     """The question around one quantity."""
 
     spec: Measured

@@ -8,6 +8,8 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
+import msgspec
+
 from quizgen.marking.diagnosis.mutations import variants
 from quizgen.maths.chain import Chain, ChainStep, Plan
 from quizgen.maths.systems import compile_expr, floats
@@ -18,8 +20,7 @@ PREFIXES = (-6, -3, -2, -1, 1, 2, 3, 6)
 MOST_CHAINS = 256
 
 
-@dataclass(frozen=True, slots=True)
-class Slip:
+class Slip(msgspec.Struct, frozen=True):
     """One slip: its note, what it concerns, and the float plan that recomputes the target."""
 
     note: str

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
 
+import msgspec
 from flint import fmpq
+from msgspec.structs import replace
 
 from quizgen.marking.diagnosis.context import Hints
 from quizgen.marking.diagnosis.slips import close, slip
@@ -43,8 +44,7 @@ def settle(first: Verdict, second: Verdict, doubt: Doubt, echoes: tuple[str, str
     return ambiguous("two-readings", " | ".join(echoes), first=echoes[0], second=echoes[1])
 
 
-@dataclass(frozen=True, slots=True)
-class Asked:
+class Asked(msgspec.Struct, frozen=True):
     """What one number is judged by.
 
     Parameters

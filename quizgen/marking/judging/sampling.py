@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
+import msgspec
 from flint import fmpq
 
 from quizgen.errors import MathError, Undecided
@@ -34,8 +34,7 @@ Span = str | tuple[Scalar, ...]
 Env = Values
 
 
-@dataclass(frozen=True, slots=True)
-class Comparison:
+class Comparison(msgspec.Struct, frozen=True):
     """What sampling found.
 
     ``equal`` is None when it could not be decided; ``ratio`` and ``difference`` are the common

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import msgspec
 from flint import arb, fmpq
 
@@ -86,7 +84,9 @@ def _choose(spec: Spec, formula: Formula, verdict: Verdict, options: Options) ->
 
 
 def _settled(key: Expr, tree: Expr, spec: Spec, found: Comparison) -> Comparison:
-    return replace(found, equal=settle_equal(key, tree, spec.symbols), ground="settled")
+    return msgspec.structs.replace(
+        found, equal=settle_equal(key, tree, spec.symbols), ground="settled"
+    )
 
 
 def _wrong(spec: Spec, tree: Expr, found: Comparison, read_as: str) -> Verdict:

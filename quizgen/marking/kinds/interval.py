@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from fractions import Fraction
+
+import msgspec
 
 from quizgen.marking.options import Options
 from quizgen.marking.reading.literals import pointed
@@ -48,8 +49,7 @@ class Spec(Measured, kw_only=True, frozen=True):
         return read(self.value, "point")[1]
 
 
-@dataclass(frozen=True, slots=True)
-class Interval:
+class Interval(msgspec.Struct, frozen=True):
     """Bounds (None for infinity) and whether they belong to it."""
 
     low: Value | None

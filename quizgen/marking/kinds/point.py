@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from fractions import Fraction
 
 import msgspec
@@ -104,8 +103,8 @@ def _coordinates(
         return correct(read_as)
     trap = _trap(spec, numbers)
     if trap:
-        return replace(wrong(read_as, f"trap:{trap}"), cells=cells)
-    return replace(_hint(spec, numbers, keys, cells, read_as), cells=cells)
+        return msgspec.structs.replace(wrong(read_as, f"trap:{trap}"), cells=cells)
+    return msgspec.structs.replace(_hint(spec, numbers, keys, cells, read_as), cells=cells)
 
 
 def _cell(spec: Spec, index: int, number: Number, key: Value, options: Options) -> Verdict:

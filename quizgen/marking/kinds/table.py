@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -67,7 +66,7 @@ class Spec(Measured, kw_only=True, frozen=True):
         trap = _trap(self, placed, options) if any(c.credit < 1 for c in cells) else ""
         verdict = _together(names, cells, read_as, trap)
         values = tuple(c.values[0] if c.values else None for c in cells)
-        return with_values(replace(verdict, cells=tuple(cells)), *values)
+        return with_values(msgspec.structs.replace(verdict, cells=tuple(cells)), *values)
 
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+
+import msgspec
 
 from quizgen.marking.reading.rewrites import Source
 from quizgen.maths.notation import ReadError
@@ -16,8 +17,7 @@ _GROUPS = re.compile(r"\d{1,3}(?:([.,])\d{3})(?:\1\d{3})+|\d{1,2}(?:,\d{2})+,\d{
 _GROUPED_DECIMAL = re.compile(r"\d{1,3}(?:([.,])\d{3})+(?!\1)([.,])\d+")
 
 
-@dataclass(frozen=True, slots=True)
-class Doubt:
+class Doubt(msgspec.Struct, frozen=True):
     """A literal such as ``1.000`` that is a decimal or a group of thousands.
 
     ``native`` says that the mark is this learner's decimal sign (or could be); ``group_wins`` that
@@ -29,8 +29,7 @@ class Doubt:
     group_wins: bool
 
 
-@dataclass(frozen=True, slots=True)
-class Literal:
+class Literal(msgspec.Struct, frozen=True):
     """A literal in point notation, and its second reading if it has one."""
 
     text: str

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, replace
 
+import msgspec
 from flint import fmpq
+from msgspec.structs import replace
 
 from quizgen.errors import FormulaError
 from quizgen.marking.reading.literals import Doubt
@@ -22,8 +23,7 @@ _NUMBER_PART = re.compile(
 _FAST = re.compile(r"(-?\d+(?:[.,]\d+)?) ?([a-zA-Zµμ°%]+)", re.ASCII)
 
 
-@dataclass(frozen=True, slots=True)
-class TypedQuantity:
+class TypedQuantity(msgspec.Struct, frozen=True):
     """The number part and the unit of an answer; the unit is None when none was typed."""
 
     number: Source

@@ -9,7 +9,8 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Callable
-from dataclasses import dataclass
+
+import msgspec
 
 from quizgen.maths.notation import ReadError
 from quizgen.maths.superscripts import LOWERED
@@ -24,8 +25,7 @@ _DIRECTION = "\u200e\u200f\u061c\u202a-\u202e\u2066-\u2069\ufeff"
 _BLANKS = "\t \u00a0\u2000-\u200a\u202f\u205f\u3000"
 
 
-@dataclass(frozen=True, slots=True)
-class Source:
+class Source(msgspec.Struct, frozen=True):
     """A text and the column (from 1) each of its characters came from."""
 
     text: str

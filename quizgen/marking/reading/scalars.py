@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
 
+import msgspec
 from flint import fmpq
 
 from quizgen.marking.reading.literals import Doubt, doubtful, pointed
@@ -18,8 +18,7 @@ LARGEST_VALUE = fmpq(10) ** LARGEST_EXPONENT
 """Largest number read."""
 
 
-@dataclass(frozen=True, slots=True)
-class Number:
+class Number(msgspec.Struct, frozen=True):
     """A number that was read.
 
     Parameters
@@ -49,13 +48,12 @@ class Number:
     percent: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Readings:
+class Readings(msgspec.Struct, frozen=True):
     """The reading of a number and, if its literals are doubtful, the other one."""
 
     main: Number
     other: Number | None = None
-    doubt: Doubt | None = field(default=None)
+    doubt: Doubt | None = None
 
 
 _FAST = re.compile(r"([-−–]?)([0-9]{1,30})(?:([.,])([0-9]{1,30}))?")
@@ -80,34 +78,20 @@ _MIXED = re.compile(
 _E_SPACED = re.compile(r"(?<=[\d.]) ?[eE] ?(?=[-+]?\d)")
 
 
-def fast(typed: str) -> Number | None:
-    """Read a plain number that can be read only one way, without any rewriting."""
+def quick(typed: str, decimal: str) -> Readings | None:
+    """Read a plain number without any rewriting, with both readings if there are two."""
     match = _FAST.fullmatch(typed if typed.isascii() else typed.translate(_DIGITS))
     if match is None:
         return None
     sign, whole, mark, digits = match.groups()
     sign = "-" if sign else ""
-    if mark is None:
-        return _decimal(sign, whole, "")
-    if len(digits) == 3 and len(whole) <= 3 and whole[0] != "0":
-        return None
-    return _decimal(sign, whole, digits)
-
-
-def quick(typed: str, decimal: str) -> Readings | None:
-    """Read a plain number without any rewriting, with both readings if there are two."""
-    number = fast(typed)
-    if number is not None:
-        return Readings(number)
-    match = _FAST.fullmatch(typed if typed.isascii() else typed.translate(_DIGITS))
-    if match is None:
-        return None
-    sign, whole, mark, digits = match.groups()
-    main = _decimal("-" if sign else "", whole, digits)
+    main = _decimal(sign, whole, digits or "")
+    if main.places != 3 or len(whole) > 3 or whole[0] == "0":
+        return Readings(main)
     doubt = doubtful(mark, decimal)
     if doubt is None:
         return Readings(main)
-    return Readings(main, _decimal("-" if sign else "", whole + digits, ""), doubt)
+    return Readings(main, _decimal(sign, whole + digits, ""), doubt)
 
 
 def _decimal(sign: str, whole: str, digits: str) -> Number:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
+import msgspec
 from flint import arb
 
 from quizgen.errors import FormulaError
@@ -136,8 +136,7 @@ _POWER_OF_UNIT = re.compile(r"(?<=[^\W\d_])\^?\(?(-?\d)\)?(?!\d)")
 _PART = re.compile(r"[*/·]|[^*/·]+")
 
 
-@dataclass(frozen=True, slots=True)
-class TypedUnit:
+class TypedUnit(msgspec.Struct, frozen=True):
     """A unit as typed: the listed spelling, its factor to base units and its dimension."""
 
     text: str
