@@ -64,6 +64,22 @@ def checked(option: str, name: str, allowed: Collection[str]) -> str:
     raise click.BadParameter(f"{name!r} (allowed: {', '.join(allowed)})", param_hint=option)
 
 
+def topic_option(bank: Bank, name: str) -> str:
+    """Return the topic that ``--topic`` names: by its name or its title in any language.
+
+    Raises
+    ------
+    click.BadParameter
+        If there is none; it names all.
+    """
+    wanted = name.strip().casefold()
+    for topic in bank.topics:
+        titles = (bank.topic_title(topic, lang) for lang in languages())
+        if wanted in {title.casefold() for title in titles}:
+            return topic
+    return checked("--topic", name, bank.topics)
+
+
 def split(text: str | None) -> tuple[str, ...]:
     """Names that stand between commas."""
     return tuple(name.strip() for name in (text or "").split(",") if name.strip())

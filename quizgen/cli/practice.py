@@ -7,17 +7,26 @@ from typing import TYPE_CHECKING, Unpack
 
 import click
 
-from quizgen.cli.options import BankOptions, bank_options, language_option, open_bank
+from quizgen.cli.options import (
+    BankOptions,
+    bank_options,
+    checked,
+    language_option,
+    open_bank,
+    topic_option,
+)
 
 if TYPE_CHECKING:
-    from quizgen.figures import Figure
+    from collections.abc import Iterable
+
+    from quizgen.bank.folder import Bank
+    from quizgen.practice.results import TopicResult
     from quizgen.practice.session import Session
-    from quizgen.practice.task import Task
+    from quizgen.practice.shelf import Shelf
+    from quizgen.practice.state import Wish
 
-COLOURS = {"correct": "green", "partial": "yellow", "wrong": "red"}
-
-Words = dict[str, str]
-"""Sentences of the session in its language."""
+INTERRUPTED = 130
+TIERS = tuple("ABCD")
 
 
 class Options(BankOptions):
@@ -33,159 +42,111 @@ class Options(BankOptions):
 
 @click.command(short_help="Practise in the terminal with instant feedback.")
 @click.option("--topic", help="Only this topic.")
-@click.option("--tier", type=click.Choice(list("ABCD")), help="Only this tier.")
+@click.option("--tier", metavar="[A|B|C|D]", help="Only this tier.")
 @language_option
-@click.option("--count", type=click.IntRange(1, 200), default=10, show_default=True)
-@click.option("--seed", help="Start the same session again.")
+@click.option("--count", type=click.IntRange(1, 200), default=10, show_default=True,
+              help="How many questions.")  # fmt: skip
+@click.option("--seed", help="Any text: the same text gives the same questions.")
 @bank_options
-@click.option("--fresh", is_flag=True, help="Forget a session that was interrupted.")
+@click.option("--fresh", is_flag=True, help="Begin anew, not where these options were left.")
 def practice(**options: Unpack[Options]) -> None:
     """Practise in the terminal: instant feedback, hints, retries, worked solutions.
 
-    Ctrl-C keeps the session; the same command goes on with it.
+    Type ? for a hint, ! for the solution, skip to leave a part out, quit (or Ctrl-C) to stop. The
+    session is kept part by part, and the same command goes on with it; sessions with other options
+    are kept beside it.
     """
-    from quizgen.marking.messages import practice_words
+    from quizgen.cli.conversation import Conversation, Quit, say
+    from quizgen.practice.shelf import Shelf
 
-    words = practice_words(options["lang"])
-    session, path = _session(options, words), state_path()
+    shelf = Shelf(state_folder())
+    session = _session(options, shelf)
+    conversation = Conversation(session, shelf)
     try:
-        _hold(session, path, words)
-    except (click.exceptions.Abort, KeyboardInterrupt):
-        session.state.save(path)
-        click.echo(f"\n{words['saved']}")
-        return
-    path.unlink(missing_ok=True)
-    _summary(session, words)
+        conversation.hold()
+    except (Quit, KeyboardInterrupt) as stop:
+        shelf.keep(session.state)
+        click.echo()
+        say(conversation.words["saved"])
+        raise click.exceptions.Exit(0 if isinstance(stop, Quit) else INTERRUPTED) from None
+    shelf.end(session.state)
+    _summary(session, shelf, conversation.words)
 
 
-def state_path() -> Path:
-    """Where an interrupted session is kept."""
-    return Path(click.get_app_dir("quizgen")) / "practice.json"
+def state_folder() -> Path:
+    """Where sessions are kept."""
+    return Path(click.get_app_dir("quizgen")) / "practice"
 
 
-def _session(options: Options, words: Words) -> Session:
-    """The session that was interrupted, or a new one."""
+def _session(options: Options, shelf: Shelf) -> Session:
+    """The session that these options have begun, or a new one."""
+    from quizgen.marking.messages import practice_words
     from quizgen.practice.session import Session
-    from quizgen.practice.state import Wish, kept, new
+    from quizgen.practice.state import new
 
-    folder = str(options["bank"] or "")
-    wish = Wish(options["lang"], options["count"], options["topic"], options["tier"], folder)
-    state = None if options["fresh"] or options["seed"] else kept(state_path(), wish)
+    bank = open_bank(options)
+    wish = _wish(options, bank)
+    if options["fresh"]:
+        shelf.forget(wish)
+    state = shelf.kept(wish)
     if state is not None:
-        click.echo(words["resumed"].format(seed=state.seed))
-    return Session(open_bank(options), state or new(wish, options["seed"] or ""))
+        click.echo(practice_words(wish.lang)["resumed"].format(seed=state.seed))
+    return Session(bank, state or new(wish))
 
 
-def _hold(session: Session, path: Path, words: Words) -> None:
-    from quizgen.render.text import blocks
+def _wish(options: Options, bank: Bank) -> Wish:
+    """What is asked for, if there is such a question.
 
-    if not session.templates:
-        click.echo(words["nothing"])
-    while not session.finished:
-        turn = session.turn()
-        count, title = session.state.wish.count, turn.question.title
-        head = words["question"].format(number=turn.number, count=count, title=title)
-        click.secho(f"\n{head}", bold=True)
-        for line in blocks(turn.question.stem):
-            click.echo(line)
-        _show_figure(turn.question.figure, words)
-        for task in turn.tasks:
-            _ask(task, words)
-        session.finish(turn)
-        session.state.save(path)
+    Raises
+    ------
+    click.BadParameter
+        Naming what there is.
+    """
+    from quizgen.practice.choosing import fitting
+    from quizgen.practice.state import Wish
 
-
-def _show_figure(figure: Figure | None, words: Words) -> None:
-    if figure is None:
-        return
-    from quizgen.files import write_all
-
-    (path,) = write_all(state_path().parent, {"figure.svg": figure.svg})
-    click.echo(words["figure"].format(alt=figure.alt))
-    click.echo(words["figure-file"].format(path=path))
+    topic, tier = options["topic"], options["tier"]
+    topic = None if topic is None else topic_option(bank, topic)
+    tier = None if tier is None else checked("--tier", tier, TIERS)
+    folder = str(options["bank"].resolve()) if options["bank"] else ""
+    lang, seed = options["lang"], options["seed"] or ""
+    wish = Wish(lang, options["count"], topic, tier, folder, seed)
+    if not fitting(bank, wish):
+        there = [one for one in TIERS if fitting(bank, Wish(lang, topic=topic, tier=one))]
+        what = f"no question of topic {topic or 'any'}, tier {tier or 'any'}, language {lang}"
+        raise click.BadParameter(f"{what} (tiers there: {', '.join(there) or 'none'})")
+    return wish
 
 
-def _ask(task: Task, words: Words) -> None:
-    """Ask a part until it is done."""
-    _show(task, words)
-    while task.outcome is None:
-        typed = click.prompt(words["prompt"], default="", show_default=False).strip()
-        if typed == "?":
-            _hint(task, words)
-        elif typed == "!":
-            task.give_up()
-            _solution(task, words)
-        else:
-            _answer(task, typed, words)
+def _summary(session: Session, shelf: Shelf, words: dict[str, str]) -> None:
+    """Say how the session went, how the last ones did, and what to practise."""
+    from quizgen.cli.conversation import head, say
+    from quizgen.practice.results import RECENT, by_topic, to_practise
 
-
-def _show(task: Task, words: Words) -> None:
-    from quizgen.render.text import blocks, inline
-
+    head(words["summary"])
+    _print(session, session.summary(), words)
+    past = shelf.finished(session.state.wish.bank)
+    results = by_topic([outcome for state in past for outcome in state.outcomes], RECENT)
+    if len(past) > 1:
+        head(words["so-far"].format(count=len(past)))
+        _print(session, results, words)
+    weak = to_practise(results)
+    named = ", ".join(f"{_title(session, topic)} (--topic {topic})" for topic in weak)
     click.echo()
-    part = task.part
-    label = f"({part.label}) " if part.label else ""
-    first, *more = list(blocks(part.body)) or [""]
-    click.echo(f"{label}{first}")
-    for line in more:
-        click.echo(line)
-    for mark, text in (*part.field.options, *part.field.targets):
-        click.echo(f"   {mark}  {inline(text)}")
-    for hint in part.field.hints:
-        click.echo(f"   [{hint}]")
-    click.secho(f"   {words['help']}", dim=True)
+    say(words["next"].format(topics=named) if weak else words["all-right"])
 
 
-def _answer(task: Task, typed: str, words: Words) -> None:
-    from quizgen.practice.task import Next
+def _print(session: Session, results: Iterable[TopicResult], words: dict[str, str]) -> None:
+    from quizgen.cli.conversation import say
 
-    feedback = task.answer(typed)
-    verdict = feedback.verdict
-    match feedback.then:
-        case Next.ASK_BACK:
-            click.secho(verdict.message, fg="magenta")
-            return
-        case Next.SELF_MARK:
-            click.echo(verdict.message)
-            _solution(task, words)
-            question = words["self-mark"].format(points=task.solved.answer)
-            task.mark_yourself(right=click.confirm(question, default=False))
-            return
-    click.echo(words["read"].format(read_as=verdict.read_as))
-    said = f"{words[verdict.verdict]} {verdict.message}".strip()
-    click.secho(said, fg=COLOURS[verdict.verdict])
-    if feedback.then is Next.AGAIN:
-        click.echo(words["again"].format(left=feedback.left))
-    elif feedback.then is Next.OUT_OF_TRIES:
-        _solution(task, words)
-
-
-def _hint(task: Task, words: Words) -> None:
-    from quizgen.render.text import inline
-
-    why = task.hint()
-    if why is None:
-        click.echo(words["no-more-hints"])
-    else:
-        click.echo(words["hint"].format(hint=inline(why)))
-
-
-def _solution(task: Task, words: Words) -> None:
-    from quizgen.render.text import inline
-
-    for line in task.solved.lines:
-        click.echo(f"   {line.maths.typed}")
-        click.echo(f"      {inline(line.why)}")
-    click.secho(words["answer"].format(answer=task.solved.answer), bold=True)
-
-
-def _summary(session: Session, words: Words) -> None:
-    results = session.summary()
-    if results:
-        click.secho(f"\n{words['summary']}", bold=True)
     for row in results:
-        click.echo(
-            words["topic"].format(
-                topic=row.topic, right=row.right, count=row.count, later=row.later
-            )
-        )
+        title = _title(session, row.topic)
+        if row.count:
+            counts = {"right": row.right, "count": row.count, "later": row.later}
+            say(words["topic"].format(topic=title, **counts), "", "  ")
+        if row.skipped:
+            say(words["topic-skipped"].format(topic=title, skipped=row.skipped), "", "  ")
+
+
+def _title(session: Session, topic: str) -> str:
+    return session.bank.topic_title(topic, session.state.wish.lang)

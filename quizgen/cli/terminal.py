@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import sys
 import time
@@ -20,6 +21,8 @@ NARROWEST = 20
 """Columns that text is laid out for at least."""
 HARMLESS = frozenset("\n\u200c\u200d")
 """Line break and the two joiners, which Bangla needs: shown as they are."""
+_BLANKS = re.compile(r"[ \t\n]+")
+"""Where a line may break; not at a no-break space."""
 PATIENCE = 1.0
 """Seconds before progress is shown."""
 
@@ -87,7 +90,7 @@ def wrapped(text: str, room: int, first: str = "", rest: str = "") -> Iterator[s
 
 def _pieces(text: str) -> Iterator[tuple[str, str]]:
     """What may stand on a line of its own, and the blank in front of it."""
-    for word in filter(None, text.split(" ")):
+    for word in filter(None, _BLANKS.split(text)):
         glue = " "
         for piece in _unbreakable(word):
             yield glue, piece

@@ -12,9 +12,10 @@ from quizgen.paper.key import key_question
 from quizgen.paper.marking import Marker
 from quizgen.paper.paper import Item
 from quizgen.practice.choosing import fitting, nth
-from quizgen.practice.state import Outcome, State
+from quizgen.practice.results import TopicResult, by_topic
+from quizgen.practice.state import Outcome, PartState, State
 from quizgen.practice.task import Task
-from quizgen.question.compose import Question, compose
+from quizgen.question.compose import Key, Question, compose
 
 
 @dataclass(frozen=True)
@@ -34,16 +35,6 @@ class Turn:
     def finished(self) -> bool:
         """Whether every task is done."""
         return len(self.outcomes) == len(self.tasks)
-
-
-@dataclass(frozen=True)
-class TopicResult:
-    """Parts of one topic: how many, how many right at once, how many after help or another try."""
-
-    topic: str
-    count: int
-    right: int
-    later: int
 
 
 class Session:
@@ -73,7 +64,7 @@ class Session:
         return not self.templates or self.state.done >= self.state.wish.count
 
     def turn(self) -> Turn:
-        """The question that is due; the same until it is finished.
+        """The question that is due, as far as it has got; the same until it is finished.
 
         Raises
         ------
@@ -91,22 +82,24 @@ class Session:
         )
         keyed = key_question(Item(str(number), (question,), (key,)))
         marker = Marker(keyed, Options(self.state.wish.lang))
-        parts = zip(question.parts, key.solution.parts, keyed.parts, strict=True)
-        return Turn(number, question, tuple(Task(question.topic, *one, marker) for one in parts))
+        parts = zip(question.parts, key.solution.parts, keyed.parts, self._parts(key), strict=True)
+        tasks = (Task(question.topic, *one, marker=marker) for one in parts)
+        return Turn(number, question, tuple(tasks))
+
+    def _parts(self, key: Key) -> list[PartState]:
+        """How far the parts have got; nowhere, if they are not those that were kept."""
+        kept = self.state.question, len(self.state.parts)
+        if kept != (key.identity, len(key.specs)):
+            self.state.question = key.identity
+            self.state.parts = [PartState() for _ in key.specs]
+        return self.state.parts
 
     def finish(self, turn: Turn) -> None:
         """Write down how a question went, and go on to the next."""
         self.state.outcomes = [*self.state.outcomes, *turn.outcomes]
         self.state.done = turn.number
+        self.state.question, self.state.parts = "", []
 
     def summary(self) -> tuple[TopicResult, ...]:
         """Results by topic, in alphabetical order."""
-        outcomes = self.state.outcomes
-        topics = sorted({outcome.topic for outcome in outcomes})
-        return tuple(_result(topic, [o for o in outcomes if o.topic == topic]) for topic in topics)
-
-
-def _result(topic: str, outcomes: list[Outcome]) -> TopicResult:
-    right = sum(outcome.first for outcome in outcomes)
-    later = sum(outcome.right and not outcome.first for outcome in outcomes)
-    return TopicResult(topic, len(outcomes), right, later)
+        return by_topic(self.state.outcomes)

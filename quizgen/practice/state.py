@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import secrets
-from pathlib import Path
 
 import msgspec
-
-from quizgen.files import write_all
 
 
 class Wish(msgspec.Struct, frozen=True):
@@ -22,6 +19,8 @@ class Wish(msgspec.Struct, frozen=True):
         Only these.
     bank : str
         Folder of the bank; empty for the built-in one.
+    seed : str
+        That a session is to have; empty for one that nobody has held before.
     """
 
     lang: str = "en"
@@ -29,45 +28,52 @@ class Wish(msgspec.Struct, frozen=True):
     topic: str | None = None
     tier: str | None = None
     bank: str = ""
+    seed: str = ""
 
 
 class Outcome(msgspec.Struct, frozen=True):
-    """How one part went: right at all, and right at the first try without help."""
+    """How one part went: right at all, right at the first try without help, or skipped."""
 
     topic: str
     right: bool
     first: bool
+    skipped: bool = False
+
+
+class PartState(msgspec.Struct):
+    """How far one part of the question that is due has got.
+
+    Parameters
+    ----------
+    typed : str
+        The last answer that could be read.
+    tries, hints : int
+        How many have been used.
+    outcome : Outcome, optional
+        How it went, once it is done.
+    """
+
+    typed: str = ""
+    tries: int = 0
+    hints: int = 0
+    outcome: Outcome | None = None
 
 
 class State(msgspec.Struct):
-    """A session as it is kept between runs."""
+    """A session as it is kept between runs.
+
+    ``question`` is the identity of the question that is due and ``parts`` how far it has got; both
+    are empty before it is shown.
+    """
 
     wish: Wish
     seed: str
     done: int = 0
     outcomes: list[Outcome] = []
-
-    def save(self, path: Path) -> None:
-        """Write the state, whole or not at all.
-
-        Raises
-        ------
-        RenderError
-            If the file cannot be written.
-        """
-        text = msgspec.json.format(msgspec.json.encode(self), indent=1)
-        write_all(path.parent, {path.name: text})
+    question: str = ""
+    parts: list[PartState] = []
 
 
-def new(wish: Wish, seed: str = "") -> State:
-    """The state of a session that begins; without a seed, one that nobody has held before."""
-    return State(wish, seed or secrets.token_hex(3))
-
-
-def kept(path: Path, wish: Wish) -> State | None:
-    """The state kept in a file, if it is of the same wish and can be read."""
-    try:
-        state = msgspec.json.decode(path.read_bytes(), type=State)
-    except (OSError, msgspec.MsgspecError, RecursionError):
-        return None
-    return state if state.wish == wish else None
+def new(wish: Wish) -> State:
+    """The state of a session that begins."""
+    return State(wish, wish.seed or secrets.token_hex(3))

@@ -9,7 +9,7 @@ from quizgen.bank.prose import Inline
 from quizgen.marking.verdict import Verdict
 from quizgen.paper.key import KeyPart
 from quizgen.paper.marking import Marker
-from quizgen.practice.state import Outcome
+from quizgen.practice.state import Outcome, PartState
 from quizgen.question.compose import Part
 from quizgen.question.solution import PartSolution
 
@@ -61,54 +61,72 @@ class Task:
         Its worked solution, to be shown when the task is done.
     keyed : KeyPart
         What it is marked by.
+    state : PartState
+        How far it has got; changed as it goes on.
     marker : Marker
         Of the whole question: it carries errors forward to the parts that follow.
     """
 
     def __init__(
-        self, topic: str, part: Part, solved: PartSolution, keyed: KeyPart, marker: Marker
+        self,
+        topic: str,
+        part: Part,
+        solved: PartSolution,
+        keyed: KeyPart,
+        state: PartState,
+        *,
+        marker: Marker,
     ) -> None:
-        self.topic, self.part, self.solved = topic, part, solved
+        self.topic, self.part, self.solved, self.state = topic, part, solved, state
         self._keyed, self._marker = keyed, marker
-        self.tries = 0
-        self.hints = 0
-        self.outcome: Outcome | None = None
+        if state.typed:
+            marker.mark(keyed, state.typed)
+
+    @property
+    def outcome(self) -> Outcome | None:
         """How it went, once it is done."""
+        return self.state.outcome
 
     def hint(self) -> tuple[Inline, ...] | None:
         """The next hint: why the next step of the solution is taken; None if there is no more."""
-        if self.hints >= len(self.solved.lines):
+        if self.state.hints >= len(self.solved.lines):
             return None
-        self.hints += 1
-        return self.solved.lines[self.hints - 1].why
+        self.state.hints += 1
+        return self.solved.lines[self.state.hints - 1].why
 
     def give_up(self) -> None:
         """End the task as not right."""
         self._end(right=False)
 
+    def skip(self) -> None:
+        """End the task as neither right nor wrong."""
+        self.state.outcome = Outcome(self.topic, right=False, first=False, skipped=True)
+
     def answer(self, typed: str) -> Feedback:
         """Mark an answer; what cannot be read costs nothing."""
         verdict = self._marker.mark(self._keyed, typed).verdict
         then = self._next(verdict)
+        if then is not Next.ASK_BACK:
+            self.state.typed = typed
         if then in {Next.RIGHT, Next.OUT_OF_TRIES}:
             self._end(right=then is Next.RIGHT)
-        return Feedback(verdict, then, TRIES - self.tries)
+        return Feedback(verdict, then, TRIES - self.state.tries)
 
     def _next(self, verdict: Verdict) -> Next:
         self_marked = verdict.self_marked
         if not verdict.graded and not self_marked:
             return Next.ASK_BACK
-        self.tries += 1
+        self.state.tries += 1
         if self_marked:
             return Next.SELF_MARK
         if verdict.verdict == "correct":
             return Next.RIGHT
-        return Next.AGAIN if self.tries < TRIES else Next.OUT_OF_TRIES
+        return Next.AGAIN if self.state.tries < TRIES else Next.OUT_OF_TRIES
 
     def mark_yourself(self, *, right: bool) -> None:
         """End the task with the learner's own judgement."""
         self._end(right=right)
 
     def _end(self, *, right: bool) -> None:
-        first = right and self.tries == 1 and not self.hints
-        self.outcome = Outcome(self.topic, right, first)
+        first = right and self.state.tries == 1 and not self.state.hints
+        self.state.outcome = Outcome(self.topic, right, first)

@@ -6,6 +6,7 @@ import json
 
 import pytest
 from click.testing import CliRunner
+from rich.cells import cell_len
 
 from quizgen.bank.folder import builtin
 from quizgen.cli import practice
@@ -13,15 +14,16 @@ from quizgen.locale import languages
 from quizgen.marking.mark import show
 from quizgen.marking.messages import practice_words
 from quizgen.practice.choosing import fitting, nth
+from quizgen.practice.shelf import Shelf
 from quizgen.practice.state import Wish
 from quizgen.question.compose import compose
 
 
 @pytest.fixture(autouse=True)
-def state(tmp_path, monkeypatch):
-    path = tmp_path / "state" / "practice.json"
-    monkeypatch.setattr(practice, "state_path", lambda: path)
-    return path
+def shelf(tmp_path, monkeypatch):
+    folder = tmp_path / "state"
+    monkeypatch.setattr(practice, "state_folder", lambda: folder)
+    return Shelf(folder)
 
 
 def run(lines, *arguments):
@@ -43,7 +45,8 @@ def test_right_answers_end_in_a_summary():
     done = run(typed, "--seed", "s", "--count", "1")
     assert done.exit_code == 0
     assert done.output.count("Correct.") == len(typed)
-    assert f"projection: {len(typed)} of {len(typed)} parts right at once" in done.output
+    assert f"Projection: {len(typed)} of {len(typed)} parts right at once" in done.output
+    assert "Everything right at once." in done.output
 
 
 def test_unreadable_answers_cost_no_try_and_three_wrong_ones_show_the_solution():
@@ -53,30 +56,122 @@ def test_unreadable_answers_cost_no_try_and_three_wrong_ones_show_the_solution()
         unit = getattr(spec, "unit", "")
         wrong = f"987654 {unit}" if hasattr(spec, "value") else "(987654; 123457)"
         lines += [wrong] * 3
+    lines += ["!"] * 9
     done = run(lines, "--seed", "s", "--count", "1")
     assert "Hint:" in done.output
     assert "Try again (2 left)." in done.output
     assert f"Answer: {key.solution.parts[0].answer}" in done.output
+    assert "Practise next: Projection (--topic projection)" in done.output
 
 
-def test_interruption_keeps_the_session_and_the_same_command_goes_on(state):
-    typed = [show(spec) for spec in first_question().specs]
-    stopped = run(typed, "--seed", "s", "--count", "2")  # input ends: as Ctrl-C
-    assert stopped.exit_code == 0
-    assert "Session kept" in stopped.output
-    assert json.loads(state.read_text())["done"] == 1
-    rest = [show(spec) for spec in first_question(number=2).specs]
-    done = run(rest, "--count", "2")
-    assert "Going on with the session of seed s." in done.output
+SEVERAL = next(seed for seed in "abcdefgh" if len(first_question(seed).specs) > 1)
+"""A seed whose first question has several parts."""
+
+
+@pytest.mark.parametrize("options", [["--seed", SEVERAL], []], ids=["a seed", "no seed"])
+@pytest.mark.parametrize("stop", [[], ["quit"], ["QUIT"]], ids=["end of input", "quit", "QUIT"])
+def test_the_same_command_goes_on_where_it_was_left(shelf, stop, options):
+    done = run(["!", *stop], *options, "--count", "2")
+    assert done.exit_code == 0
+    assert "Session kept" in done.output
+    (path,) = shelf.folder.glob("*.json")
+    seed = json.loads(path.read_text())["seed"]
+    first, second = (first_question(seed, number=n) for n in (1, 2))
+    rest = [show(spec) for spec in (*first.specs[1:], *second.specs)]
+    done = run(rest, *options, "--count", "2")
+    assert f"Going on with the session of seed {seed}." in done.output
+    assert done.output.count("Correct.") == len(rest)
+    assert "Done before: (a)." in done.output or len(first.specs) == 1
     assert "Question 2 of 2" in done.output
     assert "Summary by topic" in done.output
-    assert not state.exists()
+    assert not list(shelf.folder.glob("*.json"))
+    assert "Going on" not in run(["quit"], *options, "--count", "2").output
 
 
-def test_a_broken_session_file_is_ignored(state):
-    state.parent.mkdir(parents=True)
-    state.write_text("{not json")
+def test_a_glance_at_another_topic_deletes_nothing(shelf):
+    run(["!", "quit"], "--count", "2")
+    for others in (["--topic", "noise"], ["--tier", "B"], ["--count", "3"], ["--lang", "bn"]):
+        run(["quit"], "--count", "2", *others)
+        run(["!"] * 40, "--count", "1", *others)
+    assert "Going on" in run(["quit"], "--count", "2").output
+    assert "Going on" not in run(["quit"], "--count", "2", "--fresh").output
+
+
+def test_ctrl_c_keeps_the_session_and_says_so(shelf, monkeypatch):
+    typed = iter(["!"])
+
+    def answer(prompt):
+        for line in typed:
+            return line
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("builtins.input", answer)
+    done = CliRunner().invoke(
+        practice.practice, ["--topic", "projection", "--tier", "A", "--seed", SEVERAL]
+    )
+    assert done.exit_code == 130
+    assert done.output.endswith("Session kept. The same command goes on with it.\n")
+    (path,) = shelf.folder.glob("*.json")
+    assert json.loads(path.read_text())["parts"][0]["outcome"]
+
+
+@pytest.mark.parametrize(("lang", "word", "said"), [
+    ("en", "skip", "Skipped."), ("en", "Skip", "Skipped."),
+    ("bn", "বাদ", "বাদ দেওয়া হলো।"), ("bn", "skip", "বাদ দেওয়া হলো।"),
+])  # fmt: skip
+def test_a_part_can_be_skipped(lang, word, said):
+    parts = len(first_question(lang=lang).specs)
+    done = run([word] * parts, "--seed", "s", "--count", "1", "--lang", lang)
+    assert done.output.count(said) == parts
+    if lang == "en":
+        assert f"Projection: {parts} skipped" in done.output
+        assert "parts right at once" not in done.output
+
+
+def test_the_bangla_word_for_quit():
+    assert "অনুশীলন জমা রইল।" in run(["থামুন"], "--lang", "bn").output
+
+
+def test_no_word_that_steers_is_an_answer():
+    """A gap or a piece of code might ask for the word itself."""
+    words = {
+        word.casefold() for lang in languages() for name in ("skip-words", "quit-words")
+        for word in practice_words(lang)[name].split(", ")
+    }  # fmt: skip
+    for name in builtin().paths:
+        for text in builtin().template(name).texts.values():
+            for accepted in text.named.get("gaps", {}).values():
+                answers = str(accepted).casefold()
+                assert not [w for w in words if f"'{w}'" in answers], name
+
+
+def test_a_broken_session_file_is_ignored(shelf):
+    wish = Wish("en", 1, "projection", "A")
+    shelf.folder.mkdir(parents=True)
+    shelf.path(wish).write_text("{not json")
     assert run(["!"] * 9, "--count", "1").exit_code == 0
+
+
+def test_sessions_before_are_remembered():
+    run(["!"] * 9, "--seed", "s", "--count", "1")
+    done = run(["!"] * 9, "--seed", "t", "--count", "1")
+    assert "The last 2 sessions together" in done.output
+
+
+@pytest.mark.parametrize("lang", languages())
+@pytest.mark.parametrize("columns", [40, 80])
+@pytest.mark.parametrize("topic", ["optics", "eye"])
+def test_text_wraps_at_the_width_of_the_terminal(monkeypatch, lang, columns, topic):
+    monkeypatch.setenv("COLUMNS", str(columns))
+    done = CliRunner().invoke(
+        practice.practice, ["--topic", topic, "--lang", lang, "--count", "6", "--seed", "w"],
+        input="?\n!\n" * 60,
+    )  # fmt: skip
+    prompt = practice_words(lang)["prompt"]
+    lines = [line.removeprefix(f"{prompt}: ") for line in done.output.splitlines()]
+    breakable = [line for line in lines if len(line.split()) > 1 and ".svg" not in line]
+    assert max(map(cell_len, breakable)) <= columns
+    assert done.exit_code == 0
 
 
 def test_bangla_and_giving_up():
@@ -85,9 +180,31 @@ def test_bangla_and_giving_up():
     assert "বিষয় ধরে ফলাফল" in done.output
 
 
-def test_filters_that_fit_nothing():
-    done = CliRunner().invoke(practice.practice, ["--topic", "cooking"])
-    assert "No template fits" in done.output
+NOTHING = next(
+    ["--topic", topic, "--tier", tier]
+    for topic in builtin().topics for tier in "ABCD"
+    if not fitting(builtin(), Wish(topic=topic, tier=tier))
+)  # fmt: skip
+"""A topic that has no question of a tier."""
+
+
+@pytest.mark.parametrize(("options", "names"), [
+    (["--topic", "cooking"], "projection, normalisation, aperture"),
+    (["--tier", "E"], "allowed: A, B, C, D"),
+    (["--lang", "fr"], "'en', 'bn'"),
+    ([], "tiers there: "),
+])  # fmt: skip
+def test_filters_that_fit_nothing_name_what_there_is(options, names):
+    options = options or NOTHING
+    done = CliRunner().invoke(practice.practice, options)
+    assert done.exit_code == 2
+    assert names in done.output
+
+
+@pytest.mark.parametrize("topic", ["NOISE", "Noise", " noise", "নয়েজ"])
+def test_topics_are_found_in_capitals_and_by_their_title(topic):
+    done = CliRunner().invoke(practice.practice, ["--topic", topic, "--tier", "b"], input="quit\n")
+    assert done.exit_code == 0
 
 
 def test_every_sentence_exists_in_every_language():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from fractions import Fraction
 
 import msgspec
 import pytest
@@ -12,8 +13,10 @@ from quizgen.bank.folder import builtin
 from quizgen.errors import ChoiceError
 from quizgen.marking.mark import show
 from quizgen.practice.choosing import fitting, nth
+from quizgen.practice.results import TopicResult, by_topic, to_practise
 from quizgen.practice.session import Session
-from quizgen.practice.state import Outcome, State, Wish, kept, new
+from quizgen.practice.shelf import Shelf
+from quizgen.practice.state import Outcome, State, Wish, new
 from quizgen.practice.task import TRIES, Next
 from quizgen.question.compose import compose
 
@@ -27,7 +30,7 @@ def key_of(turn, state):
 
 
 def session(wish=WISH, seed="s"):
-    return Session(builtin(), new(wish, seed))
+    return Session(builtin(), new(msgspec.structs.replace(wish, seed=seed)))
 
 
 def kind_of(task):
@@ -116,44 +119,141 @@ def test_the_learner_judges_a_free_text(right):
     assert (task.outcome.right, task.outcome.first) == (right, right)
 
 
-def test_an_unfinished_question_is_asked_again():
+def test_a_question_goes_on_where_it_was_left():
+    held = session()
+    turn = held.turn()
+    assert len(turn.tasks) > 1
+    turn.tasks[0].give_up()
+    turn.tasks[1].hint()
+    again = Session(builtin(), msgspec.json.decode(msgspec.json.encode(held.state), type=State))
+    later = again.turn()
+    assert later.question == turn.question
+    assert [task.outcome for task in later.tasks] == [turn.tasks[0].outcome] + [None] * (
+        len(turn.tasks) - 1
+    )
+    assert later.tasks[1].hint() == turn.tasks[1].hint()
+
+
+def lens(state=None):
+    """A question about a thin lens: image distance z', then the magnification that follows."""
+    held = Session(builtin(), state or new(Wish(topic="optics", seed="s")))
+    held.templates = ("thin-lens-image-distance",)
+    return held
+
+
+def test_tries_survive_a_break():
+    held = lens()
+    for _ in range(TRIES - 1):
+        assert held.turn().tasks[0].answer("987654 mm").then is Next.AGAIN
+    assert lens(held.state).turn().tasks[0].answer("987654 mm").then is Next.OUT_OF_TRIES
+
+
+def test_a_wrong_value_is_carried_forward_over_a_break():
+    held = lens()
+    turn = held.turn()
+    distance, size = (Fraction(spec.value) for spec in key_of(turn, held.state).specs[:2])
+    turn.tasks[0].answer(f"{float(distance * 3 / 2):.6f} mm")
+    turn.tasks[0].give_up()
+    follows = f"{float(size * 3 / 2):.6f}"
+    assert lens(held.state).turn().tasks[1].answer(follows).verdict.note == "carried-forward"
+
+
+def test_how_far_another_question_got_says_nothing_about_this_one():
     held = session()
     turn = held.turn()
     turn.tasks[0].give_up()
-    again = held.turn()
-    assert again.question == turn.question
-    assert not again.outcomes
+    held.state.question = "another(x=1)"
+    assert not held.turn().outcomes
 
 
-def test_a_kept_state_goes_on_where_it_stopped(tmp_path):
-    path, held = tmp_path / "deep" / "state.json", session()
+def test_a_skipped_part_is_neither_right_nor_wrong():
+    held = session()
+    task = held.turn().tasks[0]
+    task.skip()
+    assert task.outcome == Outcome("projection", right=False, first=False, skipped=True)
+    assert by_topic([task.outcome]) == (TopicResult("projection", 0, 0, 0, 1),)
+
+
+def test_a_kept_session_goes_on_where_it_stopped(tmp_path):
+    shelf, held = Shelf(tmp_path / "deep"), session()
     turn = held.turn()
     for task in turn.tasks:
         task.give_up()
     assert turn.finished
     held.finish(turn)
-    held.state.save(path)
-    state = kept(path, WISH)
+    shelf.keep(held.state)
+    state = shelf.kept(held.state.wish)
     assert state == held.state
-    assert [p.name for p in path.parent.iterdir()] == ["state.json"]
+    assert [p.name for p in shelf.folder.iterdir()] == [shelf.path(state.wish).name]
     later = Session(builtin(), state).turn()
     assert later.number == 2
     assert later.question == held.turn().question
 
 
-def test_a_state_of_another_wish_or_a_broken_one_is_not_taken_up(tmp_path):
-    path = tmp_path / "state.json"
-    session().state.save(path)
-    assert kept(path, Wish(count=3, topic="projection", tier="A")) is None
-    assert kept(tmp_path / "none.json", WISH) is None
+WISHES = [
+    Wish(), Wish(lang="bn"), Wish(count=3), Wish(topic="noise"), Wish(tier="B"), Wish(bank="x"),
+    Wish(seed="a"), Wish(topic="noise", tier="B"),
+]  # fmt: skip
+
+
+def test_every_wish_has_a_session_of_its_own(tmp_path):
+    shelf = Shelf(tmp_path)
+    states = [new(wish) for wish in WISHES]
+    for number, state in enumerate(states):
+        state.done = number
+        shelf.keep(state)
+    assert [shelf.kept(wish) for wish in WISHES] == states
+    shelf.forget(WISHES[0])
+    shelf.end(states[1])
+    assert [shelf.kept(wish) for wish in WISHES] == [None, None, *states[2:]]
+
+
+def test_a_session_of_another_wish_or_a_broken_one_is_not_taken_up(tmp_path):
+    shelf = Shelf(tmp_path)
+    assert shelf.kept(WISH) is None
+    shelf.keep(new(Wish(count=3)))
+    shelf.path(Wish(count=3)).rename(shelf.path(WISH))
+    assert shelf.kept(WISH) is None
     for text in ("{not json", "[]", '{"wish": {}, "seed": 3}', "[" * 5000):
-        path.write_text(text)
-        assert kept(path, WISH) is None
+        shelf.path(WISH).write_text(text)
+        assert shelf.kept(WISH) is None
+
+
+def test_finished_sessions_are_remembered_by_bank_and_counted_once(tmp_path):
+    shelf = Shelf(tmp_path)
+    for seed, bank in (("a", ""), ("b", ""), ("a", ""), ("c", "other")):
+        shelf.end(State(Wish(bank=bank), seed, 10))
+    assert [state.seed for state in shelf.finished("")] == ["b", "a"]
+    assert [state.seed for state in shelf.finished("other")] == ["c"]
+    (shelf.ended / "broken.json").write_text("{")
+    assert len(shelf.finished("")) == 2
+    assert Shelf(tmp_path / "none").finished("") == ()
+
+
+def outcomes(topic, *, right, wrong):
+    return [Outcome(topic, right=True, first=True)] * right + [
+        Outcome(topic, right=False, first=False)
+    ] * wrong
+
+
+def test_what_to_practise_is_what_goes_worst():
+    results = by_topic(
+        outcomes("a", right=3, wrong=1) + outcomes("b", right=5, wrong=0)
+        + outcomes("c", right=0, wrong=2) + outcomes("d", right=1, wrong=2)
+        + outcomes("e", right=8, wrong=1)
+    )  # fmt: skip
+    assert to_practise(results) == ("c", "d", "a")
+    assert to_practise(by_topic(outcomes("b", right=5, wrong=0))) == ()
+
+
+def test_only_the_latest_parts_of_a_topic_say_how_well_it_is_known():
+    past = outcomes("a", right=0, wrong=30) + outcomes("a", right=30, wrong=0)
+    assert by_topic(past, 30) == (TopicResult("a", 30, 30, 0),)
 
 
 def test_new_sessions_differ_and_a_seed_is_kept():
     assert new(WISH).seed != new(WISH).seed
-    assert new(WISH, "abc").seed == "abc"
+    assert new(Wish(seed="abc")).seed == "abc"
 
 
 def test_the_summary_counts_by_topic():

@@ -1,0 +1,98 @@
+"""Where sessions are kept: a file per wish, and one for each session that was finished."""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+from pathlib import Path
+
+import msgspec
+
+from quizgen.errors import RenderError
+from quizgen.files import write_all
+from quizgen.practice.state import State, Wish
+
+REMEMBERED = 200
+"""Finished sessions that are looked at, the latest ones."""
+
+
+class Shelf:
+    """A folder of sessions. One wish never touches the session of another.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        Made when something is first kept.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.ended = folder / "ended"
+
+    def path(self, wish: Wish) -> Path:
+        """File of the session that a wish has begun."""
+        return self.folder / f"{_digest(wish)}.json"
+
+    def figure(self, wish: Wish) -> Path:
+        """File of the picture of the question that is due."""
+        return self.path(wish).with_suffix(".svg")
+
+    def kept(self, wish: Wish) -> State | None:
+        """The session that a wish has begun, if it can be read."""
+        state = _read(self.path(wish))
+        return state if state is not None and state.wish == wish else None
+
+    def keep(self, state: State) -> None:
+        """Keep a session, whole or not at all.
+
+        Raises
+        ------
+        RenderError
+            If the file cannot be written.
+        """
+        path = self.path(state.wish)
+        text = msgspec.json.format(msgspec.json.encode(state), indent=1)
+        write_all(path.parent, {path.name: text})
+
+    def forget(self, wish: Wish) -> None:
+        """Give up the session that a wish has begun."""
+        self.path(wish).unlink(missing_ok=True)
+        self.figure(wish).unlink(missing_ok=True)
+
+    def end(self, state: State) -> None:
+        """Put a session that came to its end with the others; held again, it counts once.
+
+        Raises
+        ------
+        RenderError
+            If the file cannot be moved.
+        """
+        self.keep(state)
+        target = (
+            self.ended / f"{_digest(msgspec.structs.replace(state.wish, seed=state.seed))}.json"
+        )
+        try:
+            self.ended.mkdir(parents=True, exist_ok=True)
+            self.path(state.wish).replace(target)
+        except OSError as error:
+            raise RenderError(f"{target}: {error.strerror or error}") from error
+        self.forget(state.wish)
+
+    def finished(self, bank: str) -> tuple[State, ...]:
+        """Sessions of a bank that came to their end, the latest last."""
+        with contextlib.suppress(OSError):
+            paths = sorted(self.ended.glob("*.json"), key=lambda path: path.stat().st_mtime_ns)
+            states = map(_read, paths[-REMEMBERED:])
+            return tuple(state for state in states if state and state.wish.bank == bank)
+        return ()
+
+
+def _digest(wish: Wish) -> str:
+    return hashlib.sha256(msgspec.json.encode(wish)).hexdigest()[:16]
+
+
+def _read(path: Path) -> State | None:
+    try:
+        return msgspec.json.decode(path.read_bytes(), type=State)
+    except (OSError, msgspec.MsgspecError, RecursionError):
+        return None
