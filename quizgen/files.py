@@ -4,50 +4,119 @@ from __future__ import annotations
 
 import contextlib
 import os
+import re
 import secrets
-from collections.abc import Mapping
+import shutil
+import signal
+import threading
+import time
+from collections.abc import Iterator, Mapping
 from pathlib import Path
+from types import FrameType
 from typing import Any
 
 from quizgen.errors import KeyFileError, RenderError
 from quizgen.outside import parse_json, parse_toml, read_text
 
+STALE = 3600.0
+"""Seconds after which what a killed run left behind is swept away."""
+
+_LEFT_BEHIND = re.compile(r"\..*\.\d+-[0-9a-f]{8}\.part", re.DOTALL)
+
 
 def write_all(folder: Path, contents: Mapping[str, bytes]) -> list[Path]:
     """Write several files so that either all of them appear or none changes.
+
+    A folder that is new appears with everything in it. In one that exists, the last file seals the
+    set: it goes first and comes back last, so a run that is killed never leaves it beside others
+    that it does not belong to.
 
     Parameters
     ----------
     folder : pathlib.Path
         Made if it does not exist.
     contents : mapping of str to bytes
-        File name to content.
+        File name, or path below the folder, to content; what needs the others comes last.
 
     Raises
     ------
     RenderError
         If the folder cannot be written (read-only, full); nothing is left behind.
     """
+    new = not folder.exists()
     mark = f".{os.getpid()}-{secrets.token_hex(4)}.part"
-    staged: dict[Path, Path] = {}
+    around = folder.parent if new else folder
+    stage = around / (f".{folder.name}{mark}" if new else f".{mark}")
     try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for name, data in contents.items():
-            target = folder / name
-            if target.is_dir():
-                raise RenderError(f"{target}: is a folder")
-            temporary = folder / f"{name}{mark}"
-            staged[target] = temporary
-            _write_synced(temporary, data)
-        for target, temporary in staged.items():
-            temporary.replace(target)
+        around.mkdir(parents=True, exist_ok=True)
+        _sweep(around)
+        _stage(stage, folder, contents)
+        with _undisturbed():
+            _appear(stage, folder, list(contents), new=new)
     except OSError as error:
         raise RenderError(f"{error.filename or folder}: {error.strerror or error}") from error
     finally:
-        for temporary in staged.values():
-            with contextlib.suppress(OSError):
-                temporary.unlink(missing_ok=True)
-    return list(staged)
+        shutil.rmtree(stage, ignore_errors=True)
+    return [folder / name for name in contents]
+
+
+def _stage(stage: Path, folder: Path, contents: Mapping[str, bytes]) -> None:
+    """Write everything where nobody looks."""
+    stage.mkdir()
+    for name, data in contents.items():
+        if (folder / name).is_dir():
+            raise RenderError(f"{folder / name}: is a folder")
+        (stage / name).parent.mkdir(parents=True, exist_ok=True)
+        _write_synced(stage / name, data)
+
+
+def _appear(stage: Path, folder: Path, names: list[str], *, new: bool) -> None:
+    """Move what was staged to where it belongs, the last file last."""
+    if new:
+        stage.rename(folder)
+        return
+    if len(names) > 1:
+        (folder / names[-1]).unlink(missing_ok=True)
+    for name in names:
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (stage / name).replace(folder / name)
+
+
+def _sweep(folder: Path) -> None:
+    """Remove what runs that were killed long ago left behind."""
+    for path in folder.iterdir():
+        if not _LEFT_BEHIND.fullmatch(path.name):
+            continue
+        with contextlib.suppress(OSError):
+            if time.time() - path.lstat().st_mtime > STALE:
+                _remove(path)
+
+
+def _remove(path: Path) -> None:
+    if path.is_dir() and not path.is_symlink():
+        shutil.rmtree(path)
+    else:
+        path.unlink()
+
+
+@contextlib.contextmanager
+def _undisturbed() -> Iterator[None]:
+    """Let Ctrl-C wait until all files stand where they belong."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    waiting: list[int] = []
+
+    def wait(number: int, _frame: FrameType | None) -> None:
+        waiting.append(number)
+
+    before = signal.signal(signal.SIGINT, wait)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+        if waiting:
+            signal.raise_signal(waiting[0])
 
 
 def _write_synced(path: Path, data: bytes) -> None:
