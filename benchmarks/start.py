@@ -48,7 +48,7 @@ def key() -> dict[str, object]:
         }
         for number in range(1, QUESTIONS + 1)
     ]
-    return {"format": "quizgen-key/1", "questions": questions}
+    return {"format": "quizgen-key/2", "questions": questions}
 
 
 def form(typed: Mapping[str, str]) -> dict[str, object]:

@@ -16,7 +16,7 @@ from quizgen.question.compose import compose
 from quizgen.render import render_paper, renderer
 from quizgen.tradeoff.ladder import OraclesDisagree
 
-KEY = {"format": "quizgen-key/1", "questions": []}
+KEY = {"format": "quizgen-key/2", "questions": []}
 
 
 def test_the_tree_in_the_docstring_holds_every_error_of_the_module():

@@ -16,6 +16,9 @@ from quizgen.marking.options import DECIMALS
 if TYPE_CHECKING:
     from quizgen.paper.paper import Item, Paper
 
+LONGEST = 10_000
+"""Bits of the longest whole number that is taken as typed."""
+
 
 class Student(msgspec.Struct):
     """Who filled in the form, and how they write."""
@@ -31,6 +34,7 @@ class Answers(msgspec.Struct):
     answers: dict[str, str | int | float | bool | None] = {}
     student: Student = msgspec.field(default_factory=Student)
     code: str = ""
+    paper: str = ""
 
     @property
     def blank(self) -> bool:
@@ -39,10 +43,14 @@ class Answers(msgspec.Struct):
 
     def typed(self) -> dict[str, str]:
         """Texts as typed; a number written without quotes counts as its text."""
-        return {
-            part: "" if text is None else str(text).lower() if isinstance(text, bool) else str(text)
-            for part, text in self.answers.items()
-        }
+        return {part: _as_text(value) for part, value in self.answers.items()}
+
+
+def _as_text(value: str | float | bool | None) -> str:
+    """A value as it was typed; Python writes no whole number of more than 4300 digits."""
+    if isinstance(value, int) and not isinstance(value, bool) and value.bit_length() > LONGEST:
+        return f"{value:#x}"
+    return "" if value is None else str(value).lower() if isinstance(value, bool) else str(value)
 
 
 def form_bytes(paper: Paper) -> bytes:
@@ -50,6 +58,7 @@ def form_bytes(paper: Paper) -> bytes:
     lines = [
         f"# {paper.title(paper.langs[0])} - {paper.code}",
         f"code = {json.dumps(paper.code)}",
+        f'paper = "{paper.digest}"',
         "",
         "[student]",
         'name = ""',

@@ -22,7 +22,9 @@ from quizgen.maths.numbers import written
 if TYPE_CHECKING:
     from quizgen.paper.paper import Item, Paper
 
-FORMAT = "quizgen-key/1"
+FORMAT = "quizgen-key/2"
+UNORDERED = frozenset({"notes", "traps"})
+"""Mappings of a specification whose entries are only ever looked up by name."""
 
 
 class KeyGiven(msgspec.Struct):
@@ -66,15 +68,38 @@ def _chain(units: tuple[tuple[str, str], ...], steps: tuple[tuple[str, str, str]
 
 
 class KeyPart(msgspec.Struct):
-    """One answer field."""
+    """One answer field.
+
+    Objects of JSON have no order, but cells of a table are asked and typed in one: ``order`` holds
+    the names of every mapping of ``spec`` as a list.
+    """
 
     id: str
     points: str
     spec: dict[str, Any]
+    order: dict[str, list[str]] = {}
 
     def worth(self) -> Fraction:
         """Points as an exact number."""
         return written(self.points)
+
+    def in_order(self) -> dict[str, Any]:
+        """The specification with its mappings in their order.
+
+        Raises
+        ------
+        KeyFileError
+            If the order is not one of the names there are.
+        """
+        for field, names in self.order.items():
+            mapping = self.spec.get(field)
+            if not isinstance(mapping, dict) or sorted(mapping) != sorted(names):
+                raise KeyFileError(f"order.{field} does not hold the names of spec.{field}")
+        sorted_out = {
+            field: {name: self.spec[field][name] for name in names}
+            for field, names in self.order.items()
+        }
+        return {**self.spec, **sorted_out}
 
 
 class KeyQuestion(msgspec.Struct):
@@ -97,6 +122,7 @@ class Key(msgspec.Struct):
     format: str
     questions: list[KeyQuestion]
     code: str = ""
+    paper: str = ""
     title: dict[str, str] = {}
     langs: tuple[str, ...] = ("en",)
 
@@ -105,14 +131,14 @@ def key_of(paper: Paper) -> Key:
     """The answer key of a paper."""
     title = {lang: paper.title(lang) for lang in paper.langs}
     questions = [key_question(item) for item in paper.items]
-    return Key(FORMAT, questions, paper.code, title, paper.langs)
+    return Key(FORMAT, questions, paper.code, paper.digest, title, paper.langs)
 
 
 def key_question(item: Item) -> KeyQuestion:
     """The key of one question."""
     question, key = item.questions[0], item.keys[0]
     parts = [
-        KeyPart(part.field.id, str(part.points), msgspec.to_builtins(spec))
+        _key_part(part.field.id, str(part.points), msgspec.to_builtins(spec))
         for part, spec in zip(question.parts, key.specs, strict=True)
     ]
     return KeyQuestion(
@@ -128,10 +154,19 @@ def key_question(item: Item) -> KeyQuestion:
     )
 
 
+def _key_part(name: str, points: str, spec: dict[str, Any]) -> KeyPart:
+    order = {
+        field: list(value)
+        for field, value in spec.items()
+        if isinstance(value, dict) and field not in UNORDERED and len(value) > 1
+    }
+    return KeyPart(name, points, spec, order)
+
+
 def key_bytes(paper: Paper) -> bytes:
     """``key.json``."""
     table = msgspec.to_builtins(key_of(paper))
-    text = json.dumps(table, ensure_ascii=False, indent=1, sort_keys=True)
+    text = json.dumps(table, ensure_ascii=False, indent=1)
     return (text + "\n").encode()
 
 
@@ -143,6 +178,11 @@ def load_key(table: Mapping[str, Any], place: str = "key") -> Key:
     KeyFileError
         Naming file and field.
     """
+    if table.get("format") == "quizgen-key/1":
+        raise KeyFileError(
+            f"{place}: from an earlier version, which did not keep the order of the cells of a "
+            "table; make the paper again, or mark it with that version"
+        )
     if table.get("format") != FORMAT:
         raise KeyFileError(f"{place}: format is {table.get('format')!r}, not {FORMAT!r}")
     try:

@@ -182,7 +182,7 @@ class Marker:
 
 def _spec(part: KeyPart) -> Kind:
     try:
-        return load_spec(part.spec)
+        return load_spec(part.in_order())
     except KeyFileError as error:
         raise KeyFileError(f"key: part {part.id}: {error}") from None
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from decimal import Decimal
@@ -62,6 +63,20 @@ class Paper:
     def points(self) -> Fraction:
         """Marks of all questions."""
         return sum((item.points for item in self.items), Fraction(0))
+
+    @property
+    def digest(self) -> str:
+        """Short digest of what is asked and marked; page, form and key that belong together agree.
+
+        It is of names and numbers as they were drawn, so it is the same for all formats.
+        """
+        parts = [
+            f"{item.number}|{key.template}|{key.identity}|"
+            + ",".join(f"{part.field.id}={part.points}" for part in item.questions[0].parts)
+            for item in self.items
+            for key in item.keys[:1]
+        ]
+        return hashlib.sha256("\n".join([self.code, *parts]).encode()).hexdigest()[:16]
 
     @property
     def variety_text(self) -> str:

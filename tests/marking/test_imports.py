@@ -30,7 +30,7 @@ def key() -> dict[str, object]:
     }
     parts = [{"id": name, "points": "1", "spec": spec} for name, spec in SPECS.items()]
     question = {"number": "1", "template": "T", "chain": chain, "parts": parts}
-    return {"format": "quizgen-key/1", "code": "c", "questions": [question]}
+    return {"format": "quizgen-key/2", "code": "c", "questions": [question]}
 
 
 def run(code: str) -> str:

@@ -28,7 +28,7 @@ CHAIN = {
     "steps": [["h", "f*X/Z", "mm"], ["n", "h/pitch", "px"]],
 }
 KEY = {
-    "format": "quizgen-key/1",
+    "format": "quizgen-key/2",
     "code": "mock-1",
     "title": {"en": "Mock", "bn": "মক"},
     "langs": ["en", "bn"],

@@ -102,7 +102,7 @@ def test_questions_alone_do_not_hold_the_answer(bank):
 
 def test_the_key_is_plain_json_with_exact_values(bank):
     table = json.loads(key_bytes(build(bank, load_blueprint("trial"), 5, figures=False)))
-    assert table["format"] == "quizgen-key/1"
+    assert table["format"] == "quizgen-key/2"
     for question in table["questions"]:
         for part in question["parts"]:
             assert part["spec"]["kind"]

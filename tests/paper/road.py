@@ -1,0 +1,117 @@
+"""The whole road of a paper: printed, filled in by hand, marked from its files.
+
+What is typed is taken from what is printed, the solution and the hint beside the field, and never
+from the key: so a key that lost something on its way through a file is found out.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from click.testing import CliRunner
+
+from quizgen.bank.folder import Bank
+from quizgen.cli.check import check
+from quizgen.paper.blueprint import Blueprint, SlotRule
+from quizgen.paper.form import form_bytes
+from quizgen.paper.key import key_bytes
+from quizgen.paper.paper import Paper, build
+
+NAMED = re.compile(r"\s*(.+?) = (.+)", re.DOTALL)
+
+
+@dataclass(frozen=True)
+class Printed:
+    """One field of a paper as a student sees it, with what the solutions page says of it."""
+
+    id: str
+    template: str
+    form: str
+    hint: str
+    answer: str
+    mistakes: tuple[tuple[str, str], ...]
+
+
+def all_templates(bank: Bank, seed: int, lang: str) -> Paper:
+    """A paper in which every template of the bank stands once."""
+    slots = tuple(SlotRule(templates=(name,)) for name in bank.paths)
+    blueprint = Blueprint({"en": "Everything"}, slots, name="everything", source="everything")
+    return build(bank, blueprint, seed, lang, figures=False)
+
+
+def fields(paper: Paper) -> Iterator[Printed]:
+    """The fields that a machine marks; free text has no printed answer and is left out."""
+    for item in paper.items:
+        question, key = item.questions[0], item.keys[0]
+        for part, solved in zip(question.parts, key.solution.parts, strict=True):
+            if solved.answer:
+                mistakes = tuple((one.name, one.value) for one in solved.mistakes)
+                yield Printed(part.field.id, key.template, part.field.control.form,
+                              " ".join(part.field.hints), solved.answer, mistakes)  # fmt: skip
+
+
+def typed(field: Printed, printed: str, side: int = 0) -> str:
+    """What a student types who reads the solution and does what the hint asks.
+
+    ``side`` chooses between an exact value and its rounded one, where both are printed.
+    """
+    sides = printed.split(" ≈ ")
+    text = sides[min(side, len(sides) - 1)]
+    if field.form == "pairs":
+        return text.replace(":", "").replace(",", "")
+    pairs = [NAMED.fullmatch(cell) for cell in text.split("; ")]
+    if not all(pairs):
+        return text
+    values = {pair[1]: pair[2] for pair in pairs if pair}
+    return "; ".join(values[name] for name in sorted(values, key=lambda n: _place(field, n)))
+
+
+def _place(field: Printed, name: str) -> int:
+    """Where a name stands in the hint."""
+    found = re.search(rf"(?<!\w){re.escape(name)}(?!\w)", field.hint)
+    assert found, f"{field.template}: the hint does not name {name}: {field.hint}"
+    return found.start()
+
+
+class Desk:
+    """A folder with a paper's key and blank form, and what was filled in."""
+
+    def __init__(self, folder: Path, paper: Paper) -> None:
+        self.folder, self.paper = folder, paper
+        self.key = folder / "key.json"
+        self.key.write_bytes(key_bytes(paper))
+        self.blank = form_bytes(paper).decode()
+        self.forms: list[Path] = []
+
+    def toml(self, answers: dict[str, str]) -> None:
+        """Fill in the printed form with an editor."""
+        lines = []
+        for line in self.blank.splitlines():
+            name = re.match(r'"(.+?)" = ""', line)
+            text = answers.get(name[1], "") if name else ""
+            quoted = json.dumps(text, ensure_ascii=False)
+            lines.append(line.replace('""', quoted, 1) if text else line)
+        self._keep(f"{len(self.forms)}.toml", "\n".join(lines))
+
+    def json(self, answers: dict[str, str]) -> None:
+        """Fill in the page, which saves this."""
+        student = {"name": "", "lang": self.paper.langs[0], "decimal": "auto"}
+        data = {"code": self.paper.code, "student": student, "answers": answers}
+        self._keep(f"{len(self.forms)}.json", json.dumps(data, ensure_ascii=False))
+
+    def _keep(self, name: str, text: str) -> None:
+        self.forms.append(self.folder / name)
+        self.forms[-1].write_text(text, encoding="utf-8")
+
+    def marks(self, key: Path | None = None) -> list[dict[str, dict]]:
+        """Part to result, for each form, as ``quizgen check`` prints it."""
+        files = [str(key or self.key), *map(str, self.forms)]
+        done = CliRunner().invoke(check, [*files, "--json", "--no-settle"])
+        assert done.exit_code == 0, done.output
+        read = json.loads(done.stdout)
+        papers = read if isinstance(read, list) else [read]
+        return [{part["id"]: part for part in paper["parts"]} for paper in papers]
