@@ -1,0 +1,214 @@
+"""Each kind of file that is read: a mutant of it, and everything that is done with such a file."""
+
+from __future__ import annotations
+
+import json
+import random
+import tomllib
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+
+from values import as_json, bent, damaged, mutated, toml
+
+from quizgen.bank import plan as planning
+from quizgen.bank.folder import Bank, builtin
+from quizgen.camera.plan import Prepared, plan
+from quizgen.camera.reading import load as load_scene
+from quizgen.camera.simulate import run as photograph
+from quizgen.cards.content import KINDS as CARDS
+from quizgen.cards.content import load as load_cards
+from quizgen.cards.content import passage, passages
+from quizgen.cards.mistakes import from_marks
+from quizgen.errors import KeyFileError
+from quizgen.paper.blueprint import load_blueprint
+from quizgen.paper.choose import choose, variety
+from quizgen.paper.form import read_answers
+from quizgen.paper.key import key_bytes, read_key
+from quizgen.paper.marking import mark_paper
+from quizgen.paper.paper import build, single
+from quizgen.paper.report import class_csv, table_lines
+from quizgen.png import decode, encode
+from quizgen.render import render_paper
+from quizgen.render.text import question_text
+
+SCENES = Path(planning.__file__).parents[1] / "camera" / "scenes"
+SMALL = 200_000
+"""Pixels of a scene that is photographed, not only planned."""
+
+Chance = random.Random
+
+
+def a_bank(folder: Path, name: str) -> Path:
+    """A bank of one template without solvers of its own; returns the template's folder."""
+    source = builtin().paths[name]
+    target = folder / "templates" / source.parent.name / name
+    target.mkdir(parents=True, exist_ok=True)
+    for file in source.iterdir():
+        (target / file.name).write_bytes(file.read_bytes())
+    return target
+
+
+def use_bank(folder: Path, name: str, chance: Chance) -> None:
+    """List, draw, print and mark what a bank holds."""
+    planning._PLANS.clear()
+    bank = Bank(folder)
+    for lang in bank.languages:
+        bank.title(lang)
+    template = bank.template(name)
+    lang = chance.choice(template.languages)
+    paper = single(template, chance.randrange(100), lang, figures=chance.random() < 0.1)
+    key_bytes(paper)
+    question_text(paper.items[0])
+    if chance.random() < 0.2:
+        render_paper(paper, "solutions", "html")
+
+
+def template(folder: Path, chance: Chance) -> None:
+    name = chance.choice(list(builtin().paths))
+    file = a_bank(folder, name) / "template.toml"
+    table = tomllib.loads(file.read_text("utf-8"))
+    if chance.random() < 0.1:
+        file.write_bytes(damaged(file.read_bytes(), chance))
+    else:
+        file.write_text(toml(mutated(table, chance)), "utf-8")
+    use_bank(folder, name, chance)
+
+
+def prose(folder: Path, chance: Chance) -> None:
+    name = chance.choice(list(builtin().paths))
+    file = a_bank(folder, name) / f"{chance.choice(('en', 'bn'))}.md"
+    file.write_text(bent(file.read_text("utf-8"), chance), "utf-8", errors="replace")
+    use_bank(folder, name, chance)
+
+
+def bank(folder: Path, chance: Chance) -> None:
+    a_bank(folder, "point-to-image-plane")
+    file = chance.choice(("bank.toml", "curriculum.toml"))
+    table = tomllib.loads((builtin().folder / file).read_text("utf-8"))
+    (folder / "templates" / file).write_text(toml(mutated(table, chance)), "utf-8")
+    found = Bank(folder)
+    assert found.curriculum.inventory is not None
+    use_bank(folder, "point-to-image-plane", chance)
+
+
+def cards(folder: Path, chance: Chance) -> None:
+    name = chance.choice(list(CARDS))
+    table = tomllib.loads(builtin().cards[name].read_text("utf-8"))
+    few = {"entry": chance.sample(table["entry"], 3)}
+    entries = load_cards(toml(mutated(few, chance)), CARDS[name], f"{name}.toml")
+    for entry in entries:
+        for field in passages(type(entry)):
+            passage(entry, field, "en")
+
+
+def blueprint(folder: Path, chance: Chance) -> None:
+    source = chance.choice(list(builtin().blueprints.values()))
+    file = folder / "paper.toml"
+    file.write_text(toml(mutated(tomllib.loads(source.read_text("utf-8")), chance)), "utf-8")
+    found = load_blueprint(str(file))
+    chosen = choose(builtin(), found, chance.randrange(100))
+    variety(builtin(), found)
+    if len(chosen) <= 2:
+        build(builtin(), found, 1, figures=False)
+
+
+def scene(folder: Path, chance: Chance) -> None:
+    source = chance.choice(sorted(SCENES.glob("*.toml")))
+    file = folder / "scene.toml"
+    table = tomllib.loads(source.read_text("utf-8"))
+    table.setdefault("scene", {}).update(width=80, height=60)
+    file.write_text(toml(mutated(table, chance)), "utf-8")
+    given, camera = load_scene(file)
+    if given.width * given.height <= SMALL:
+        prepared = Prepared(given, camera)
+        photograph(prepared, plan(prepared))
+
+
+@cache
+def a_picture() -> bytes:
+    import numpy as np
+
+    return encode(np.arange(12 * 16 * 3, dtype=np.uint8).reshape(12, 16, 3))
+
+
+def png(folder: Path, chance: Chance) -> None:
+    data = bytearray(damaged(a_picture(), chance))
+    if chance.random() < 0.3 and len(data) > 24:
+        data[chance.randrange(16, 24)] = chance.randrange(256)
+    try:
+        decode(bytes(data))
+    except ValueError as error:
+        raise KeyFileError(str(error)) from None  # the reader of scenes adds file and line
+
+
+@cache
+def keys() -> tuple[dict, ...]:
+    """Keys of papers of all topics."""
+    built = (
+        build(builtin(), load_blueprint(f"{topic}.20"), 3, "en", figures=False)
+        for topic in builtin().topics
+    )
+    return tuple(json.loads(key_bytes(paper)) for paper in built)
+
+
+def use_answers(folder: Path, key: Path, form: Path) -> None:
+    answers = read_answers(form)
+    result = mark_paper(read_key(key), answers.typed(), decimal=answers.student.decimal)
+    list(table_lines(result, "en", 80, paint=False))
+    class_csv([(str(form), answers.student.name, result)])
+    json.dumps(result.as_json()).encode()
+
+
+def form_of(table: dict) -> dict:
+    """A form with a right answer in each part."""
+    from quizgen.marking.mark import show
+
+    typed = {p["id"]: show(p["spec"]) for q in table["questions"] for p in q["parts"]}
+    return {
+        "code": table["code"],
+        "student": {"name": "Rahim", "lang": "en", "decimal": "point"},
+        "answers": typed,
+    }
+
+
+def key(folder: Path, chance: Chance) -> None:
+    table = chance.choice(keys())
+    chosen = {**table, "questions": [chance.choice(table["questions"])]}
+    (folder / "key.json").write_text(as_json(mutated(chosen, chance)), "utf-8")
+    (folder / "answers.toml").write_text(toml(form_of(chosen)), "utf-8")
+    use_answers(folder, folder / "key.json", folder / "answers.toml")
+
+
+def answers(folder: Path, chance: Chance) -> None:
+    table = chance.choice(keys())
+    question = chance.choice(table["questions"])
+    form = form_of({**table, "questions": [question]})
+    (folder / "key.json").write_text(as_json({**table, "questions": [question]}), "utf-8")
+    file = folder / chance.choice(("answers.toml", "answers.json"))
+    write = toml if file.suffix == ".toml" else as_json
+    data = write(mutated(form, chance)).encode("utf-8", "replace")
+    file.write_bytes(damaged(data, chance) if chance.random() < 0.2 else data)
+    use_answers(folder, folder / "key.json", file)
+
+
+@cache
+def a_result() -> dict:
+    paper = build(builtin(), load_blueprint("projection.5"), 3, "en", figures=False)
+    table = json.loads(key_bytes(paper))
+    wrong = {p["id"]: "1" for q in table["questions"] for p in q["parts"]}
+    return mark_paper(table, wrong).as_json()
+
+
+def marks(folder: Path, chance: Chance) -> None:
+    file = folder / "marks.json"
+    file.write_text(as_json(mutated(a_result(), chance)), "utf-8")
+    from_marks(file, "en", bank=builtin())
+
+
+KINDS: dict[str, tuple[int, Callable[[Path, Chance], None]]] = {
+    "template": (30, template), "prose": (10, prose), "bank": (5, bank), "cards": (5, cards),
+    "blueprint": (10, blueprint), "scene": (8, scene), "png": (7, png), "key": (12, key),
+    "answers": (10, answers), "marks": (3, marks),
+}  # fmt: skip
+"""Name to its share in a hundred mutants, and what makes one and uses it."""
