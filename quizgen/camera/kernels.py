@@ -12,9 +12,18 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from quizgen.camera.scene import SceneError
+
 Kernel = NDArray[np.float64]
 
 SAMPLES = 64
+LARGEST_BLUR = 800.0
+"""Pixels of the widest blur: a kernel needs memory by its square."""
+
+
+def _bounded(size: float) -> None:
+    if not abs(size) <= LARGEST_BLUR:
+        raise SceneError(f"a blur of {size:.3g} px is more than {LARGEST_BLUR:g} px")
 
 
 def _half_chord_integral(x: Kernel) -> Kernel:
@@ -65,6 +74,7 @@ def disc(diameter: float) -> Kernel:
     numpy.ndarray
         Odd-sized square kernel, sums to 1, symmetric in both axes.
     """
+    _bounded(diameter)
     radius = abs(diameter) / 2.0
     if radius == 0.0:
         return np.ones((1, 1))
@@ -91,6 +101,7 @@ def line(across: float, down: float) -> Kernel:
         Odd-sized kernel (height, width), sums to 1, symmetric about its centre. The variance along
         the path is L^2/12 plus that of the pixel grid (errata E40: a box, not a Gaussian).
     """
+    _bounded(max(abs(across), abs(down)))
     count = max(SAMPLES, 16 * math.ceil(max(abs(across), abs(down))))
     times = (np.arange(count) + 0.5) / count - 0.5
     kernel = _tents(down * times) @ _tents(across * times).T / count

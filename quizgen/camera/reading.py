@@ -31,6 +31,9 @@ from quizgen.camera.values import (
 )
 from quizgen.outside import LARGEST_PICTURE, parse_toml, read_bytes, read_text
 
+MOST_THINGS = 1000
+"""Things of a scene, corners of a polygon and blades of a propeller."""
+
 Readers = Mapping[str, Reader[Any]]
 """Readers of the keys of one table; each gives the type of its own field."""
 
@@ -42,11 +45,22 @@ def _depth(value: object) -> float:
     return depth
 
 
-def _side(value: object) -> int:
-    side = whole(value)
-    if not 2 <= side <= 2**15:
-        raise ValueError("expected 2 to 32768")
-    return side
+def _between(least: int, most: int) -> Reader[int]:
+    """Reader of a whole number in a range."""
+
+    def read(value: object) -> int:
+        if not least <= whole(value) <= most:
+            raise ValueError(f"expected {least} to {most}")
+        return whole(value)
+
+    return read
+
+
+def _corners(value: object) -> tuple[tuple[float, float], ...]:
+    corners = several(pair(number))(value)
+    if len(corners) > MOST_THINGS:
+        raise ValueError(f"expected at most {MOST_THINGS} corners")
+    return corners
 
 
 def _questions(value: object) -> tuple[str, ...]:
@@ -54,9 +68,9 @@ def _questions(value: object) -> tuple[str, ...]:
 
 
 SCENE: Readers = {
-    "title": words, "width": _side, "height": _side, "background": colour,
+    "title": words, "width": _between(2, 2**15), "height": _between(2, 2**15), "background": colour,
     "background_depth": _depth, "image": words, "depth": _depth, "depth_map": words,
-    "depth_near": _depth, "depth_far": _depth, "seed": whole, "question": _questions,
+    "depth_near": _depth, "depth_far": _depth, "seed": _between(0, 2**63), "question": _questions,
 }  # fmt: skip
 
 THING: Readers = {
@@ -64,7 +78,7 @@ THING: Readers = {
     "height": length(), "radius": length(), "cell": length(), "stroke": length(),
     "depth": _depth, "colour": colour, "other": colour, "texture": one_of(*TEXTURES),
     "angle": quantity("deg"), "velocity": pair(length("/s")), "spin": quantity("deg/s"),
-    "count": whole, "points": several(pair(number)),
+    "count": _between(1, MOST_THINGS), "points": _corners,
 }  # fmt: skip
 
 TABLES = ("scene", "camera", "thing")
@@ -134,6 +148,8 @@ class _File:
         things = self.tables.get("thing", [])
         if not isinstance(things, list) or not all(isinstance(item, dict) for item in things):
             raise self.fail("thing", 0, "", "expected tables [[thing]]")
+        if len(things) > MOST_THINGS:
+            raise self.fail("thing", 0, "", f"more than {MOST_THINGS} things")
 
 
 def load(path: str | Path) -> tuple[Scene, Camera]:
@@ -163,8 +179,8 @@ def _camera(file: _File) -> Camera:
     if (width := values.pop("sensor_width", None)) is not None:
         if "pixel_pitch" in values:
             raise file.fail("camera", 0, "sensor_width", "give sensor_width or pixel_pitch")
-        columns = file.tables.get("scene", {}).get("width", Scene.width)
-        values["pixel_pitch"] = width / columns
+        given = file.tables.get("scene", {}).get("width", Scene.width)
+        values["pixel_pitch"] = width / file.read("scene", 0, {"width": given})["width"]
     try:
         return Camera(**values)
     except SceneError as error:
@@ -178,13 +194,16 @@ def _thing(file: _File, which: int, table: Mapping[str, object]) -> Thing:
         given = getattr(thing, size)
         if not given or (isinstance(given, Length) and given.value <= 0.0):
             raise file.fail("thing", which, "", f"a {thing.shape} needs {size}")
-    if thing.cell.value <= 0.0 or thing.count < 1:
-        raise file.fail("thing", which, "", "cell and count must be positive")
+    if thing.cell.value <= 0.0:
+        raise file.fail("thing", which, "", "cell must be positive")
     return thing
 
 
 def _scene(file: _File, things: tuple[Thing, ...]) -> Scene:
     values = file.read("scene", 0, file.tables.get("scene", {}))
+    pixels = values.get("width", Scene.width) * values.get("height", Scene.height)
+    if pixels > png.MOST_MEGAPIXELS * 1_000_000:
+        raise file.fail("scene", 0, "width", f"more than {png.MOST_MEGAPIXELS} megapixels")
     near, far = values.pop("depth_near", 1.0), values.pop("depth_far", math.inf)
     for key in ("image", "depth_map"):
         if key in values:
