@@ -13,7 +13,7 @@ from flint import fmpq
 from quizgen.bank.rules import KeepRule, Scalar
 from quizgen.bank.template import Template
 from quizgen.bank.traps import PartPlan
-from quizgen.errors import MathError
+from quizgen.errors import BankError, MathError
 from quizgen.maths.numbers import places, rational, to_float, written
 from quizgen.maths.precision import working_precision
 from quizgen.maths.systems import Compiled, compile_inner, exact
@@ -39,6 +39,7 @@ def shuffled(key: str, items: Sequence[T]) -> list[T]:
 class _Variable:
     """One drawn quantity: its candidates, or the formula that derives it (or its phrase)."""
 
+    place: str
     name: str
     choices: tuple[fmpq, ...]
     words: tuple[str, ...]
@@ -47,7 +48,11 @@ class _Variable:
     def derive(self, shown: dict[str, fmpq], words: dict[str, str]) -> None:
         """Set the quantity, or the phrase at the place that the formula counts from 0."""
         value = self.formula(shown) if self.formula else fmpq(0)
+        if isinstance(value, bool):
+            raise BankError(f"{self.place}: a condition, where a number is needed")
         if self.words:
+            if not isinstance(value, fmpq):
+                raise BankError(f"{self.place}: by: the place of a phrase is a rational number")
             words[self.name] = self.words[int(value.floor()) % len(self.words)]
         else:
             shown[self.name] = value
@@ -83,7 +88,10 @@ class Plan:
         source = rule.formula or rule.by
         formula = compile_inner(self.template.formula(source), exact()) if source else None
         listed = () if source else candidates(rule.pick, rule.range, rule.skip)
-        return _Variable(name, listed, rule.words, formula)
+        place = f"{self.template.path / 'template.toml'}: draw.{name}"
+        if not (source or listed or rule.words):
+            raise BankError(f"{place}: no value is left")
+        return _Variable(place, name, listed, rule.words, formula)
 
     def _conditions(self) -> Iterator[_Condition]:
         for text in self.template.rules.where:
@@ -199,8 +207,16 @@ def admissible(
             for condition in plan.late:
                 if not condition.test(env):
                     return condition.text
-    except (MathError, ZeroDivisionError) as error:
+        traps = _usable_traps(plan, shown, values, lenient=lenient)
+    except (MathError, ZeroDivisionError, OverflowError) as error:
         return f"no value: {error}"
+    return traps if isinstance(traps, str) else (values, traps)
+
+
+def _usable_traps(
+    plan: Plan, shown: Mapping[str, fmpq], values: Values, *, lenient: bool
+) -> tuple[tuple[str, ...], ...] | str:
+    """The usable traps of each part, or the reason to reject the candidate."""
     approximate = {name: to_float(value) for name, value in values.items()}
     traps = []
     for part in plan.parts:
@@ -208,4 +224,4 @@ def admissible(
         if isinstance(usable, str):
             return usable
         traps.append(usable)
-    return values, tuple(traps)
+    return tuple(traps)

@@ -124,6 +124,9 @@ def load(source: str, kind: type[E], where: str, langs: tuple[str, ...] = ()) ->
     rows = table.get("entry")
     if set(table) != {"entry"} or not isinstance(rows, list):
         raise BankError(f"{where}: expected [[entry]] and nothing else, found {sorted(table)}")
+    for place, row in enumerate(rows, 1):
+        if not isinstance(row, dict):
+            raise BankError(f"{where}: entry {place} is no table")
     found = tuple(_entry(row, kind, where, langs) for row in rows)
     names = [entry.id for entry in found]
     for name in names:

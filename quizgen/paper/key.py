@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 from flint import fmpq
 
+from quizgen.bank.limits import MOST_POINTS
 from quizgen.errors import KeyFileError
 from quizgen.files import read_table
 from quizgen.marking.options import Context
@@ -187,16 +188,27 @@ def load_key(table: Mapping[str, Any], place: str = "key") -> Key:
         raise KeyFileError(f"{place}: format is {table.get('format')!r}, not {FORMAT!r}")
     try:
         key = msgspec.convert(table, Key)
-        for question in key.questions:
-            for part in question.parts:
-                part.worth()
     except msgspec.ValidationError as error:
         raise KeyFileError(f"{place}: {error}") from None
-    except (ValueError, ZeroDivisionError):
-        raise KeyFileError(
-            f"{place}: part {part.id}: points {part.points!r} is no number"
-        ) from None
+    seen: set[str] = set()
+    for part in (part for question in key.questions for part in question.parts):
+        if part.id in seen:
+            raise KeyFileError(f"{place}: part {part.id!r} stands twice")
+        seen.add(part.id)
+        _check_points(part, place)
     return key
+
+
+def _check_points(part: KeyPart, place: str) -> None:
+    try:
+        worth = part.worth()
+    except ValueError as error:
+        raise KeyFileError(f"{place}: part {part.id!r}: points: {error}") from None
+    if not 0 < worth <= MOST_POINTS:
+        raise KeyFileError(
+            f"{place}: part {part.id!r}: points {part.points[:40]!r} (allowed: more than 0, "
+            f"at most {MOST_POINTS})"
+        )
 
 
 def read_key(path: Path) -> Key:

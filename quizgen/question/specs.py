@@ -38,7 +38,7 @@ def answer_of(drawn: Draw, index: int) -> Mapping[str, Any]:
 
 def complaint(drawn: Draw, index: int, what: str) -> BankError:
     """An error that names the template and the part."""
-    return BankError(f"template {drawn.template.id!r}: part {index + 1}: {what}")
+    return BankError(f"{drawn.template.path / 'template.toml'}: part {index + 1}: {what}")
 
 
 def specification(shape: type[S], drawn: Draw, index: int, **given: object) -> S:

@@ -58,6 +58,11 @@ class Spec(Worded, kw_only=True, frozen=True):
             tree = author(text, self.known())
             if not isinstance(tree, Call) or tree.op not in CONDITIONS:
                 raise FormulaError(f"{text!r} is not a relation")
+        domains = self.symbols.values() if isinstance(self.symbols, dict) else ()
+        if not all(
+            len(domain) == len(("low", "high")) for domain in domains if isinstance(domain, list)
+        ):
+            raise ValueError("symbols: a range is [low, high]")
         if self.example and {*self.example} != {*self.names()}:
             raise ValueError("example must give every symbol")
 

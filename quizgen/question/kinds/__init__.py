@@ -61,4 +61,9 @@ def build(drawn: Draw, index: int) -> Built[Any]:
     if name not in KINDS:
         allowed = ", ".join(sorted(KINDS))
         raise complaint(drawn, index, f"unknown kind {name!r} (allowed: {allowed})")
-    return KINDS[name].build(drawn, index)
+    try:
+        return KINDS[name].build(drawn, index)
+    except KeyError as error:
+        raise complaint(drawn, index, f"answer: {error} is missing") from error
+    except (TypeError, ValueError, AttributeError, ArithmeticError) as error:
+        raise complaint(drawn, index, f"answer: not of kind {name!r}: {error}") from error
