@@ -18,6 +18,7 @@ A template has one ``<lang>.md`` besides.
 from __future__ import annotations
 
 import tomllib
+import unicodedata
 from fractions import Fraction
 from functools import cache
 from importlib.resources import files
@@ -102,6 +103,28 @@ def language(lang: str) -> Language:
 def in_script(script: str) -> tuple[str, ...]:
     """Languages that are written in a script, such as ``Beng``: those that need its fonts."""
     return tuple(lang for lang in languages() if language(lang).script == script)
+
+
+def in_letters_of(lang: str, text: str) -> bool:
+    """Whether a text is written in a language's letters: those of its own name.
+
+    Latin words, digits and symbols stand in texts of every script; a text that holds nothing else
+    belongs to a language with Latin letters.
+    """
+    own = _letters_of(lang)
+    if own:
+        return bool(own & _letters(text))
+    return not any(_letters_of(other) & _letters(text) for other in languages())
+
+
+@cache
+def _letters_of(lang: str) -> frozenset[str]:
+    return _letters(language(lang).name) - {"LATIN"}
+
+
+def _letters(text: str) -> frozenset[str]:
+    """Scripts of a text's letters, as Unicode calls them: ``LATIN``, ``BENGALI``."""
+    return frozenset(unicodedata.name(c, "").partition(" ")[0] for c in text if c.isalpha())
 
 
 def known(lang: str) -> str:

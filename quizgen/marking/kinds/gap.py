@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import msgspec
 
-from quizgen.locale import known, language
+from quizgen.locale import FIRST, in_letters_of, known
 from quizgen.marking.echo import safe
 from quizgen.marking.judging.wording import fold, nearest_terms
 from quizgen.marking.options import Options
@@ -53,18 +53,18 @@ class Spec(Worded, kw_only=True, frozen=True):
         return _together(cells, read_as)
 
     def show(self) -> str:
-        """Return the words as printed, in Latin letters if there are such."""
-        return self.show_in("en")
+        """Return the words as printed in the first language."""
+        return self.show_in(FIRST)
 
     def show_in(self, lang: str, /) -> str:
-        """Return the words as printed: in Bangla a Bangla synonym if there is one."""
+        """Return the words as printed: each in the language's letters if it has such a synonym."""
         return "; ".join(_shown(gap, lang) for gap in self.gaps())
 
 
 _JOINERS = "\u200c\u200d"
 _STRONG = re.compile(r"[;\n|]")
 _WEAK = re.compile(r"[;\n|,/]|\s→\s")
-_NUMBERED = re.compile(r"^\s*(?:\(?[\d০-৯]{1,2}[).:]|[a-hA-H][).:])\s*")
+_NUMBERED = re.compile(r"^\s*(?:\(?\d{1,2}[).:]|[a-hA-H][).:])\s*")
 
 
 def _words(typed: str, count: int) -> list[str]:
@@ -113,9 +113,4 @@ def _together(cells: list[Verdict], read_as: str) -> Verdict:
 
 
 def _shown(gap: list[str], lang: str) -> str:
-    script = language(known(lang)).script
-    return next((word for word in gap if _script(word) == script), gap[0])
-
-
-def _script(word: str) -> str:
-    return "Beng" if re.search(r"[\u0980-\u09ff]", word) else "Latn"
+    return next((word for word in gap if in_letters_of(known(lang), word)), gap[0])
