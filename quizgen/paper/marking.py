@@ -12,12 +12,12 @@ import msgspec
 
 from quizgen.errors import FormulaError, KeyFileError, one_of
 from quizgen.locale import languages
-from quizgen.marking.diagnosis.context import base_factor
 from quizgen.marking.kinds.contract import Kind
 from quizgen.marking.mark import explained, judge, load_spec
 from quizgen.marking.options import DECIMALS, Context, Options
 from quizgen.marking.verdict import Verdict
 from quizgen.maths.precision import working_precision
+from quizgen.maths.units import factor
 from quizgen.paper.key import Key, KeyPart, KeyQuestion, load_key
 
 QUARTER = Fraction(1, 4)
@@ -214,7 +214,7 @@ def _remember(question: KeyQuestion, spec: Kind, verdict: Verdict, earlier: dict
     triples = zip(spec.quantities(), verdict.values, spec.value_units(), strict=True)
     for name, value, unit in triples:
         if value is not None and name in units:
-            earlier[name] = value * base_factor(unit or units[name])
+            earlier[name] = value * factor(unit or units[name])
 
 
 def _result(question: KeyQuestion, part: KeyPart, typed: str, verdict: Verdict) -> PartResult:

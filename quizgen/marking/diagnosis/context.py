@@ -15,9 +15,9 @@ from quizgen.marking.rounding import nearest
 from quizgen.marking.specs import Measured, gives
 from quizgen.marking.verdict import HALF, Verdict, partial, wrong
 from quizgen.maths.chain import ChainStep
-from quizgen.maths.numbers import fraction, rational
+from quizgen.maths.numbers import fraction
 from quizgen.maths.tree import Num
-from quizgen.maths.units import unit
+from quizgen.maths.units import factor
 from quizgen.maths.values import Value
 
 CARRIED = "carried-forward"
@@ -73,13 +73,8 @@ def hints_for(
     if target not in context.chain.by_name or target not in context.solved:
         return None
     units = dict(zip(quantities, spec.value_units(), strict=True))
-    factor = base_factor(units[target] or context.chain.by_name[target].unit)
-    return Hints(spec, number, scale * factor, context, target)
-
-
-def base_factor(text: str) -> fmpq:
-    """Base units per unit."""
-    return rational(unit(text).factor)
+    unit = units[target] or context.chain.by_name[target].unit
+    return Hints(spec, number, scale * factor(unit), context, target)
 
 
 def carry(context: Context, target: str) -> Value | None:
@@ -133,8 +128,8 @@ def _rounds(
     chain = context.chain
     steps = []
     for name in upstream:
-        factor = base_factor(chain.by_name[name].unit)
-        rounded = nearest(context.solved[name] / factor, places) * factor
+        size = factor(chain.by_name[name].unit)
+        rounded = nearest(context.solved[name] / size, places) * size
         steps.append(ChainStep(name, _constant(rounded)))
     try:
         result = chain.with_steps(steps, context.solved)[target]
