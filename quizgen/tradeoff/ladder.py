@@ -11,6 +11,7 @@ import numpy as np
 from quizgen.arrays.aliases import Array
 from quizgen.arrays.double_double import Pair
 from quizgen.errors import QuizgenError
+from quizgen.maths.numbers import rational
 from quizgen.maths.systems import arrays, compile_expr, exact, multiprecision, symbolic
 from quizgen.maths.tree import Expr
 from quizgen.tradeoff.families import Family
@@ -23,12 +24,9 @@ ORACLE_DIGITS = 80
 AGREEMENT = 1e-25
 
 
-def rational(value: float, *, decimal: bool) -> Value:
+def as_meant(value: float, *, decimal: bool) -> Value:
     """A double as an exact rational: as it is, or as the decimal it prints as."""
-    import flint
-
-    q = Fraction(repr(float(value))) if decimal else Fraction(float(value))
-    return flint.fmpq(q.numerator, q.denominator)
+    return rational(repr(float(value)) if decimal else Fraction(float(value)))
 
 
 def rungs(family: Family) -> list[Rung]:
@@ -80,13 +78,13 @@ def _environment(family: Family, convert: Callable[[float], Any]) -> Callable[..
 
 def _exact(family: Family, formula: Expr) -> Rung:
     compiled = compile_expr(formula, exact())
-    prepare = _environment(family, lambda v: rational(v, decimal=family.decimal))
+    prepare = _environment(family, lambda v: as_meant(v, decimal=family.decimal))
     return Rung("exact", "scalar", compiled, prepare, to_float)
 
 
 def _balls(family: Family, formula: Expr) -> Rung:
     compiled = compile_expr(formula, exact())
-    prepare = _environment(family, lambda v: rational(v, decimal=family.decimal))
+    prepare = _environment(family, lambda v: as_meant(v, decimal=family.decimal))
     return Rung("arb", "scalar", lambda inputs: ball_value(compiled, inputs), prepare, to_float)
 
 
@@ -118,7 +116,7 @@ def _symbolic(family: Family, formula: Expr) -> Rung:
     compiled = compile_expr(formula, symbolic())
 
     def convert(value: float) -> Value:
-        q = rational(value, decimal=family.decimal)
+        q = as_meant(value, decimal=family.decimal)
         return sympy.Rational(int(q.p), int(q.q))
 
     def run(inputs: Inputs) -> Value:
@@ -161,7 +159,7 @@ def oracles(family: Family) -> tuple[Callable[..., Any], Callable[..., Any]]:
         return ORACLES[family.name]
     compiled = compile_expr(formula, exact())
     precise = compile_expr(formula, multiprecision())
-    prepare = _environment(family, lambda v: rational(v, decimal=family.decimal))
+    prepare = _environment(family, lambda v: as_meant(v, decimal=family.decimal))
     convert = _precise(family)
     if family.rational:
         return (lambda row: compiled(prepare(row))), (lambda row: precise(convert(row)))
