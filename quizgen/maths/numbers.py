@@ -115,14 +115,14 @@ def decimals_for(value: Value, figures: int) -> int:
     return max(figures - 1 - magnitude(value), 0)
 
 
-def places(value: fmpq) -> int | None:
+def places(value: fmpq | Fraction) -> int | None:
     """Decimal places of a terminating decimal, or None if it does not terminate."""
-    q, twos, fives = int(value.q), 0, 0
-    while q % 2 == 0:
-        q, twos = q // 2, twos + 1
-    while q % 5 == 0:
-        q, fives = q // 5, fives + 1
-    return max(twos, fives) if q == 1 else None
+    rest, twos, fives = int(value.denominator), 0, 0
+    while rest % 2 == 0:
+        rest, twos = rest // 2, twos + 1
+    while rest % 5 == 0:
+        rest, fives = rest // 5, fives + 1
+    return max(twos, fives) if rest == 1 else None
 
 
 def decimal_text(value: fmpq, decimals: int | None = None, *, minus: str = MINUS) -> str:

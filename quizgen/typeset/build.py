@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from quizgen.errors import RenderError
+from quizgen.maths.numbers import places
 from quizgen.typeset.nodes import (
     NEGATIVE,
     PRODUCT,
@@ -71,26 +72,20 @@ def decimal(value: Fraction) -> str:
 
     Sizes below 0.0001 are written with a power of ten, for example ``2.5e-6``.
     """
-    rest, twos, fives = value.denominator, 0, 0
-    while rest % 2 == 0:
-        rest, twos = rest // 2, twos + 1
-    while rest % 5 == 0:
-        rest, fives = rest // 5, fives + 1
-    if rest != 1:
-        return str(value)
-    places = max(twos, fives)
-    return _pointed(value.numerator * 10**places // value.denominator, places)
+    count = places(value)
+    return str(value) if count is None else _pointed(int(value * 10**count), count)
 
 
-def _pointed(digits: int, places: int) -> str:
+def _pointed(digits: int, count: int) -> str:
+    """Digits with a point before the last ``count`` of them."""
     sign, text = "-" * (digits < 0), str(abs(digits))
-    if places == 0:
+    if count == 0:
         return sign + text
-    if places - len(text) >= 4:
+    if count - len(text) >= 4:
         mantissa = text[0] + ("." + text[1:] if len(text) > 1 else "")
-        return f"{sign}{mantissa}e-{places - len(text) + 1}"
-    text = text.zfill(places + 1)
-    return f"{sign}{text[:-places]}.{text[-places:]}"
+        return f"{sign}{mantissa}e-{count - len(text) + 1}"
+    text = text.zfill(count + 1)
+    return f"{sign}{text[:-count]}.{text[-count:]}"
 
 
 def power_of_ten(exponent: int) -> Node:
