@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Unpack
 
 import click
 
+from quizgen import render
 from quizgen.cli.options import SEED, BankOptions, bank_options, checked, open_bank, split
 from quizgen.errors import CodeError
 from quizgen.locale import FIRST, choices
@@ -45,8 +46,9 @@ class Options(BankOptions):
 )
 @click.option("--lang", type=click.Choice(choices()), help=f"Language. [default: {FIRST}]")
 @click.option(
-    "--format", "formats", default="html,pdf", show_default=True, help="Outputs, by comma."
-)
+    "--format", "formats", default="html,pdf", show_default=True,
+    help=f"Outputs, by comma: {', '.join(render.RENDERERS)}.",
+)  # fmt: skip
 @click.option("--out", type=click.Path(path_type=Path), default=Path("exam"), show_default=True,
               help="Folder to write to.")  # fmt: skip
 @click.option("--reference", is_flag=True, help="The questions with the numbers of the notes.")
@@ -56,9 +58,8 @@ def exam(**options: Unpack[Options]) -> None:
     from quizgen.files import write_all
     from quizgen.paper.form import form_bytes, holds_answers
     from quizgen.paper.key import key_bytes
-    from quizgen.render import RENDERERS
 
-    formats = [checked("--format", name, RENDERERS) for name in split(options["formats"])]
+    formats = [checked("--format", name, render.RENDERERS) for name in split(options["formats"])]
     paper = _paper(options)
     contents = dict(_rendered(paper, formats))
     contents[KEY] = key_bytes(paper)
@@ -104,14 +105,12 @@ def _tell(name: str) -> None:
 
 
 def _rendered(paper: Paper, formats: list[str]) -> Iterator[tuple[str, bytes]]:
-    from quizgen.render import KINDS, render_paper
-
     click.echo("", err=True)
     for output in formats:
-        for kind in KINDS:
+        for kind in render.KINDS:
             name = f"{kind}.{output}"
             _tell(name)
-            yield name, render_paper(paper, kind, output)
+            yield name, render.render_paper(paper, kind, output)
     click.echo("", err=True)
 
 

@@ -5,10 +5,12 @@ In: a ``Paper``. Out: the bytes of a file. Must never know: how a paper was chos
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from quizgen.errors import one_of
-from quizgen.paper.paper import Paper
+
+if TYPE_CHECKING:
+    from quizgen.paper.paper import Paper
 
 KINDS = ("exam", "solutions")
 """What a file shows: the questions alone, or with worked solutions."""

@@ -116,6 +116,7 @@ def test_a_missing_translation_is_named(tmp_path):
         'topic = "x"\ntier = "A"\n[[part]]\nanswer = { kind = "tf", true = true }\n'
     )
     (folder / "en.md").write_text("# T\nIs it so?\n")
+    (tmp_path / "bank" / "templates" / "bank.toml").write_text('languages = ["en", "bn"]\n')
     result = run("lint", "bank", cwd=tmp_path)
     assert result.returncode == 1
     assert "no bn.md" in result.stderr
