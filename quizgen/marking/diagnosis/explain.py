@@ -28,12 +28,18 @@ class Slip(msgspec.Struct, frozen=True):
     plan: Plan
 
 
+Results = list[tuple[Slip, float]]
+"""Slips and what they give."""
+
+
 @dataclass
 class Explainer:
     """All single slips of one chain, compiled once."""
 
     chain: Chain
     _slips: dict[str, list[Slip]] = field(default_factory=dict)
+    _last: dict[str, tuple[dict[str, float], Results]] = field(default_factory=dict)
+    """Target to the numbers met last and what every slip gives there: a class shares a paper."""
 
     @cached_property
     def _alike(self) -> dict[str, list[str]]:
@@ -97,17 +103,25 @@ class Explainer:
             detail is empty if several slips of the kind explain the value, both if none or more
             than one kind does.
         """
-        env = {name: float(number) for name, number in solved.items()}
-        right = env[target]
         hits: dict[str, str] = {}
-        for slip in self.slips(target):
-            result = _run(slip.plan, env, target)
-            if result is not None and abs(result - value) <= slack and result != right:
+        for slip, result in self._results(target, solved):
+            if abs(result - value) <= slack:
                 hits[slip.note] = slip.detail if hits.get(slip.note) in {None, slip.detail} else ""
         if len(hits) != 1:
             return "", ""
         ((note, detail),) = hits.items()
         return note, detail
+
+    def _results(self, target: str, solved: Mapping[str, Any]) -> Results:
+        """Every slip that changes a quantity, and what it gives."""
+        env = {name: float(number) for name, number in solved.items()}
+        last = self._last.get(target)
+        if last is not None and last[0] == env:
+            return last[1]
+        pairs = [(slip, _run(slip.plan, env, target)) for slip in self.slips(target)]
+        found = [(s, value) for s, value in pairs if value is not None and value != env[target]]
+        self._last[target] = env, found
+        return found
 
 
 def _run(plan: Plan, env: dict[str, Any], target: str) -> float | None:
