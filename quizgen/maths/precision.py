@@ -19,7 +19,6 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from contextlib import ContextDecorator
-from functools import wraps
 from threading import RLock
 from typing import TypeVar
 
@@ -75,7 +74,6 @@ def with_precision(function: Callable[[Argument], Result]) -> Callable[[Argument
     """Let a function keep the precision stated around its call, else state ``PRECISION``."""
     usual = working_precision()
 
-    @wraps(function)
     def run(argument: Argument) -> Result:
         with _LOCK:
             if _OUTER:

@@ -11,28 +11,26 @@ may stand in ``op``.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import TypeAlias
 
+import msgspec
 
-@dataclass(frozen=True, slots=True)
-class Num:
+
+class Num(msgspec.Struct, frozen=True):
     """A rational constant; ``decimal`` asks printers for 2.2 instead of 11/5."""
 
     value: Fraction
     decimal: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Sym:
+class Sym(msgspec.Struct, frozen=True):
     """A named quantity."""
 
     name: str
 
 
-@dataclass(frozen=True, slots=True)
-class Call:
+class Call(msgspec.Struct, frozen=True):
     """An operator or function applied to arguments."""
 
     op: str

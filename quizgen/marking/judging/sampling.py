@@ -14,7 +14,7 @@ from quizgen.errors import MathError, Undecided
 from quizgen.maths.constants import Scalar, TooLargeError, bounded, exact_value
 from quizgen.maths.notation import ReadError
 from quizgen.maths.precision import working_precision
-from quizgen.maths.systems import compile_expr
+from quizgen.maths.systems import compile_inner
 from quizgen.maths.tree import Expr, names
 from quizgen.maths.values import Value, Values
 
@@ -73,12 +73,12 @@ def sample_points(symbols: Mapping[str, Domain]) -> tuple[dict[str, fmpq], ...]:
 
 
 def compiled(tree: Expr) -> Callable[[Env], Any]:
-    """Compile a formula for bounded exact evaluation.
+    """Compile a formula for bounded exact evaluation, under a precision stated around it.
 
     The result is None where it has no value, and the class ``Undecided`` or ``TooLargeError``
     where that cannot be told.
     """
-    function = compile_expr(tree, bounded())
+    function = compile_inner(tree, bounded())
 
     def evaluate(env: Env) -> Any:
         try:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
+
+import msgspec
 
 from quizgen.errors import FormulaError
 from quizgen.maths.notation.names import CONSTANTS, FUNCTIONS, KEYWORDS, folded, spellings, split
@@ -48,14 +49,16 @@ class ReadError(FormulaError):
         super().__init__(f"column {column}: {code.replace('-', ' ')}{what}{wanted}", column)
 
 
-@dataclass(frozen=True, slots=True)
-class Piece:
+class Piece(msgspec.Struct, frozen=True):
     """One token: its kind in the grammar, its value, the text and the column it came from."""
 
     kind: str
     value: object
     text: str
     column: int
+
+    def __str__(self) -> str:
+        return self.text
 
 
 OPERATORS = {sign: row.token for row in typed_as(Typed.SIGN) for sign in row.signs} | {
