@@ -15,16 +15,25 @@ def bank() -> Bank:
     return builtin()
 
 
+def installed(name: str, *programs: str) -> str:
+    """Path of a browser; its absence fails in CI and skips on a user's machine."""
+    for program in programs:
+        if path := shutil.which(program):
+            return path
+    message = f"{name} is not installed (Debian: apt-get install {programs[0]})"
+    if os.environ.get("CI"):
+        pytest.fail(message)
+    pytest.skip(message)
+
+
 @pytest.fixture(scope="session")
 def chromium():
-    """Path of Chromium; its absence fails in CI and skips on a user's machine."""
-    path = shutil.which("chromium") or shutil.which("google-chrome")
-    if path is None:
-        message = "Chromium is not installed (Debian: apt-get install chromium)"
-        if os.environ.get("CI"):
-            pytest.fail(message)
-        pytest.skip(message)
-    return path
+    return installed("Chromium", "chromium", "google-chrome")
+
+
+@pytest.fixture(scope="session")
+def firefox():
+    return installed("Firefox", "firefox-esr", "firefox")
 
 
 @pytest.fixture(scope="session")

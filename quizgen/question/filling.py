@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections import deque
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -30,6 +31,10 @@ from quizgen.maths.units import shown as unit_shown
 from quizgen.maths.values import Values
 
 NBSP = "\u00a0"
+SHORT = 16
+"""Characters up to which a formula is held together with what stands beside it."""
+_TAIL = re.compile(r"[^ \n]*(?: [=≈<>≤≥≠] [^ \n]*)?")
+"""What belongs to a formula: punctuation, and the value that it is said to have."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,6 +104,37 @@ class Filler:
 
     def _complaint(self, what: str) -> str:
         return f"{self.drawn.template.path / f'{self.lang}.md'}: {what}"
+
+
+def tied(parts: Iterable[Inline]) -> Iterator[tuple[Inline, ...]]:
+    """Cut a sentence into pieces of which no line may end inside: ``f`` and ``= 6 mm`` are one.
+
+    Browsers and Typst break a line on either side of a formula, even before a comma.
+    """
+    rest = deque(parts)
+    while rest:
+        group = [rest.popleft()]
+        while isinstance(last := group[-1], Maths) and len(last.typed) <= SHORT:
+            tail = _tail(rest)
+            if not tail:
+                break
+            group.append(Words(tail))
+            if tail.endswith(" ") and rest and isinstance(rest[0], Maths):
+                group.append(rest.popleft())
+        yield tuple(group)
+
+
+def _tail(rest: deque[Inline]) -> str:
+    """Take away what belongs to a formula in front."""
+    text = ""
+    while rest and isinstance(words := rest[0], Words):
+        text += words.text
+        rest.popleft()
+    found = _TAIL.match(text)
+    tail = found[0] if found and len(found[0]) <= SHORT else ""
+    if text[len(tail) :]:
+        rest.appendleft(Words(text[len(tail) :]))
+    return tail
 
 
 @lru_cache(maxsize=4096)

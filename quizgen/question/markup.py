@@ -19,7 +19,7 @@ from quizgen.bank.prose import (
     Table,
     Words,
 )
-from quizgen.question.filling import Maths
+from quizgen.question.filling import Maths, tied
 
 
 @singledispatch
@@ -30,7 +30,12 @@ def inline(part: Inline | tuple[Inline, ...], lang: str) -> Markup:
 
 @inline.register(tuple)
 def _inlines(parts: tuple[Inline, ...], lang: str) -> Markup:
-    return Markup("").join(inline(part, lang) for part in parts)
+    return Markup("").join(_together(group, lang) for group in tied(parts))
+
+
+def _together(group: tuple[Inline, ...], lang: str) -> Markup:
+    body = Markup("").join(inline(part, lang) for part in group)
+    return Markup('<span class="tied">{}</span>').format(body) if len(group) > 1 else body
 
 
 @inline.register

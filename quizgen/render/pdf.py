@@ -25,7 +25,7 @@ from quizgen.errors import RenderError
 from quizgen.locale import in_script, marks, word
 from quizgen.paper.paper import Item, Paper
 from quizgen.question.compose import Field, Part, Question
-from quizgen.question.filling import Maths
+from quizgen.question.filling import Maths, tied
 from quizgen.question.solution import Line, PartSolution, Solution
 from quizgen.render import fonts
 
@@ -47,7 +47,12 @@ def inline(part: Inline | tuple[Inline, ...], lang: str) -> str:
 
 @inline.register(tuple)
 def _inlines(parts: tuple[Inline, ...], lang: str) -> str:
-    return "".join(inline(part, lang) for part in parts)
+    return "".join(_together(group, lang) for group in tied(parts))
+
+
+def _together(group: tuple[Inline, ...], lang: str) -> str:
+    body = "".join(inline(part, lang) for part in group)
+    return f"#box[{body}];" if len(group) > 1 else body
 
 
 @inline.register

@@ -36,8 +36,11 @@ _OPERATORS = {
     "ᵀ": '<mi mathvariant="normal">T</mi>',
     **{same: f"<mo>{same}</mo>" for same in "+=≠≤≥≈∝∈±≪≫×′…:"},
 }
-_ACCENTS = {"bar": "‾", "hat": "^", "tilde": "~"}
-_PRIME = '<mo style="font-size:110%">′</mo>'  # at script size a prime is a speck
+_ACCENTS = {"bar": "¯", "hat": "ˆ", "tilde": "˜"}
+# A maths font raises its prime by itself: as a superscript it floats above the letter in Chromium,
+# and as an operator Firefox takes a form made for superscripts.
+_PRIME = "<mtext>′</mtext>"
+_PRIME_WIDTH = 0.3
 _TIMES_NAMED = '<mo lspace="0" rspace="0.17em">\u2062</mo>'
 _BOLD = (("A", 26, 0x1D400), ("a", 26, 0x1D41A), ("Α", 25, 0x1D6A8), ("α", 25, 0x1D6C2))
 _TALL = re.compile("<(?:mfrac|msqrt|mroot|mtable|munder|mo>[∑∏∫])")
@@ -176,24 +179,23 @@ def _root(node: n.Root, lang: str) -> str:
 @_emit.register
 def _scripts(node: n.Scripts, lang: str) -> str:
     base = _emit(node.base, lang)
-    raised = _PRIME * node.primes
-    if node.sup is not None:
-        raised += _emit(node.sup, lang)
-    if node.primes and (node.sup is not None or node.primes > 1):
-        raised = f"<mrow>{raised}</mrow>"
+    sup = "" if node.sup is None else _emit(node.sup, lang)
     if node.sub is None:
-        return f"<msup>{base}{raised}</msup>" if raised else base
+        primed = f"<mrow>{base}{_PRIME * node.primes}</mrow>" if node.primes else base
+        return f"<msup>{primed}{sup}</msup>" if sup else primed
     sub = _emit(node.sub, lang)
-    if raised:
-        return f"<msubsup>{base}{sub}{raised}</msubsup>"
-    return f"<msub>{base}{sub}</msub>"
+    if node.primes:  # without a width of their own, so that the subscript stands below them
+        base = f'<mrow>{base}<mpadded width="0">{_PRIME * node.primes}</mpadded></mrow>'
+        sup = sup and f'<mrow><mspace width="{_PRIME_WIDTH * node.primes:.2f}em"/>{sup}</mrow>'
+    return f"<msubsup>{base}{sub}{sup}</msubsup>" if sup else f"<msub>{base}{sub}</msub>"
 
 
 @_emit.register
 def _accent(node: n.Accent, lang: str) -> str:
     mark = _known(_ACCENTS, node.kind, "accent")
-    # Chromium lowers marks with accent="true" into the letter
-    return f'<mover>{_emit(node.base, lang)}<mo stretchy="false">{mark}</mo></mover>'
+    # the padding keeps Chromium from lowering the mark into the letter
+    sign = f'<mo stretchy="false" style="padding-bottom:.07em">{mark}</mo>'
+    return f'<mover accent="true">{_emit(node.base, lang)}{sign}</mover>'
 
 
 @_emit.register

@@ -48,7 +48,7 @@ def test_latex_is_drawn_by_mathtext(key):
 @pytest.mark.parametrize("key", NODES)
 def test_mathml_is_well_formed_core(key):
     core = {"math", "mrow", "mi", "mn", "mo", "mtext", "mspace", "mfrac", "msqrt", "mroot", "msub"}
-    core |= {"msup", "msubsup", "mover", "munder", "munderover", "mtable", "mtr", "mtd"}
+    core |= {"mpadded", "msup", "msubsup", "mover", "munder", "munderover", "mtable", "mtr", "mtd"}
     arity = {"mfrac": 2, "mroot": 2, "msub": 2, "msup": 2, "msubsup": 3, "mover": 2}
     arity |= {"munder": 2, "munderover": 3}
     for lang in ("en", "bn"):
