@@ -2,59 +2,112 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Unpack
+import sys
+from collections.abc import Iterator, Sequence
+from itertools import accumulate
+from typing import TYPE_CHECKING, TypedDict, Unpack
 
 import click
 
-from quizgen.cli.options import BankOptions, bank_options, open_bank
+from quizgen.cli.options import BankOptions, bank_options, checked, open_bank, topic_option
+from quizgen.cli.terminal import columns, visible, wrapped
 
 if TYPE_CHECKING:
     from quizgen.bank.folder import Bank
-    from quizgen.bank.template import Template
+
+HEAD = ("id", "tier", "topic", "pool", "languages", "title")
+GAP = "  "
+READABLE = 20
+"""Columns below which a title is not squeezed."""
+
+
+class Filters(TypedDict):
+    """Which templates to list; all conditions hold together."""
+
+    topic: str | None
+    kind: str | None
+    search: str | None
+    covers: str | None
+
+
+class Options(BankOptions, Filters):
+    """What to list, and of which bank."""
+
+    coverage: bool
 
 
 @click.command()
-@click.option("--coverage", is_flag=True, help="What of the curriculum is covered, with holes.")
+@click.option("--topic", help="Only of this topic.")
+@click.option("--kind", help="Only with an answer of this kind, such as number or choice.")
+@click.option("--search", metavar="TEXT", help="Only with this text in id or title.")
 @click.option("--covers", metavar="ITEM", help="Only those that cover this item, such as Q4a.")
+@click.option("--coverage", is_flag=True, help="What of the curriculum is covered, with holes.")
 @bank_options
-def templates(*, coverage: bool, covers: str | None, **options: Unpack[BankOptions]) -> None:
-    """List the templates of the bank: id, tier, topic, pool size, languages."""
+def templates(**options: Unpack[Options]) -> None:
+    """List the templates of the bank: id, tier, topic, pool size, languages, title.
+
+    Piped, each template is one line, its cells parted by tabs.
+    """
     bank = open_bank(options)
-    if coverage:
+    if options["coverage"]:
         _print_coverage(bank)
-    elif covers is not None:
-        _print_covering(bank, covers)
-    else:
-        _print_all(bank)
+        return
+    names = list(_fitting(bank, options))
+    _print(HEAD, [_row(bank, name) for name in names])
+    if not names and options["covers"] is not None:
+        click.echo(f"no template covers {options['covers']!r}", err=True)
+    elif sys.stdout.isatty() or not names:
+        click.echo(f"{len(names)} templates", err=True)
 
 
-def _print_all(bank: Bank) -> None:
-    rows = [
-        (t.id, t.rules.tier, t.rules.topic, _pool(t), " ".join(t.languages), _title(t))
-        for t in bank
-    ]
-    _print(("id", "tier", "topic", "pool", "languages", "title"), rows)
-    click.echo(f"{len(bank)} templates")
+def _fitting(bank: Bank, filters: Filters) -> Iterator[str]:
+    """Names of the templates that meet every condition.
 
-
-def _pool(template: Template) -> str:
-    pool = template.rules.pool
-    return f"{pool:,}".replace(",", " ") if pool else "-"
-
-
-def _title(template: Template) -> str:
-    return next((text.title for text in template.texts.values()), "")
-
-
-def _print_covering(bank: Bank, item: str) -> None:
+    Raises
+    ------
+    click.BadParameter
+        If there is no such topic or kind; it names all.
+    """
     from quizgen.audit.coverage import covering
+    from quizgen.question.kinds import KINDS
 
-    found = [bank.template(name) for name in covering(bank, item)]
-    if found:
-        _print(("id", "topic", "title"), [(t.id, t.rules.topic, _title(t)) for t in found])
-    else:
-        click.echo(f"no template covers {item!r}")
+    topic, kind, search, covers = (filters[key] for key in ("topic", "kind", "search", "covers"))
+    topic = None if topic is None else topic_option(bank, topic)
+    kind = None if kind is None else checked("--kind", kind, sorted(KINDS))
+    covered = bank.paths if covers is None else covering(bank, covers)
+    for name in bank.paths:
+        rules = bank.rules(name)
+        if (
+            topic in {None, rules.topic}
+            and (kind is None or kind in {part.answer["kind"] for part in rules.part})
+            and name in covered
+            and (search is None or _mentions(bank, name, search))
+        ):
+            yield name
+
+
+def _mentions(bank: Bank, name: str, search: str) -> bool:
+    texts = [name, *(_title(bank, name, lang) for lang in bank.written_in(name))]
+    return any(search.casefold() in text.casefold() for text in texts)
+
+
+def _row(bank: Bank, name: str) -> tuple[str, ...]:
+    """Cells of a template; its solver is not run for them."""
+    rules, langs = bank.rules(name), _languages(bank, name)
+    title = _title(bank, name, langs[0]) if langs else ""
+    return (name, rules.tier, rules.topic, str(rules.pool or "-"), ",".join(langs), title)
+
+
+def _languages(bank: Bank, name: str) -> list[str]:
+    """Languages of a template, those of the bank first and in their order."""
+    written = bank.written_in(name)
+    return sorted(written, key=[*bank.languages, *written].index)
+
+
+def _title(bank: Bank, name: str, lang: str) -> str:
+    from quizgen.bank.prose import read_text
+
+    return read_text(bank.paths[name] / f"{lang}.md").title
 
 
 def _print_coverage(bank: Bank) -> None:
@@ -68,10 +121,24 @@ def _print_coverage(bank: Bank) -> None:
 
 
 def _print(head: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
-    from rich.console import Console
-    from rich.table import Table
+    """Print a table: for people with a head and the last column wrapped, else cells and tabs."""
+    shown = [[visible(" ".join(cell.split())) for cell in row] for row in rows]
+    if not sys.stdout.isatty():
+        for row in shown:
+            click.echo("\t".join(row))
+        return
+    sizes = [max(map(len, column)) for column in zip(head, *shown, strict=True)][:-1]
+    for number, row in enumerate([list(head), *shown]):
+        for line in _lines(row, sizes):
+            click.secho(line, bold=number == 0 or None)
 
-    table = Table(*head)
-    for row in rows:
-        table.add_row(*row)
-    Console().print(table)
+
+def _lines(row: Sequence[str], sizes: Sequence[int]) -> Iterator[str]:
+    """A row as lines: the last cell beside the others if there is room, else below them."""
+    indent = list(accumulate(size + len(GAP) for size in sizes))[-1]
+    cells = "".join(cell.ljust(size) + GAP for cell, size in zip(row, sizes, strict=False))
+    if columns() - indent >= READABLE:
+        yield from wrapped(row[-1], columns(), cells, " " * indent)
+    else:
+        yield cells.rstrip()
+        yield from wrapped(row[-1], columns(), GAP * 2, GAP * 2)

@@ -39,14 +39,76 @@ def test_what_nothing_covers_finds_nothing(item):
     assert f"no template covers {item!r}" in done.output
 
 
-def test_the_command_prints_name_topic_and_title(monkeypatch):
-    monkeypatch.setenv("COLUMNS", "200")
-    done = CliRunner().invoke(templates, ["--covers", "Q4a"])
-    for name in covering(builtin(), "Q4a"):
+def rows(*arguments):
+    """Cells of each line that is printed where no terminal is."""
+    done = CliRunner().invoke(templates, arguments)
+    assert done.exit_code == 0, done.output
+    return [line.split("\t") for line in done.stdout.splitlines()]
+
+
+def test_piped_there_is_one_line_of_cells_for_each_template(monkeypatch):
+    monkeypatch.setenv("COLUMNS", "40")
+    found = rows()
+    assert [row[0] for row in found] == list(builtin().paths)
+    assert {len(row) for row in found} == {6}
+    cells = {row[0]: row for row in found}["bayer-site-counts"]
+    assert cells == ["bayer-site-counts", "B", "sensor", "400", "en,bn", "Counting photosites"]
+
+
+def test_the_command_prints_name_topic_and_title():
+    found = {row[0]: row for row in rows("--covers", "Q4a")}
+    assert list(found) == covering(builtin(), "Q4a")
+    for name, row in found.items():
         template = builtin().template(name)
-        (row,) = [line for line in done.output.splitlines() if f" {name} " in line]
-        assert template.rules.topic in row
-        assert template.texts["en"].title in row
+        assert (row[2], row[5]) == (template.rules.topic, template.texts["en"].title)
+
+
+def test_filters_hold_together():
+    noise = {row[0] for row in rows("--topic", "Noise")}
+    assert noise == {n for n in builtin().paths if builtin().rules(n).topic == "noise"}
+    choices = {row[0] for row in rows("--kind", "choice")}
+    assert {row[0] for row in rows("--topic", "noise", "--kind", "CHOICE")} == noise & choices
+    assert "bayer-site-counts" in {row[0] for row in rows("--search", "PHOTOSITES")}
+    assert "bayer-site-counts" in {row[0] for row in rows("--search", "ফটোসাইট")}
+    assert rows("--search", "no such words") == []
+
+
+@pytest.mark.parametrize(("option", "listed"), [("--topic", "projection, "), ("--kind", "angle, ")])
+def test_an_unknown_filter_names_what_there_is(option, listed):
+    done = CliRunner().invoke(templates, [option, "cooking"])
+    assert done.exit_code == 2
+    assert listed in done.output
+
+
+@pytest.fixture
+def odd_bank(tmp_path):
+    folder = tmp_path / "templates" / "x" / "odd"
+    folder.mkdir(parents=True)
+    (folder / "template.toml").write_text(
+        'topic = "x"\ntier = "A"\n[[part]]\nanswer = { kind = "tf", true = true }\n'
+    )
+    return tmp_path
+
+
+@pytest.mark.parametrize("title", ["Interval [a, b] of values", "Close [/] it", "[link=x]y[/link]"])
+@pytest.mark.parametrize("columns", [40, 200])
+def test_titles_are_shown_as_they_are(odd_bank, monkeypatch, title, columns):
+    (odd_bank / "templates" / "x" / "odd" / "en.md").write_text(f"# {title}\nIs it so?\n")
+    assert rows("--bank", str(odd_bank))[0][5] == title
+    monkeypatch.setattr("quizgen.cli.templates.sys", FakeSys)
+    monkeypatch.setenv("COLUMNS", str(columns))
+    done = CliRunner().invoke(templates, ["--bank", str(odd_bank)])
+    assert title in done.stdout
+    assert max(map(len, done.stdout.splitlines())) <= columns
+
+
+class FakeSys:
+    """A standard output that says it is a terminal."""
+
+    class stdout:  # noqa: N801
+        @staticmethod
+        def isatty():
+            return True
 
 
 @pytest.mark.parametrize("name", COMMANDS)
