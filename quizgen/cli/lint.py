@@ -2,55 +2,117 @@
 
 from __future__ import annotations
 
+import re
 import sys
+import traceback
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Unpack
 
 import click
 
 from quizgen.cli.options import BankOptions, bank_options, open_bank
-from quizgen.errors import BankError
+from quizgen.cli.terminal import Progress, interrupted, print_table, visible
+from quizgen.errors import QuizgenError
 
 if TYPE_CHECKING:
     from quizgen.audit.lint import Report
     from quizgen.bank.folder import Bank
 
+HEAD = ("template", "draws", "distinct", "kept", "ms/draw", "problems", "answers")
+NOTHING = ("0", "", "", "", "1", "")
+"""Cells of a template that could not be examined."""
+
+_FILE = re.compile(r"(?:no )?([a-z]{2,3}\.md)\b(?!.* and )")
+
+ADVICE = {
+    r"^no \w+\.md": "write it, or leave the language out of languages in bank.toml",
+    r"section .* is missing": "write it",
+    "do not show the same values": "fill in the same {{ names }} in every language",
+    "differs by": "give the entries the same names in every language",
+    "never gives a usable wrong answer": "widen [draw], or leave it out with drop",
+    "a placeholder is left": "name a drawn or solved quantity",
+    r"part \w+: printed answer": "let the answer kind, its unit and rounding fit what is printed",
+    r"trap .* typed as": "widen the distance to the key: another rounding, or [keep]",
+    "^template .* no admissible draw": "widen [draw], or relax [keep] and where",
+}
+"""Pattern of a problem to what an author can do about it."""
+
+
+class Options(BankOptions):
+    """What to examine."""
+
+    folder: Path | None
+    seeds: int
+    only: tuple[str, ...]
+    debug: bool
+
 
 @click.command()
 @click.argument("folder", type=click.Path(path_type=Path), required=False)
-@click.option("--seeds", type=click.IntRange(1, 10**6), default=200, show_default=True)
+@click.option("--seeds", type=click.IntRange(1, 10**6), default=200, show_default=True,
+              help="How many draws of each template to examine.")  # fmt: skip
 @click.option("--only", multiple=True, help="Just this template (may be repeated).")
+@click.option("--debug", is_flag=True, help="Show where in Python an error came from.")
 @bank_options
-def lint(
-    folder: Path | None, seeds: int, only: tuple[str, ...], **options: Unpack[BankOptions]
-) -> None:
-    """Prove templates sound over many seeds; exit code 1 if a problem is found."""
-    from rich.console import Console
-    from rich.table import Table
+def lint(**options: Unpack[Options]) -> None:
+    """Prove templates sound over many seeds; exit code 1 if a problem is found.
 
-    bank = open_bank({"bank": folder or options["bank"], "trust": options["trust"]})
-    table = Table("template", "draws", "distinct", "kept", "ms/draw", "answers", "problems")
-    broken: list[str] = []
-    for name in only or bank.paths:
-        row, problems = _examined(bank, name, seeds)
-        table.add_row(name, *row)
-        broken += problems
-    Console().print(table)
+    FOLDER is the bank, as in --bank. A broken template does not stop the others.
+    """
+    bank = open_bank({"bank": options["folder"] or options["bank"], "trust": options["trust"]})
+    names = options["only"] or tuple(bank.paths)
+    rows, broken = [], []
+    with Progress("lint", len(names)) as progress:
+        for name in progress.over(names):
+            row, problems = _examined(bank, name, options)
+            rows.append((name, *row))
+            broken += problems
+    print_table(HEAD, rows)
     for problem in broken:
-        click.echo(problem, err=True)
+        click.echo(visible(problem), err=True)
     if broken:
         sys.exit(1)
 
 
-def _examined(bank: Bank, name: str, seeds: int) -> tuple[tuple[str, ...], list[str]]:
+def _examined(bank: Bank, name: str, options: Options) -> tuple[tuple[str, ...], list[str]]:
     """Cells of a template's row, and its problems."""
     from quizgen.audit.lint import lint_template
 
     try:
-        report = lint_template(bank.template(name), seeds, bank.languages)
-    except BankError as error:
-        return ("0", "", "", "", "", "1"), [str(error)]
-    return _cells(report), [f"{name}: {problem}" for problem in report.problems]
+        report = lint_template(bank.template(name), options["seeds"], bank.languages)
+    except Exception as error:
+        if interrupted():
+            raise KeyboardInterrupt from error
+        if options["debug"]:
+            traceback.print_exception(error)
+        return NOTHING, [_said(bank, name, error)]
+    return _cells(report), [_located(bank.paths[name], problem) for problem in report.problems]
+
+
+def _said(bank: Bank, name: str, error: Exception) -> str:
+    """What stopped the examination: the place in the bank, else in quizgen, and the last line."""
+    folder = bank.paths.get(name, bank.root)
+    if isinstance(error, QuizgenError):
+        said = str(error)
+        return said if str(bank.root) in said else f"{folder}: {said}"
+    frames = list(traceback.walk_tb(error.__traceback__))
+    own = [one for one in frames if one[0].f_code.co_filename.startswith(str(bank.root.resolve()))]
+    frame, line = (own or frames)[-1]
+    what = f"{type(error).__name__}: {error}"
+    return f"{folder}: {what} (in {frame.f_code.co_filename}:{line}; --debug shows the way there)"
+
+
+def _located(folder: Path, problem: str) -> str:
+    """A problem with its file and what to do about it."""
+    file = _FILE.match(problem)
+    place = folder / file[1] if file else folder
+    text = problem.removeprefix(f"{file[1]}: ") if file else problem
+    return "; ".join([f"{place}: {text}", *_advice(problem)])
+
+
+def _advice(problem: str) -> Iterator[str]:
+    yield from (advice for words, advice in ADVICE.items() if re.search(words, problem))
 
 
 def _cells(report: Report) -> tuple[str, ...]:
@@ -61,6 +123,6 @@ def _cells(report: Report) -> tuple[str, ...]:
         f"{1 - report.duplicates:.0%}",
         f"{report.acceptance:.1%}",
         f"{per_draw:.2f}",
-        ranges,
         str(len(report.problems)),
+        ranges,
     )

@@ -8,12 +8,11 @@ import os
 import signal
 import sys
 from importlib import import_module
-from types import FrameType
 from typing import NoReturn
 
 import click
 
-from quizgen.cli.terminal import colour_choice, visible
+from quizgen.cli.terminal import Interrupt, colour_choice, interrupted, visible
 from quizgen.errors import QuizgenError
 
 WRONG = 2
@@ -71,35 +70,21 @@ def group(context: click.Context) -> None:
     context.color = colour_choice()
 
 
-class _Interrupt:
-    """Remembers Ctrl-C, for it may come out of an extension as any other error."""
-
-    came = False
-
-    def __call__(self, number: int, frame: FrameType | None) -> None:
-        """Stop whatever is running; a second Ctrl-C has nothing left to do."""
-        del frame
-        self.came = True
-        signal.signal(number, signal.SIG_IGN)
-        raise KeyboardInterrupt
-
-
 def main(arguments: list[str] | None = None) -> None:
     """Run the command line; every expected error is one line and exit code 2."""
     for stream in (sys.stdin, sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")
-    interrupt = _Interrupt()
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
-        signal.signal(signal.SIGINT, interrupt)
+        signal.signal(signal.SIGINT, Interrupt())
     try:
         status = _run(arguments)
     except (click.exceptions.Abort, KeyboardInterrupt):
-        _interrupted()
+        _stop()
     except Exception:
-        if not interrupt.came:
+        if not interrupted():
             raise
-        _interrupted()
+        _stop()
     if status:
         sys.exit(status)
 
@@ -129,7 +114,7 @@ def _tell(message: str) -> None:
     click.echo(f"quizgen: {visible(' '.join(message.split()))}", err=True)
 
 
-def _interrupted() -> NoReturn:
+def _stop() -> NoReturn:
     """Say so and end at once: finalisers of extensions have hung after an interrupt."""
     with contextlib.suppress(OSError, ValueError):
         _tell("interrupted")

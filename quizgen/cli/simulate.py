@@ -114,8 +114,9 @@ def summary(photo: Photo, whole: Photo | None = None) -> dict[str, Any]:
 
 
 def _print(title: str, photo: Photo, whole: Photo | None, report: dict[str, Any]) -> None:
-    from rich.console import Console
     from rich.table import Table
+
+    from quizgen.cli.terminal import console
 
     table = Table("effect", "", "why", "bound DN", "predicted ms", "measured ms", title=title)
     for column in table.columns[3:]:
@@ -127,8 +128,7 @@ def _print(title: str, photo: Photo, whole: Photo | None, report: dict[str, Any]
     for item in photo.plan.skipped:
         row = item.effect, "skipped", item.reason, f"{item.bound_dn:.3g}"
         table.add_row(*row, f"saves {item.saved_ms:.2f}", "")
-    console = Console()
-    console.print(table)
+    console().print(table)
     _print_totals(photo, whole, report)
 
 

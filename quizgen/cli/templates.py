@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator, Sequence
-from itertools import accumulate
 from typing import TYPE_CHECKING, TypedDict, Unpack
 
 import click
 
 from quizgen.cli.options import BankOptions, bank_options, checked, open_bank, topic_option
-from quizgen.cli.terminal import columns, visible, wrapped
+from quizgen.cli.terminal import on_terminal, one_line, print_table
 
 if TYPE_CHECKING:
     from quizgen.bank.folder import Bank
 
 HEAD = ("id", "tier", "topic", "pool", "languages", "title")
-GAP = "  "
-READABLE = 20
-"""Columns below which a title is not squeezed."""
 
 
 class Filters(TypedDict):
@@ -56,7 +51,7 @@ def templates(**options: Unpack[Options]) -> None:
     _print(HEAD, [_row(bank, name) for name in names])
     if not names and options["covers"] is not None:
         click.echo(f"no template covers {options['covers']!r}", err=True)
-    elif sys.stdout.isatty() or not names:
+    elif on_terminal() or not names:
         click.echo(f"{len(names)} templates", err=True)
 
 
@@ -121,24 +116,9 @@ def _print_coverage(bank: Bank) -> None:
 
 
 def _print(head: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
-    """Print a table: for people with a head and the last column wrapped, else cells and tabs."""
-    shown = [[visible(" ".join(cell.split())) for cell in row] for row in rows]
-    if not sys.stdout.isatty():
-        for row in shown:
-            click.echo("\t".join(row))
+    """Print a table where people read it, else a line of cells and tabs for each row."""
+    if on_terminal():
+        print_table(head, rows)
         return
-    sizes = [max(map(len, column)) for column in zip(head, *shown, strict=True)][:-1]
-    for number, row in enumerate([list(head), *shown]):
-        for line in _lines(row, sizes):
-            click.secho(line, bold=number == 0 or None)
-
-
-def _lines(row: Sequence[str], sizes: Sequence[int]) -> Iterator[str]:
-    """A row as lines: the last cell beside the others if there is room, else below them."""
-    indent = list(accumulate(size + len(GAP) for size in sizes))[-1]
-    cells = "".join(cell.ljust(size) + GAP for cell, size in zip(row, sizes, strict=False))
-    if columns() - indent >= READABLE:
-        yield from wrapped(row[-1], columns(), cells, " " * indent)
-    else:
-        yield cells.rstrip()
-        yield from wrapped(row[-1], columns(), GAP * 2, GAP * 2)
+    for row in rows:
+        click.echo("\t".join(map(one_line, row)))

@@ -5,11 +5,12 @@ from __future__ import annotations
 import os
 import re
 import shutil
+import signal
 import sys
 import time
 import unicodedata
-from collections.abc import Callable, Iterable, Iterator
-from types import TracebackType
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from types import FrameType, TracebackType
 from typing import TYPE_CHECKING, Self
 
 import click
@@ -23,6 +24,10 @@ HARMLESS = frozenset("\n\u200c\u200d")
 """Line break and the two joiners, which Bangla needs: shown as they are."""
 _BLANKS = re.compile(r"[ \t\n]+")
 """Where a line may break; not at a no-break space."""
+GAP = "  "
+"""Between the columns of a table."""
+READABLE = 20
+"""Columns below which a text beside others is not squeezed."""
 PATIENCE = 1.0
 """Seconds before progress is shown."""
 
@@ -30,6 +35,30 @@ PATIENCE = 1.0
 def columns() -> int:
     """Width of the terminal; 80 where there is none."""
     return max(shutil.get_terminal_size((80, 24)).columns, NARROWEST)
+
+
+def on_terminal() -> bool:
+    """Whether people read along; otherwise what is printed goes to a file or a program."""
+    return sys.stdout.isatty()
+
+
+class Interrupt:
+    """Handles Ctrl-C and remembers it, for it may come out of an extension as any other error."""
+
+    came = False
+
+    def __call__(self, number: int, frame: FrameType | None) -> None:
+        """Stop whatever is running; a second Ctrl-C has nothing left to stop."""
+        del number, frame
+        if not self.came:
+            self.came = True
+            raise KeyboardInterrupt
+
+
+def interrupted() -> bool:
+    """Whether Ctrl-C has come."""
+    handler = signal.getsignal(signal.SIGINT)
+    return isinstance(handler, Interrupt) and handler.came
 
 
 def colour_choice() -> bool | None:
@@ -109,6 +138,31 @@ def _unbreakable(word: str) -> Iterator[str]:
 
 def _is_wide(character: str) -> bool:
     return unicodedata.east_asian_width(character) in {"W", "F"}
+
+
+def one_line(text: str) -> str:
+    """A text without line breaks and other control characters, as a cell of a table."""
+    return visible(" ".join(text.split()))
+
+
+def print_table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
+    """Print aligned columns; on a terminal the last one is wrapped, or stands below the others."""
+    body = [[one_line(cell) for cell in row] for row in rows]
+    sizes = [max(map(len, column)) for column in zip(head, *body, strict=True)][:-1]
+    room = columns() if on_terminal() else sys.maxsize
+    for number, row in enumerate([head, *body]):
+        for line in _row_lines(row, sizes, room):
+            click.secho(line, bold=number == 0 or None)
+
+
+def _row_lines(row: Sequence[str], sizes: Sequence[int], room: int) -> Iterator[str]:
+    cells = "".join(f"{cell:{size}}{GAP}" for cell, size in zip(row, sizes, strict=False))
+    if room - len(cells) >= READABLE:
+        yield from wrapped(row[-1], room, cells, " " * len(cells))
+        return
+    yield cells.rstrip()
+    if row[-1]:
+        yield from wrapped(row[-1], room, GAP * 2, GAP * 2)
 
 
 class Progress:

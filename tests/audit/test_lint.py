@@ -70,7 +70,6 @@ def test_the_bank_says_in_which_languages_a_template_must_be(tmp_path, about, mi
     (template / "template.toml").write_text(RULES)
     (template / "en.md").write_text(ENGLISH, "utf-8")
     done = CliRunner().invoke(lint, [str(tmp_path), "--seeds", "5"])
-    assert [line for line in done.output.splitlines() if line.startswith("one: ")] == [
-        f"one: {problem}" for problem in missing
-    ]
+    found = [line.split("; ")[0] for line in done.stderr.splitlines()]
+    assert found == [f"{template / 'bn.md'}: {problem}" for problem in missing]
     assert done.exit_code == bool(missing)

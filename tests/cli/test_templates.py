@@ -91,24 +91,16 @@ def odd_bank(tmp_path):
 
 
 @pytest.mark.parametrize("title", ["Interval [a, b] of values", "Close [/] it", "[link=x]y[/link]"])
-@pytest.mark.parametrize("columns", [40, 200])
+@pytest.mark.parametrize("columns", [45, 200])
 def test_titles_are_shown_as_they_are(odd_bank, monkeypatch, title, columns):
     (odd_bank / "templates" / "x" / "odd" / "en.md").write_text(f"# {title}\nIs it so?\n")
     assert rows("--bank", str(odd_bank))[0][5] == title
-    monkeypatch.setattr("quizgen.cli.templates.sys", FakeSys)
+    for module in ("templates", "terminal"):
+        monkeypatch.setattr(f"quizgen.cli.{module}.on_terminal", lambda: True)
     monkeypatch.setenv("COLUMNS", str(columns))
     done = CliRunner().invoke(templates, ["--bank", str(odd_bank)])
     assert title in done.stdout
     assert max(map(len, done.stdout.splitlines())) <= columns
-
-
-class FakeSys:
-    """A standard output that says it is a terminal."""
-
-    class stdout:  # noqa: N801
-        @staticmethod
-        def isatty():
-            return True
 
 
 @pytest.mark.parametrize("name", COMMANDS)

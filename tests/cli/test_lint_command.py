@@ -1,0 +1,112 @@
+"""``quizgen lint``: every template is examined, whatever is wrong with another."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+RULES = (
+    'topic = "x"\ntier = "A"\nsolver = "{name}"\n[draw]\na = {{ pick = [1, 2, 3] }}\n'
+    '[[part]]\nanswer = {{ kind = "number", of = "b", exact = true }}\n'
+)
+PROSE = "# T\nGiven $a$ = {{ a }}.\n## steps\n- b: Twice.\n## check\nEven.\n"
+BROKEN = {
+    "syntax": ("MODEL = (", "syntax.py:1: SyntaxError"),
+    "names": ("x = 1\nMODEL = nothing", "names.py:2: NameError: name 'nothing' is not defined"),
+    "division": ("MODEL = 1 / 0", "division.py:1: ZeroDivisionError"),
+    "model": ("", "model.py: no MODEL"),
+}
+"""Name of a solver to its text and what is said of it."""
+
+
+@pytest.fixture(scope="module")
+def bank(tmp_path_factory):
+    root = tmp_path_factory.mktemp("bank")
+    (root / "solvers").mkdir()
+    for name in (*BROKEN, "good", "zero"):
+        folder = root / "templates" / "x" / name
+        folder.mkdir(parents=True)
+        (folder / "template.toml").write_text(
+            'topic = "x"\ntier = "A"\n[[part]]\nanswer = { kind = "tf", true = true }\n'
+        )
+        (folder / "en.md").write_text("# T\nIs it so?\n## why\nIt is.\n")
+        if name in BROKEN:
+            (folder / "template.toml").write_text(RULES.format(name=name))
+            (folder / "en.md").write_text(PROSE)
+            (root / "solvers" / f"{name}.py").write_text(BROKEN[name][0])
+    (root / "templates" / "x" / "zero" / "template.toml").write_text(
+        'topic = "x"\ntier = "A"\n[draw]\na = { range = [15, -15, 1] }\n'
+        '[[part]]\nanswer = { kind = "tf", true = "a > 0" }\n'
+    )
+    return root
+
+
+def lint(bank, *arguments):
+    return subprocess.run(
+        [sys.executable, "-m", "quizgen", "lint", str(bank), "--trust", "--seeds", "3", *arguments],
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+
+
+def test_broken_templates_do_not_stop_the_others(bank):
+    done = lint(bank)
+    assert done.returncode == 1
+    listed = [line.split()[0] for line in done.stdout.splitlines()[1:]]
+    assert listed == sorted([*BROKEN, "good", "zero"])
+    assert "Traceback" not in done.stderr
+    problems = done.stderr.splitlines()
+    assert len(problems) == len(BROKEN) + 1
+    for name, (_, said) in BROKEN.items():
+        assert [line for line in problems if said in line and str(bank) in line], name
+    assert [line for line in problems if str(Path("x", "zero")) in line]
+
+
+def test_debug_shows_the_way_to_an_error(bank):
+    done = lint(bank, "--only", "names", "--debug")
+    assert "Traceback" in done.stderr
+    assert "MODEL = nothing" in done.stderr
+
+
+def test_a_sound_template_is_one_row_and_no_problem(bank):
+    done = lint(bank, "--only", "good")
+    assert (done.returncode, done.stderr) == (0, "")
+    cells = done.stdout.splitlines()[1].split()
+    assert (cells[:4], cells[5:]) == (["good", "3", "33%", "100.0%"], ["0"])
+
+
+RAISING = """
+import quizgen.audit.lint as module
+def failing(template, *others):
+    raise RuntimeError("deep inside")
+module.lint_template = failing
+from quizgen.cli.main import main
+main(["lint", {bank!r}, "--only", "good"])
+"""
+
+
+def test_an_error_nobody_expected_names_its_place(bank):
+    done = subprocess.run([sys.executable, "-c", RAISING.format(bank=str(bank))],
+                          capture_output=True, text=True, check=False)  # fmt: skip
+    assert done.returncode == 1
+    assert "RuntimeError: deep inside (in <string>:4; --debug shows" in done.stderr
+    assert str(bank / "templates" / "x" / "good") in done.stderr
+
+
+def test_a_problem_says_where_and_what_to_do(tmp_path):
+    folder = tmp_path / "templates" / "x" / "half"
+    folder.mkdir(parents=True)
+    (tmp_path / "templates" / "bank.toml").write_text(
+        'name = "b"\nlanguages = ["en", "bn"]\n[topics]\nx = { en = "X" }\n'
+    )
+    (folder / "template.toml").write_text(
+        'topic = "x"\ntier = "A"\n[[part]]\nanswer = { kind = "tf", true = true }\n'
+    )
+    (folder / "en.md").write_text("# T\nIs it so?\n## why\nIt is.\n")
+    done = lint(tmp_path)
+    assert done.stderr == (
+        f"{folder / 'bn.md'}: no bn.md; write it, or leave the language out of languages in "
+        "bank.toml\n"
+    )
