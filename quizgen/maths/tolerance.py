@@ -62,7 +62,7 @@ class Tolerance(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
             raise ValueError("accept needs two bounds")
         if not 0 <= (self.decimals or 0) <= MOST_DIGITS:
             raise ValueError(f"decimals must be 0 to {MOST_DIGITS}")
-        if not 1 <= (self.sigfigs or 1) <= MOST_DIGITS:
+        if self.sigfigs is not None and not 1 <= self.sigfigs <= MOST_DIGITS:
             raise ValueError(f"sigfigs must be 1 to {MOST_DIGITS}")
         for value in (self.rel, self.abs, self.within, *(self.accept or ())):
             if value is not None:
