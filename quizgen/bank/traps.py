@@ -16,6 +16,7 @@ from flint import fmpq
 from quizgen.bank.template import Template
 from quizgen.errors import BankError
 from quizgen.maths.chain import ChainStep, Plan
+from quizgen.maths.constants import exact_value
 from quizgen.maths.numbers import to_float
 from quizgen.maths.systems import compile_expr, floats
 from quizgen.maths.tolerance import MARGIN, RULES, Tolerance, tolerance_of
@@ -68,7 +69,9 @@ class PartPlan:
             raise BankError(f"{place}: {error}") from None
         bounds = self.answer.get("accept", ()) if self.of else ()
         self.accept = [_Bound(template, str(text)) for text in bounds]
-        self.one_step = any(t.decimals is not None and t.within != 1 for t in self.tolerances)
+        self.one_step = any(
+            t.decimals is not None and exact_value(t.within) != 1 for t in self.tolerances
+        )
         self.apart = 1.0 if self.one_step else APART
 
     def _reported(self, values: tuple[float, ...]) -> tuple[float, ...]:
