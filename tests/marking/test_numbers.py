@@ -1,0 +1,127 @@
+"""What is said about one number: the echo, the digits asked and given, the slip that explains it."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+from flint import fmpq
+
+from quizgen.marking.diagnosis.slips import power_of_ten
+from quizgen.marking.mark import Context, mark
+from quizgen.maths.chain import Chain, ChainStep
+from quizgen.maths.notation import parse
+
+HALF = Fraction(1, 2)
+FIGURES = {"kind": "number", "value": "12.25", "sigfigs": 4}
+PLACES = {"kind": "number", "value": "12.25", "decimals": 2}
+
+
+@pytest.mark.parametrize(
+    ("spec", "typed", "note", "credit", "fields"),
+    [
+        (FIGURES, "12.25", "", 1, {}),
+        (FIGURES, "49/4", "", 1, {}),
+        (FIGURES, "12.250", "more-digits", 1, {}),
+        (FIGURES, "12.3", "figures-asked", HALF, {"asked": 4, "given": 3}),
+        ({**FIGURES, "value": "12"}, "12", "figures-asked", HALF, {"asked": 4, "given": 2}),
+        ({**FIGURES, "strict": True}, "12.250", "figures-unclear", HALF, {"asked": 4}),
+        (PLACES, "12.25", "", 1, {}),
+        (PLACES, "12.3", "decimals-asked", HALF, {"asked": 2}),
+        ({**PLACES, "strict": True}, "12.250", "decimals-asked", HALF, {"asked": 2}),
+        ({**PLACES, "strict": True}, "49/4", "", 1, {}),
+        ({"kind": "number", "value": "12.25", "exact": True}, "12.3", "exact-wanted", 0, {}),
+    ],
+)
+def test_digits_asked_and_given_are_told(spec, typed, note, credit, fields):
+    found = mark(spec, typed)
+    assert (found.note, found.credit, dict(found.fields)) == (note, credit, fields)
+    assert found.read_as == typed
+
+
+def test_a_whole_number_as_a_decimal_is_read_as_typed():
+    found = mark({"kind": "number", "value": "2", "exact": True}, "2.001")
+    assert (found.verdict, found.note, found.read_as) == ("correct", "whole-number", "2.001")
+
+
+@pytest.mark.parametrize(
+    ("value", "typed", "credit"),
+    [
+        ("2", "2.01", 1),
+        ("2", "1.99", 1),
+        ("2", "2.0101", 0),
+        ("0", "0.001", 0),
+        ("5/2", "2.501", 0),
+    ],
+)
+def test_a_whole_number_is_meant_within_a_hundredth(value, typed, credit):
+    assert mark({"kind": "number", "value": value, "exact": True}, typed).credit == credit
+
+
+@pytest.mark.parametrize("typed", ["5", "5.01", "5.02"])
+def test_the_nearest_of_several_known_mistakes_is_named(typed):
+    """All three lie within half a percent of one another."""
+    spec = {"kind": "number", "value": "10", "traps": {"5": "5", "5.01": "5.01", "5.02": "5.02"}}
+    assert mark(spec, typed).note == f"trap:{typed}"
+
+
+def test_the_first_of_two_equal_mistakes_is_named():
+    spec = {"kind": "number", "value": "10", "traps": {"first": "5", "second": "5"}}
+    assert mark(spec, "5").note == "trap:first"
+
+
+@pytest.mark.parametrize("typed", ["123.456", "+123.456", "-123.456"])
+def test_both_readings_are_echoed(typed):
+    value = "-123456" if typed[0] == "-" else "123456"
+    found = mark({"kind": "number", "value": value, "exact": True}, typed)
+    sign = typed[0].strip("+1")
+    first, second = f"{sign}123.456", f"{sign}123456"
+    assert (found.verdict, found.note) == ("ambiguous", "two-readings")
+    assert dict(found.fields) == {"first": first, "second": second}
+    assert found.read_as == f"{first} | {second}"
+
+
+@pytest.mark.parametrize(
+    ("key", "typed", "note"),
+    [
+        ("3", "-3", "sign"),
+        ("1", "100", "percent-slip"),
+        ("1/2", "50", "percent-slip"),
+        ("3/2", "150", "power-of-ten"),
+        ("4", "1/4", "reciprocal"),
+        ("3", "-300", "sign-and-power"),
+        ("3", "12", "factor"),
+        ("3", "0", ""),
+    ],
+)
+def test_a_slip_in_one_number_alone_is_named(key, typed, note):
+    found = mark({"kind": "number", "value": key}, typed)
+    assert (found.note, found.credit, found.read_as) == (note, 0, typed)
+
+
+@pytest.mark.parametrize(
+    ("value", "power"),
+    [(fmpq(10) ** 18, 18), (fmpq(10) ** -18, -18), (fmpq(10) ** 19, 0), (fmpq(1001, 10), 2),
+     (fmpq(1006, 10), 0), (fmpq(1), 0), (fmpq(0), 0), (fmpq(-100), 0)],
+)  # fmt: skip
+def test_powers_of_ten_are_seen_within_half_a_percent_up_to_eighteen(value, power):
+    assert power_of_ten(value, fmpq(1)) == power
+
+
+CAMERA = Chain(
+    {"f": "mm", "X": "m", "Z": "m", "pitch": "um"},
+    (ChainStep("h", parse("f*X/Z"), "mm"), ChainStep("n", parse("h/pitch"), "px")),
+)
+GIVEN = {"f": fmpq(1, 20), "X": fmpq(29), "Z": fmpq(600), "pitch": fmpq(7, 10**6)}
+
+
+@pytest.mark.parametrize(
+    ("typed", "note"),
+    [("342.9", "rounded-too-early"), ("342.8", ""), ("345.2", None)],
+)
+def test_a_step_rounded_in_its_own_unit_is_seen_to_half_the_last_place(typed, note):
+    """h = 29/12 mm is 2.4 mm in two figures; 2.4 mm / 7 µm = 342.857; the key is 345.238."""
+    spec = {"kind": "number", "value": "7250/21", "decimals": 1, "of": ["n"]}
+    found = mark(spec, typed, context=Context(CAMERA, GIVEN))
+    assert found.note == (note or "")
+    assert found.credit == {"rounded-too-early": HALF, "": 0, None: 1}[note]

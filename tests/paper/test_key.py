@@ -1,0 +1,110 @@
+"""The key of one question, member by member, and the bytes it is written as."""
+
+from __future__ import annotations
+
+import json
+from fractions import Fraction
+
+import pytest
+from flint import fmpq
+from small_bank import NAME, ONE
+
+from quizgen.errors import KeyFileError
+from quizgen.paper.key import Key, key_bytes, key_of, load_key, read_key
+from quizgen.paper.paper import build
+
+
+@pytest.fixture(scope="module")
+def paper(bank):
+    return build(bank, ONE, 7, "both", figures=False)
+
+
+def test_the_head_of_a_key(paper):
+    key = key_of(paper)
+    assert (key.format, key.code, key.langs) == ("quizgen-key/1", paper.code, ("en", "bn"))
+    assert key.title == {"en": "One", "bn": "One"}
+
+
+def test_the_key_of_one_question(paper):
+    """Seed 7 draws f = 6 and the point (-4, 2, 4): its image is at (-6, 3)."""
+    question = key_of(paper).questions[0]
+    assert (question.number, question.points, question.template) == ("1", "3", NAME)
+    assert (question.topic, question.tier) == ("projection", "A")
+    assert question.identity == f"{NAME}(f=6, p_x=-4, p_y=2, p_z=4)"
+    assert question.title == {
+        "en": "Perspective projection of a point",
+        "bn": "একটি বিন্দুর পারস্পেক্টিভ প্রক্ষেপণ",
+    }
+    (part,) = question.parts
+    assert (part.id, part.points, part.worth()) == ("1", "3", Fraction(3))
+    assert (part.spec["kind"], part.spec["values"]) == ("point", ["-6", "3"])
+    assert question.chain.steps == [("p'_x", "f*p_x/p_z", ""), ("p'_y", "f*p_y/p_z", "")]
+    assert {name: given.value for name, given in question.chain.given.items()} == {
+        "f": "6", "p_x": "-4", "p_y": "2", "p_z": "4"}  # fmt: skip
+
+
+def test_the_chain_of_a_key_computes_with_its_units():
+    key = load_key(TABLE)
+    context = key.questions[0].chain.context({"h": fmpq(7, 2000)})
+    assert context.given == {"f": fmpq(1, 20), "X": fmpq(30), "Z": fmpq(600)}
+    assert context.solved["h"] == fmpq(1, 400)
+    assert context.earlier == {"h": fmpq(7, 2000)}
+    assert context.chain.given == {"f": "mm", "X": "m", "Z": ""}
+    assert key.questions[0].chain.units() == {"h": "mm"}
+
+
+def test_the_file_is_sorted_readable_json(paper):
+    data = key_bytes(paper)
+    table = json.loads(data)
+    assert data.decode().startswith('{\n "code": ')
+    assert data.endswith(b"}\n")
+    assert "একটি বিন্দুর".encode() in data
+    assert list(table) == sorted(table)
+    assert list(table["questions"][0]) == sorted(table["questions"][0])
+
+
+def test_a_key_is_read_as_it_was_written(paper, tmp_path):
+    path = tmp_path / "key.json"
+    path.write_bytes(key_bytes(paper))
+    assert read_key(path) == key_of(paper)
+
+
+CHAIN = {
+    "given": {"f": {"value": "1/20", "unit": "mm"}, "X": {"value": "30", "unit": "m"},
+              "Z": {"value": "600"}},
+    "steps": [["h", "f*X/Z", "mm"]],
+}  # fmt: skip
+TABLE = {
+    "format": "quizgen-key/1",
+    "questions": [
+        {
+            "number": "1",
+            "chain": CHAIN,
+            "parts": [{"id": "1", "points": "3", "spec": {"kind": "number", "value": "1"}}],
+        }
+    ],
+}
+
+
+def test_what_a_key_need_not_say():
+    assert load_key(TABLE) == Key("quizgen-key/1", load_key(TABLE).questions)
+    assert (load_key(TABLE).code, load_key(TABLE).langs) == ("", ("en",))
+
+
+@pytest.mark.parametrize(
+    ("points", "said"),
+    [("three", r"mine: part 1: points 'three' is no number"),
+     ("1/0", r"mine: part 1: points '1/0' is no number"),
+     (3, r"mine: .*\$\.questions\[0\]\.parts\[0\]\.points")],
+)  # fmt: skip
+def test_points_that_are_no_number_are_located(points, said):
+    part = {"id": "1", "points": points, "spec": {}}
+    table = {**TABLE, "questions": [{"number": "1", "parts": [part]}]}
+    with pytest.raises(KeyFileError, match=said):
+        load_key(table, "mine")
+
+
+@pytest.mark.parametrize("found", [None, "quizgen-key/2"])
+def test_another_format_is_named(found):
+    with pytest.raises(KeyFileError, match=rf"^key: format is {found!r}, not 'quizgen-key/1'$"):
+        load_key({**TABLE, "format": found})
