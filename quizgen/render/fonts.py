@@ -7,6 +7,7 @@ result is kept in the user's cache folder under a name that changes with font an
 from __future__ import annotations
 
 import base64
+import contextlib
 import hashlib
 import importlib.util
 import io
@@ -16,6 +17,7 @@ from functools import cache
 from pathlib import Path
 
 from quizgen.errors import RenderError
+from quizgen.outside import read_bytes
 
 BANGLA_RANGE = [*range(0x0964, 0x0966), *range(0x0980, 0x0A00), 0x200C, 0x200D, 0x25CC]
 MATHS_RANGE = [
@@ -93,21 +95,31 @@ def cache_folder() -> Path:
 
 def _subset_cached(path: Path, characters: tuple[int, ...]) -> bytes:
     source = path.read_bytes()
-    name = hashlib.sha256(source + repr(characters).encode() + b"2").hexdigest()[:20]
-    kept = cache_folder() / f"{name}.woff2"
-    try:
-        return kept.read_bytes()
-    except OSError:
-        pass
-    data = _subset(source, characters)
-    try:
-        kept.parent.mkdir(parents=True, exist_ok=True)
-        temporary = kept.with_suffix(f".{os.getpid()}")
-        temporary.write_bytes(data)
-        temporary.replace(kept)
-    except OSError:
-        pass  # a read-only home only costs the time again
+    name = hashlib.sha256(source + repr(characters).encode() + b"3").hexdigest()[:20]
+    kept = cache_folder() / f"{name}.font"
+    data = _kept(kept)
+    if data is None:
+        data = _subset(source, characters)
+        with contextlib.suppress(OSError):  # a read-only home only costs the time again
+            kept.parent.mkdir(parents=True, exist_ok=True)
+            temporary = kept.with_suffix(f".{os.getpid()}")
+            temporary.write_bytes(hashlib.sha256(data).digest() + data)
+            temporary.replace(kept)
     return data
+
+
+def _kept(path: Path) -> bytes | None:
+    """A font from the cache; None if there is none, or it is not the one that was put there.
+
+    The digest before it tells: a file cut short would change pages without a word.
+    """
+    try:
+        content = read_bytes(path, RenderError)
+    except RenderError:
+        return None
+    length = hashlib.sha256().digest_size
+    digest, data = content[:length], content[length:]
+    return data if hashlib.sha256(data).digest() == digest else None
 
 
 def _subset(source: bytes, characters: tuple[int, ...]) -> bytes:
