@@ -19,9 +19,9 @@ from quizgen.cards import build
 from quizgen.cards.mistakes import from_marks
 from quizgen.cards.tables import as_csv, tsv
 from quizgen.errors import BankError, BlueprintError, CodeError, KeyFileError
-from quizgen.outside import DEEPEST, defused, is_name, parse_json, parse_toml, printable, read_bytes
+from quizgen.outside import DEEPEST, defused, is_name, parse_json, parse_toml, read_bytes, visible
 from quizgen.paper.blueprint import load_blueprint
-from quizgen.paper.key import load_key
+from quizgen.paper.key import FORMAT, load_key
 from quizgen.png import decode
 
 TEMPLATE = """
@@ -238,7 +238,7 @@ SPEC = {"kind": "number", "value": "1"}
 def test_a_tampered_key_is_one_located_line(parts, words):
     listed = [{"id": name, "points": points, "spec": SPEC} for name, points in parts]
     with pytest.raises(KeyFileError) as caught:
-        load_key({"format": "quizgen-key/1", "questions": [{"number": "1", "parts": listed}]})
+        load_key({"format": FORMAT, "questions": [{"number": "1", "parts": listed}]})
     assert str(caught.value) == words
 
 
@@ -355,5 +355,9 @@ def test_our_own_deck_has_no_cell_that_a_spreadsheet_runs():
 
 
 def test_what_steers_a_terminal_is_named():
-    assert printable("a\x1b]0;x\x07\u202eb\x85") == "a<U+001B>]0;x<U+0007><U+202E>b<U+0085>"
-    assert printable("রহিম\n é") == "রহিম\n é"
+    assert (
+        visible("a\x1b]0;x\x07\u202eb\x85")
+        == "a[U+001B control character]0;x".replace("]0", "]]0")
+        + "[U+0007 control character][U+202E RIGHT-TO-LEFT OVERRIDE]b[U+0085 control character]"
+    )
+    assert visible("রহিম\n é") == "রহিম\n é"
