@@ -37,6 +37,8 @@ LONGEST_NAME = 100
 _NAME = re.compile(rf"(?!\.+$)[A-Za-z0-9_.-]{{1,{LONGEST_NAME}}}")
 _TOO_LARGE = 10**MOST_DIGITS
 _STARTS_FORMULA = frozenset({"=", "+", "-", "@", "\u2212", "\t"})
+_HARMLESS = frozenset("\n\u200c\u200d")
+"""Line break and the two joiners, which Bangla needs."""
 NAMES = "letters A-Z, digits, '_', '.' and '-'"
 """What a name may consist of, for messages."""
 
@@ -75,17 +77,18 @@ def _first(cell: str) -> str:
     return unicodedata.normalize("NFKC", next(seen, ""))
 
 
-def printable(text: str) -> str:
-    """A text for a terminal: what would steer it, or hide or reorder letters, by its number."""
-    return "".join(_printable(character) for character in text)
+def visible(text: str) -> str:
+    """A text with its control characters named, so that it steers no terminal and hides nothing."""
+    return "".join(_named(c) if _is_control(c) else c for c in text)
 
 
-def _printable(character: str) -> str:
-    steers = unicodedata.category(character) in {"Cc", "Cs", "Zl", "Zp"} and character != "\n"
-    reorders = (
-        character in "\u061c\u200e\u200f\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069"
-    )
-    return f"<U+{ord(character):04X}>" if steers or reorders else character
+def _is_control(character: str) -> bool:
+    return unicodedata.category(character)[0] == "C" and character not in _HARMLESS
+
+
+def _named(character: str) -> str:
+    name = unicodedata.name(character, "control character")
+    return f"[U+{ord(character):04X} {name}]"
 
 
 def read_bytes(path: Path, error: Failure, most: int = LARGEST_FILE) -> bytes:
@@ -214,9 +217,9 @@ def _check(table: object, where: object, error: Failure) -> None:
     for count, (place, value, depth) in enumerate(_values(table)):
         problem = _problem(value)
         if problem:
-            raise error(f"{where}: {printable(place) or 'the file'}: {problem}")
+            raise error(f"{where}: {visible(place) or 'the file'}: {problem}")
         if depth > DEEPEST:
-            raise error(f"{where}: {printable(place)}: more than {DEEPEST} tables and lists "
+            raise error(f"{where}: {visible(place)}: more than {DEEPEST} tables and lists "
                         "within each other")  # fmt: skip
         if count > MOST_VALUES:
             raise error(f"{where}: more than {MOST_VALUES} values")

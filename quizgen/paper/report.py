@@ -10,7 +10,7 @@ from fractions import Fraction
 
 from quizgen.marking.echo import safe
 from quizgen.marking.messages import words
-from quizgen.outside import defused, printable
+from quizgen.outside import defused, visible
 from quizgen.paper.marking import PaperResult, PartResult
 
 COLOURS = {
@@ -125,7 +125,7 @@ def _class_row(file: str, name: str, result: PaperResult) -> list[str]:
 
 def _cell(text: str) -> str:
     """A text that a spreadsheet does not run and a terminal does not obey."""
-    return defused(printable(text))
+    return defused(visible(text))
 
 
 def _note(part: PartResult) -> str:

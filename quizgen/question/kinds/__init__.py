@@ -65,5 +65,5 @@ def build(drawn: Draw, index: int) -> Built[Any]:
         return KINDS[name].build(drawn, index)
     except KeyError as error:
         raise complaint(drawn, index, f"answer: {error} is missing") from error
-    except (TypeError, ValueError, AttributeError, ArithmeticError) as error:
+    except (TypeError, ValueError, AttributeError, ArithmeticError, IndexError) as error:
         raise complaint(drawn, index, f"answer: not of kind {name!r}: {error}") from error
