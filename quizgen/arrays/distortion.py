@@ -179,9 +179,11 @@ def _quintic(r_d: Array, k1: Array, k2: Array) -> Array:
         above = residual > 0
         high, low = np.where(above, rho, high), np.where(above, low, rho)
         step = rho - residual / (1 + rho2 * (3 * a + 5 * b * rho2))
-        inside = (step > low) & (step < high)
-        following = np.where(inside, step, (low + high) / 2)
-        if np.all(np.abs(following - rho) <= 2.0**-50 * rho):
+        near = 2.0**-50 * rho
+        # a step that stays where it is has arrived, though that is now an end of the bracket
+        usable = ((step > low) & (step < high)) | (np.abs(step - rho) <= near)
+        following = np.where(usable, step, (low + high) / 2)
+        if np.all(np.abs(following - rho) <= near):
             break
         rho = following
     return rho * r_d
