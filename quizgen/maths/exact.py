@@ -47,6 +47,8 @@ def power(a: Value, b: Value) -> Value:
         return square_root(a)
     if a == 0 and _sign(b) > 0:
         return fmpq(0)
+    if isinstance(b, fmpq) and b.q == 1:
+        return _finite(_ball(a) ** _ball(b))
     if _sign(a) < 0:
         raise MathError("power of a negative number")
     return _finite(_ball(a) ** _ball(b))

@@ -77,6 +77,10 @@ _PLAIN = {
 }
 
 
+_MADE_OF = {"lx": (("lm", 1), ("m", -2)), "Hz": (("s", -1),)}
+"""Units with a name of their own for a product of others."""
+
+
 def _simple_units() -> dict[str, tuple[str, Fraction]]:
     table = dict(_PLAIN)
     for name, (base, factor, prefixes) in _PREFIXED.items():
@@ -112,10 +116,11 @@ def unit(text: str) -> Unit:
         match = _PART.match(compact, position)
         if match is None or match["name"] not in SIMPLE:
             raise FormulaError(f"unknown unit {text!r}", position + 1)
-        base, size = SIMPLE[match["name"]]
+        name, size = SIMPLE[match["name"]]
         power = int(match["power"] or 1) * (-1 if match["op"] == "/" else 1)
         factor *= size**power
-        powers[base] = powers.get(base, 0) + power
+        for base, times in _MADE_OF.get(name, ((name, 1),)):
+            powers[base] = powers.get(base, 0) + power * times
         position = match.end()
     powers.pop("", None)
     return Unit(text, factor, tuple(sorted((b, p) for b, p in powers.items() if p)))

@@ -78,3 +78,18 @@ def test_a_root_is_the_number_whose_square_it_is(text, square):
 def test_what_has_no_real_value_is_an_error(text):
     with pytest.raises(MathError):
         value(text)
+
+
+@pytest.mark.parametrize(("text", "wanted"), [
+    ("(1 - sqrt(2))^2", 0.1715728752538099), ("(1 - sqrt(2))^3", -0.07106781186547524),
+    ("(1 - sqrt(2))^-2", 5.82842712474619), ("cos(2)^2", 0.17317818956819406),
+    ("(sqrt(2)*sqrt(2) - 2)^2", 0.0),
+])  # fmt: skip
+def test_whole_powers_of_negative_balls_have_a_value(text, wanted):
+    assert abs(float(value(text)) - wanted) < 1e-14
+
+
+@pytest.mark.parametrize("text", ["(1 - sqrt(2))^(1/3)", "(1 - sqrt(2))^sqrt(2)", "cos(2)^0.5"])
+def test_other_powers_of_negative_balls_have_none(text):
+    with pytest.raises(MathError):
+        value(text)
