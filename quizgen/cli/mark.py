@@ -21,7 +21,10 @@ class Options(TypedDict):
     settle: bool
 
 
-@click.command(short_help="Mark one answer, or JSON Lines of answers (for authors).")
+@click.command(
+    short_help="Mark one answer, or JSON Lines of answers (for authors).",
+    context_settings={"ignore_unknown_options": True},  # a negative answer is no option
+)
 @click.argument("spec", required=False)
 @click.argument("typed", required=False)
 @click.option("--batch", is_flag=True, help="Read JSON Lines from standard input.")
