@@ -8,6 +8,8 @@ from __future__ import annotations
 import unicodedata
 
 LONGEST_ECHO = 40
+_BREAKS = frozenset({"Zl", "Zp"})
+"""Separators of lines and paragraphs: readers of JSON Lines would cut there."""
 
 
 def shorten(text: str, longest: int = LONGEST_ECHO) -> str:
@@ -21,7 +23,8 @@ def safe(text: str, longest: int = LONGEST_ECHO) -> str:
 
 
 def _visible(character: str) -> str:
-    if unicodedata.category(character)[0] != "C" or character == "\u200d":
+    kind = unicodedata.category(character)
+    if (kind[0] != "C" and kind not in _BREAKS) or character == "\u200d":
         return character
     name = unicodedata.name(character, "control character")
     return f"[U+{ord(character):04X} {name}]"
