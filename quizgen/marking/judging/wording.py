@@ -77,3 +77,49 @@ def nearest_terms(typed: str, terms: Iterable[str]) -> tuple[list[str], int]:
             best = [term] if distance < least else [*best, term]
             least = distance
     return best, least
+
+
+_PREFIXES = re.compile(
+    r"^(?:anti|non|nicht|dis|mis|trans|over|under|super|sub|pre|post|un|in|im|ir|il|an|de|re|ab|ent|be|ver|a)"
+    r"(?=.{3})"
+)
+_TERMS = frozenset({
+    "reflection", "refraction", "diffraction", "deflection", "inflection", "emission",
+    "omission", "transmission", "absorption", "adsorption", "dispersion", "diffusion",
+    "effusion", "convex", "concave", "convergent", "divergent", "convergence", "divergence",
+    "increase", "decrease", "increases", "decreases", "increasing", "decreasing", "inverse",
+    "reverse", "converse", "affect", "effect", "additive", "adaptive", "addictive",
+    "subtractive", "aberration", "defocus", "focus", "translation", "transition", "rotation",
+    "notation", "projection", "protection", "detection", "objection", "injection", "resolution",
+    "revolution", "solution", "dilution", "illumination", "elimination", "luminance",
+    "illuminance", "luminosity", "radiance", "irradiance", "radiation", "contrast", "constant",
+    "content", "extent", "intensity", "density", "magnification", "minification",
+    "amplification", "interpolation", "extrapolation", "internal", "external", "interval",
+    "horizontal", "vertical", "parallel", "perpendicular", "positive", "negative", "primary",
+    "secondary", "tertiary", "sampling", "scaling", "shading", "sharpening", "blurring",
+    "deblurring", "noising", "denoising", "photon", "proton", "phonon", "electron", "neutron",
+    "rod", "cone", "near", "far", "nearsighted", "farsighted", "myopia", "hyperopia", "myopic",
+    "hyperopic", "monochromatic", "dichromatic", "trichromatic", "chromatic", "achromatic",
+    "photopic", "scotopic", "mesopic", "quantisation", "quantization", "normalisation",
+    "normalization", "binarisation", "equalisation", "equalization", "linear", "nonlinear",
+})  # fmt: skip
+"""Words of the subject that differ by a letter or two: none of them is another's misspelling."""
+
+
+def another_word(typed: str, term: str) -> bool:
+    """Whether what was typed is a word of its own rather than a slip in spelling a term.
+
+    An opposite (``un-``, ``de-``, ``an-``), another word of the subject, or two letters replaced.
+    """
+    word, wanted = fold(typed), fold(term)
+    if word in _TERMS or _stem(word) == wanted or _stem(wanted) == word:
+        return True
+    if word[:2] != wanted[:2] and _stem(word) == _stem(wanted):
+        return True
+    changed = sum(a != b for a, b in zip(word, wanted, strict=False))
+    same_letters = sorted(word) == sorted(wanted)
+    return len(word) == len(wanted) and changed == 2 and not same_letters
+
+
+def _stem(word: str) -> str:
+    return _PREFIXES.sub("", word)

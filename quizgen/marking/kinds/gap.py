@@ -9,9 +9,10 @@ import msgspec
 
 from quizgen.locale import FIRST, in_letters_of, known
 from quizgen.marking.echo import safe
-from quizgen.marking.judging.wording import fold, nearest_terms
+from quizgen.marking.judging.wording import another_word, fold, nearest_terms
 from quizgen.marking.options import Options
-from quizgen.marking.reading.rewrites import Source, refuse_invisible
+from quizgen.marking.reading.rewrites import ANSWER, refuse_invisible, rewrite
+from quizgen.marking.reading.source import Source
 from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, ambiguous, correct, shared, unreadable, wrong
 from quizgen.maths.notation import ReadError
@@ -62,9 +63,29 @@ class Spec(Worded, kw_only=True, frozen=True):
 
 
 _JOINERS = "\u200c\u200d"
-_STRONG = re.compile(r"[;\n|]")
-_WEAK = re.compile(r"[;\n|,/]|\s→\s")
+_SEPARATORS = tuple(
+    map(
+        re.compile,
+        (
+            r"[;\n|]",
+            r"[;\n|,/]|\s→\s",
+            r"\s*(?:[,;&]|\b(?:and|und)\b|\s(?:এবং|ও)\s)\s*",
+            r"\s+(?:[-–—→]|->|=>)\s+",
+            r"\s+",
+            r"[-–]",
+        ),
+    )
+)
 _NUMBERED = re.compile(r"^\s*(?:\(?\d{1,2}[).:]|[a-hA-H][).:])\s*")
+_NUMBER = re.compile(
+    r"(?:^|(?<=[\s,;(]))\(?"
+    r"(?:(\d{1,2}) ?(?:[).:]\)?|=|→|-+>|[-–—](?=\D)|(?=[^\W\d]))|([a-h])[).])\s*"
+)
+_ENDING = re.compile(r"(.{6,}?)(?:ly|e|er|en|es|em)")
+_ENDS = " \t\r\n,;"
+_QUOTES = "[]{}“”„‘’«»\"'"
+_JOINED = re.compile(r"\s(?:and|und|এবং|ও)$")
+_LABEL = re.compile(r"\s*[^\W\d_]{1,12}\s*[:=]\s*\S")
 
 
 def _words(typed: str, count: int) -> list[str]:
@@ -73,15 +94,45 @@ def _words(typed: str, count: int) -> list[str]:
     if not typed.strip():
         raise ReadError("no-answer", 1)
     refuse_invisible(Source.of(typed.strip("\u200e\u200f\ufeff \r\n")), "\r\n\t" + _JOINERS)
+    typed = ANSWER.sub("", typed).strip()
     if count == 1:
-        return [_NUMBERED.sub("", typed).strip()]
-    for separator in (_STRONG, _WEAK, re.compile(r"\s+")):
-        pieces = [piece.strip() for piece in separator.split(typed.strip())]
+        return [_NUMBERED.sub("", typed).strip(_ENDS + _QUOTES)]
+    return _by_number(rewrite("digits", typed), count) or _in_a_row(typed, count)
+
+
+def _by_number(typed: str, count: int) -> list[str]:
+    """The words behind the gaps' own numbers, ``(1) ... (2) ...``; none without numbers."""
+    marks = list(_NUMBER.finditer(typed))
+    names = [mark[1] or str("abcdefgh".index(mark[2]) + 1) for mark in marks]
+    if sorted(names) != sorted(map(str, range(1, count + 1))) or marks[0].start():
+        return []
+    ends = [*(mark.start() for mark in marks[1:]), len(typed)]
+    words = {
+        name: _JOINED.sub("", typed[mark.end() : end].strip(_ENDS)).strip(_ENDS)
+        for name, mark, end in zip(names, marks, ends, strict=True)
+    }
+    return [words[str(number)] for number in range(1, count + 1)]
+
+
+def _in_a_row(typed: str, count: int) -> list[str]:
+    """The words in the order of the gaps, cut at the strongest separator that fits."""
+    pieces = _cut(typed, count)
+    if len(pieces) != count and typed.isalpha() and len(typed) == count:
+        return list(typed)
+    if sum(map(bool, map(_LABEL.match, pieces))) > 1:
+        raise ReadError("words-around", 1, typed)
+    return [_NUMBERED.sub("", piece).strip(_QUOTES) for piece in pieces]
+
+
+def _cut(typed: str, count: int) -> list[str]:
+    plain = typed.split()
+    for separator in _SEPARATORS:
+        pieces = [piece.strip() for piece in separator.split(typed)]
         while pieces and not pieces[-1]:
             pieces.pop()
         if len(pieces) == count:
-            break
-    return [_NUMBERED.sub("", piece) for piece in pieces]
+            return pieces
+    return plain
 
 
 def _one(spec: Spec, gap: list[str], word: str) -> Verdict:
@@ -89,18 +140,44 @@ def _one(spec: Spec, gap: list[str], word: str) -> Verdict:
     right = {fold(term) for term in gap}
     if not fold(word):
         return wrong("", "gap-empty") if not word else unreadable("no-answer")
-    if fold(word) in right:
+    if fold(word) in right or _compact(word) in right or _inflected(word, right):
         return correct(safe(" ".join(word.split())))
     others = [o for g in spec.gaps() for o in g if fold(o) not in right] + spec.among
     if fold(word) in {fold(term) for term in others}:
         return wrong(safe(word), "other-term")
+    return _nearest(word, gap, others)
+
+
+def _nearest(word: str, gap: list[str], others: list[str]) -> Verdict:
+    """Judge a word that is no known term by the terms it is nearest to."""
     near, _ = nearest_terms(word, [*gap, *others])
-    hits = {fold(term) in right for term in near}
-    if hits == {True}:
-        return correct(safe(near[0]), "spelling", typed=word)
+    if not near and _holds_a_term(word, [*gap, *others]):
+        return unreadable("words-around", safe(word))
+    hits = {term in gap for term in near}
     if hits == {True, False}:
         return ambiguous("which-term", safe(word), terms=tuple(near))
-    return wrong(safe(near[0] if near else word), "other-term" if near else "unknown-term")
+    if hits != {True}:
+        return wrong(safe(near[0] if near else word), "other-term" if near else "unknown-term")
+    if all(another_word(word, term) for term in near):
+        return ambiguous("another-word", safe(word))
+    return correct(safe(near[0]), "spelling", typed=word)
+
+
+def _compact(word: str) -> str:
+    """``C, M, Y, K`` is CMYK."""
+    return fold(re.sub(r"[\s,./·-]", "", word))
+
+
+def _inflected(word: str, right: set[str]) -> bool:
+    """An adverb or an ending of German: ``additively``, ``additive Mischung`` without its noun."""
+    match = _ENDING.fullmatch(fold(word))
+    return match is not None and match[1] in right
+
+
+def _holds_a_term(word: str, terms: list[str]) -> bool:
+    """Whether a known term stands among other words."""
+    words = [fold(piece) for piece in re.split(r"[\s,;/]+", word) if fold(piece)]
+    return len(words) > 1 and any(fold(term) in words for term in terms)
 
 
 def _together(cells: list[Verdict], read_as: str) -> Verdict:
