@@ -25,6 +25,19 @@ _FALSE = frozenset(
     {"false", "f", "no", "n", "wrong", "incorrect", "falsch", "nein"}
     | {"মিথ্যা", "না", "ভুল", "ম", "0", "2", "✗", "✘"}
 )
+_SHORTEST = 4
+"""Letters that a part of an option's words must have to be recognised."""
+
+_AROUND = " .!()[]{}\"'*_।॥“”‘’«»"
+_QUOTED = " \"'*_“”«»"
+_LABELLED = re.compile(
+    r"[\[(]?(?P<mark>[A-Za-zক-ঞ]|\d{1,2})(?:[\])]? ?[).:=,-]+ ?|[\])] ?| )(?P<words>[^\s(].+)"
+)
+_BEHIND = re.compile(r"(?P<words>.{2,}?) ?[\[(](?P<mark>[A-Za-zক-ঞ])[\])]")
+_FILLING = re.compile(r"^(?:option|অপশন) ", re.IGNORECASE)
+_IT_IS = re.compile(r"^(?:it is|this is|that is|es ist|das ist|এটা|এটি) ", re.IGNORECASE)
+_PIECES = re.compile(r"[;\n]|,(?=\s*[\[(]?[A-Za-zক-ঞ\d][\])]?\s*[).:=-])")
+_BENGALI = re.compile(r"[\u0980-\u09ff]")
 _FILLERS = re.compile(r"\b(?:and|und|or|option|answer|ans|এবং|ও|উত্তর)\b", re.IGNORECASE)
 
 
@@ -59,12 +72,12 @@ class Spec(Worded, kw_only=True, frozen=True):
         if self.kind == "tf":
             return _judge_one(self, _truth(self, typed))
         whole = _by_text(self, typed)
-        if self.kind == "choice":
-            chosen = [whole] if whole else _positions(self, typed)
-            if len(chosen) > 1:
-                raise ReadError("one-option", 1, safe(typed))
-            return _judge_one(self, chosen[0])
-        return _judge_many(self, [whole] if whole else _positions(self, typed))
+        chosen = [whole] if whole else _labelled(self, typed) or _positions(self, typed)
+        if self.kind == "multi":
+            return _judge_many(self, chosen)
+        if len(chosen) > 1:
+            raise ReadError("one-option", 1, safe(typed))
+        return _judge_one(self, chosen[0])
 
     def show(self) -> str:
         """Return the letters of the right options, or the word for true or false."""
@@ -76,15 +89,68 @@ class Spec(Worded, kw_only=True, frozen=True):
 
 
 def _truth(spec: Spec, typed: str) -> int:
-    word = normalise(typed, keep_x=True, longest=1000).text.strip(" .!()").casefold()
-    if word in _TRUE:
-        return 1
-    if word in _FALSE:
-        return 2
-    found = _by_text(spec, typed)
+    text = normalise(typed, keep_x=True, longest=1000).text
+    labelled = _LABELLED.fullmatch(text.translate(BANGLA_LETTERS))
+    if labelled and labelled["mark"].lower() in {"a", "b", "1", "2"}:
+        first, second = "ab12".index(labelled["mark"].lower()) % 2 + 1, _word(labelled["words"])
+        if second and first != second:
+            raise ReadError("two-readings", 1, safe(typed))
+        text = labelled["words"] if second else text
+    word = _IT_IS.sub("", text.strip(_AROUND)).casefold()
+    found = _word(word) or _by_text(spec, typed)
     if found or word in {"a", "b"}:
         return found or "ab".index(word) + 1
     raise ReadError("true-or-false", 1, safe(typed))
+
+
+def _word(text: str) -> int:
+    """1 for a word that says true, 2 for one that says false."""
+    word = text.strip(_AROUND).casefold()
+    return 1 if word in _TRUE else 2 if word in _FALSE else 0
+
+
+def _labelled(spec: Spec, typed: str) -> list[int]:
+    """Positions of options written with their letter and their words; none if they are not.
+
+    Raises
+    ------
+    ReadError
+        If the words are those of another option than the letter.
+    """
+    pieces = _PIECES.split(typed.strip()) if spec.kind == "multi" else [typed]
+    found = [_both(spec, piece) or _by_text(spec, piece) for piece in pieces]
+    return list(dict.fromkeys(found)) if all(found) else []
+
+
+def _both(spec: Spec, piece: str) -> int:
+    text = normalise(piece, keep_x=True, longest=1000).text.strip(_QUOTED)
+    match = _LABELLED.fullmatch(_FILLING.sub("", text)) or _BEHIND.fullmatch(text)
+    if match is None:
+        return 0
+    mark = match["mark"].translate(BANGLA_LETTERS)
+    position = int(mark) if mark.isdigit() else LETTERS.find(mark.upper()) + 1
+    meant = _meant(spec, match["words"])
+    if not 1 <= position <= len(spec.choices()) or not meant:
+        return 0
+    if position not in meant:
+        raise ReadError("two-readings", 1, safe(piece))
+    return position
+
+
+def _meant(spec: Spec, words: str) -> list[int]:
+    """Options that words can mean: whole, in part, or in a script that the options do not use."""
+    folded = fold(words)
+    options = [fold(option) for option in spec.choices()]
+    same = [place for place, option in enumerate(options, 1) if option == folded]
+    if same:
+        return same
+    if _BENGALI.search(words) and not any(map(_BENGALI.search, options)):
+        return list(range(1, len(options) + 1))
+    return [
+        place
+        for place, option in enumerate(options, 1)
+        if len(folded) >= _SHORTEST <= len(option) and (folded in option or option in folded)
+    ]
 
 
 def _by_text(spec: Spec, typed: str) -> int:
@@ -96,7 +162,7 @@ def _by_text(spec: Spec, typed: str) -> int:
 def _positions(spec: Spec, typed: str) -> list[int]:
     source = normalise(re.sub(r"[\r\n]+", ",", typed.strip()), keep_x=True, longest=1000)
     text = source.text.translate(BANGLA_LETTERS)
-    marks = re.findall(r"[A-Za-z]+|\d+|[^\s,;.&+()/|:]", _FILLERS.sub(" ", text))
+    marks = re.findall(r"[A-Za-z]+|\d+|[^\s,;.&+()/|:!\[\]{}\"'*_।॥“”«»]", _FILLERS.sub(" ", text))
     found = [position for mark in marks for position in _mark(spec, mark)]
     if not found:
         raise ReadError("option-expected", 1, safe(typed), _range(spec))

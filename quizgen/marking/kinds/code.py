@@ -8,7 +8,8 @@ import msgspec
 
 from quizgen.marking.echo import safe
 from quizgen.marking.options import Options
-from quizgen.marking.reading.rewrites import LONGEST_PROSE, REWRITES, Source, refuse_invisible
+from quizgen.marking.reading.rewrites import LONGEST_PROSE, REWRITES, refuse_invisible
+from quizgen.marking.reading.source import Source
 from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import HALF, Verdict, correct, partial, wrong
 from quizgen.maths.notation import ReadError

@@ -15,8 +15,9 @@ from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, correct, shared
 from quizgen.maths.notation import ReadError
 
-_SEPARATORS = re.compile(r"[\s,;.|]+")
-_ARROWS = re.compile(r"\s*(?:->|=>|→|↔|<->|--|[-:=>()])+\s*")
+_SEPARATORS = re.compile(r"[\s,;.|\[\]{}।॥]+")
+_ARROWS = re.compile(r"\s*(?:->|=>|<->|--|[-:=>()→↔⇒⇔⟶⟷↦])+\s*")
+_FILLERS = frozenset({"and", "und", "with", "mit", "to", "zu", "এবং", "ও"})
 
 
 class Spec(Worded, kw_only=True, frozen=True):
@@ -87,17 +88,24 @@ def _right(second: str, right: dict[str, str]) -> str:
 
 
 def _tokens(text: str, left: dict[str, str]) -> list[tuple[str, str]]:
-    """Cut into pairs: ``A3``, ``A 3``, or several run together, ``A3B1``."""
-    words = [fold(w) for w in _SEPARATORS.split(_ARROWS.sub(" ", text)) if fold(w)]
+    """Cut into pairs: ``A3``, ``A 3``, or several run together, ``A3B1``.
+
+    ``3A 1B`` has the numbers first: that is certain only when every left label comes second.
+    """
+    words = [w for w in map(fold, _SEPARATORS.split(_ARROWS.sub(" ", text))) if w]
+    words = [w for w in words if w not in _FILLERS or w in left]
     label = "|".join(re.escape(name) for name in sorted(left, key=len, reverse=True))
-    run = re.compile(rf"(?:(?:{label})\d{{1,2}})+")
+    run = re.compile(rf"(?:(?:{label})\d{{1,2}})+|(?:\d{{1,2}}(?:{label}))+")
     flat: list[str] = []
     for word in words:
         together = word not in left and run.fullmatch(word)
         flat += re.findall(rf"{label}|\d{{1,2}}", word) if together else [word]
     if len(flat) % 2:
         raise ReadError("pairs-expected", 1, safe(text))
-    return list(zip(flat[::2], flat[1::2], strict=True))
+    firsts, seconds = flat[::2], flat[1::2]
+    if {*seconds} >= left.keys() and not {*firsts} & left.keys():
+        firsts, seconds = seconds, firsts
+    return list(zip(firsts, seconds, strict=True))
 
 
 def _place(

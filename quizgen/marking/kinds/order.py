@@ -16,6 +16,10 @@ from quizgen.marking.verdict import Verdict, correct, shared
 from quizgen.maths.notation import ReadError
 
 MOST_STEPS = 40
+_LINE = re.compile(
+    r"(?<![^\s,;(])\(?(\d{1,2}) ?[.):]+ ?([^\s,;.:()\d]+|\d{1,2}(?![.):]))(?![^\s,;.])"
+)
+_FILLERS = frozenset({"then", "dann", "danach", "and", "und", "তারপর", "এরপর", "এবং"})
 
 
 class Spec(Worded, kw_only=True, frozen=True):
@@ -128,7 +132,7 @@ def _labels(spec: Spec, typed: str) -> list[str]:
     text = re.sub(r"[\r\n]+", " ", typed.strip())
     source = normalise(text, keep_x=True, longest=1000)
     known = {fold(label): label for label in (*spec.steps, *spec.distractors)}
-    words = [w for w in re.split(r"[\s,;.<>|]+|->|→|⇒", source.text) if w]
+    words = _numbered(source.text) or _words(source.text, known)
     if len(words) == 1 and fold(words[0]) not in known:
         words = list(words[0])
     found = [_known(word, known) for word in words]
@@ -136,6 +140,23 @@ def _labels(spec: Spec, typed: str) -> list[str]:
         if found.count(label) > 1:
             raise ReadError("used-twice", 1, label)
     return found
+
+
+def _numbered(text: str) -> list[str]:
+    """Labels behind the numbers of lines, ``1. B 2. D``, in the order of the numbers."""
+    pairs = dict(_LINE.findall(text))
+    whole = not _LINE.sub("", text).strip(" ,;.")
+    if not whole or len(pairs) < 2 or {*map(int, pairs)} != {*range(1, len(pairs) + 1)}:
+        return []
+    return [pairs[number] for number in sorted(pairs, key=int)]
+
+
+def _words(text: str, known: dict[str, str]) -> list[str]:
+    """Cut at blanks, separators and arrows; ``B-D`` alone could be a range and stays whole."""
+    words = [w for w in re.split(r"[\s,;.<>|=()\[\]{}।॥→⇒⟶/:]+|-+>", text) if w.strip("-")]
+    words = [w for w in words if w.casefold() not in _FILLERS or fold(w) in known]
+    cut = [w for word in words for w in word.split("-") if w]
+    return cut if len(cut) > 2 and any(fold(w) not in known for w in words) else words
 
 
 def _known(word: str, known: dict[str, str]) -> str:
