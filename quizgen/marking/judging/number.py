@@ -35,6 +35,14 @@ def resolve(readings: Readings, judge: Judge, places_asked: int | None = None) -
     return settle(verdict, other, readings.doubt, (readings.main.read_as, readings.other.read_as))
 
 
+def best(verdicts: Iterable[Verdict]) -> Verdict:
+    """The best verdict of equal things that were chained; of equals the last."""
+    *before, chosen = verdicts
+    for verdict in reversed(before):
+        chosen = verdict if verdict.credit > chosen.credit else chosen
+    return chosen
+
+
 def settle(first: Verdict, second: Verdict, doubt: Doubt, echoes: tuple[str, str]) -> Verdict:
     """Choose between the verdicts of two readings, or ask back."""
     if doubt.group_wins and not first.credit:

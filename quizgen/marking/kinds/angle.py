@@ -8,13 +8,14 @@ from flint import fmpq
 
 from quizgen.marking.diagnosis.context import hints_for
 from quizgen.marking.diagnosis.slips import close, radians
-from quizgen.marking.judging.number import Asked, judge_value, resolve
+from quizgen.marking.judging.number import Asked, best, judge_value, resolve
 from quizgen.marking.kinds.quantity import DEGREES
 from quizgen.marking.options import Options
+from quizgen.marking.reading.chains import Side, read_sides
 from quizgen.marking.reading.named import without_name
-from quizgen.marking.reading.quantities import TypedQuantity, split_quantity
+from quizgen.marking.reading.quantities import TypedQuantity
 from quizgen.marking.reading.rewrites import normalise
-from quizgen.marking.reading.scalars import Number, read_source
+from quizgen.marking.reading.scalars import Number
 from quizgen.marking.rounding import shown
 from quizgen.marking.specs import OneNumber
 from quizgen.marking.verdict import Verdict, with_values, wrong
@@ -41,13 +42,16 @@ class Spec(OneNumber, kw_only=True, frozen=True):
 
     def judge(self, typed: str, options: Options, /) -> Verdict:
         """Judge a typed angle."""
-        quantity = split_quantity(without_name(normalise(typed)))
-        readings = read_source(quantity.number, options.decimal)
-        return resolve(readings, lambda n: _judge(self, n, quantity, options), self.decimals)
+        sides = read_sides(without_name(normalise(typed)), options.decimal)
+        return best(_resolved(self, side, options) for side in sides)
 
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
         return f"{shown(self, exact_value(self.value))}°"
+
+
+def _resolved(spec: Spec, side: Side, options: Options) -> Verdict:
+    return resolve(side.readings, lambda n: _judge(spec, n, side.quantity, options), spec.decimals)
 
 
 def _judge(spec: Spec, number: Number, quantity: TypedQuantity, options: Options) -> Verdict:

@@ -38,6 +38,8 @@ class Spec(Worded, kw_only=True, frozen=True):
             _check_domain(name, domain)
         for trap in self.traps.values():
             author(trap, tuple(self.symbols))
+        if not names(key):
+            exact_value(self.value)
 
     def judge(self, typed: str, options: Options, /) -> Verdict:
         """Judge a typed formula."""

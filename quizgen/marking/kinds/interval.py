@@ -9,8 +9,10 @@ import msgspec
 
 from quizgen.marking.options import Options
 from quizgen.marking.reading.literals import pointed
-from quizgen.marking.reading.rewrites import Source, normalise
+from quizgen.marking.reading.named import NAME
+from quizgen.marking.reading.rewrites import normalise
 from quizgen.marking.reading.scalars import read_source
+from quizgen.marking.reading.source import Source
 from quizgen.marking.rounding import exact_or_figures
 from quizgen.marking.specs import Measured
 from quizgen.marking.verdict import HALF, Verdict, correct, partial, wrong
@@ -59,9 +61,11 @@ class Interval(msgspec.Struct, frozen=True):
 
 
 _INFINITE = re.compile(r"([-+]?) ?(?:∞|inf(?:inity)?|infty|oo|unendlich|অসীম)", re.IGNORECASE)
+_NAMED = re.compile(rf"{NAME} ?(?:∈|in(?= )) ?|{NAME} ?[=:] ?(?=[\[\](])")
+_WRAPPED = re.compile(r"[(\[{] ?[\[\](][^\[\](){}]+[\])\[] ?[)\]}]|\{[^{}]*\}")
 _BRACKETED = re.compile(r"([\[\](]) ?(.+?) ?([\])\[])")
 _CHAIN = re.compile(
-    r"(?:(?P<low>[^<>≤≥=]+?) ?(?P<left><=?|≤) ?)?(?P<name>[^\W\d_]\w*) ?"
+    r"(?:(?P<low>[^<>≤≥=]+?) ?(?P<left><=?|≤) ?)?(?P<name>(?!inf\b|oo\b)[^\W\d_]\w*) ?"
     r"(?:(?P<right><=?|≤|>=?|≥) ?(?P<high>[^<>≤≥=]+))?"
 )
 
@@ -75,14 +79,22 @@ def read(typed: str, decimal: str) -> tuple[Interval, str]:
         If it is none.
     """
     source = normalise(typed)
-    match = re.match(r"[^\W\d_]\w* ?(?:∈|in) ?", source.text)
+    match = _NAMED.match(source.text)
     if match:
         source = source.cut(match.end())
+    source = _inside(source)
     bracketed = _BRACKETED.fullmatch(source.text)
     interval = _brackets(source, bracketed, decimal) if bracketed else _chain(source, decimal)
     if interval.low is not None and interval.high is not None and interval.low > interval.high:
         raise ReadError("bounds-order", 1, source.text)
     return interval, _echo(interval)
+
+
+def _inside(source: Source) -> Source:
+    """Take away brackets around an interval that has its own."""
+    while _WRAPPED.fullmatch(source.text):
+        source = source.cut(1, len(source.text) - 1).strip()
+    return source
 
 
 def _brackets(source: Source, match: re.Match[str], decimal: str) -> Interval:
@@ -92,8 +104,8 @@ def _brackets(source: Source, match: re.Match[str], decimal: str) -> Interval:
     if len(cuts) != 1:
         code = "comma-twice" if cuts and not strong else "item-count"
         raise ReadError(code, source.column(0), str(len(cuts) + 1), ["2"])
-    low = _bound(inside.cut(0, cuts[0].start()), decimal)
-    high = _bound(inside.cut(cuts[0].end()), decimal)
+    low = _bound(inside.cut(0, cuts[0].start()), decimal, "-")
+    high = _bound(inside.cut(cuts[0].end()), decimal, "+")
     closed_low = match[1] == "[" and low is not None
     return Interval(low, high, closed_low, match[3] == "]" and high is not None)
 
@@ -105,10 +117,11 @@ def _chain(source: Source, decimal: str) -> Interval:
     low = high = None
     closed_low = closed_high = False
     if match["low"]:
-        low = _bound(source.cut(match.start("low"), match.end("low")), decimal)
+        low = _bound(source.cut(match.start("low"), match.end("low")), decimal, "-")
         closed_low = match["left"] in {"<=", "≤"} and low is not None
     if match["high"]:
-        bound = _bound(source.cut(match.start("high"), match.end("high")), decimal)
+        side = "+" if match["right"][0] in "<≤" else "-"
+        bound = _bound(source.cut(match.start("high"), match.end("high")), decimal, side)
         closed = match["right"] in {"<=", "≤", ">=", "≥"} and bound is not None
         if match["right"][0] in "<≤":
             high, closed_high = bound, closed
@@ -119,9 +132,19 @@ def _chain(source: Source, decimal: str) -> Interval:
     return Interval(low, high, closed_low, closed_high)
 
 
-def _bound(source: Source, decimal: str) -> Value | None:
+def _bound(source: Source, decimal: str, side: str) -> Value | None:
+    """Read a bound; None is the infinity of its side.
+
+    Raises
+    ------
+    ReadError
+        If it is the infinity of the other side, or no number.
+    """
     source = source.strip()
-    if _INFINITE.fullmatch(source.text):
+    infinite = _INFINITE.fullmatch(source.text)
+    if infinite is not None:
+        if (infinite[1] or "+") != side:
+            raise ReadError("bounds-order", source.column(0), source.text)
         return None
     if pointed(source, decimal)[2] and decimal == "auto":
         raise ReadError("two-readings", source.column(0), source.text)

@@ -8,13 +8,23 @@ from typing import Literal
 from flint import fmpq
 
 from quizgen.marking.diagnosis.context import hints_for
-from quizgen.marking.judging.number import Asked, judge_value, resolve
+from quizgen.marking.judging.number import Asked, best, judge_value, resolve
 from quizgen.marking.kinds import quantity
 from quizgen.marking.options import Options
+from quizgen.marking.reading.chains import Side, read_sides
 from quizgen.marking.reading.named import without_name
-from quizgen.marking.reading.quantities import split_quantity
-from quizgen.marking.reading.rewrites import Source, normalise
-from quizgen.marking.reading.scalars import Number, Readings, quick, read_source
+from quizgen.marking.reading.rewrites import normalise
+from quizgen.marking.reading.scalars import (
+    Number,
+    Readings,
+    as_percent,
+    each,
+    quick,
+    read_source,
+    scaled,
+)
+from quizgen.marking.reading.source import Source
+from quizgen.marking.reading.unit_words import plain_unit
 from quizgen.marking.rounding import shown
 from quizgen.marking.specs import OneNumber
 from quizgen.marking.verdict import Verdict, unreadable, with_values
@@ -51,8 +61,10 @@ class Spec(OneNumber, kw_only=True, frozen=True):
         """Judge a typed number."""
         if self.unit:
             return _with_unit(self, typed, options)
-        readings = quick(typed, options.decimal) or _read(self, typed, options)
-        return resolve(readings, lambda n: _judge(self, n, options), self.decimals)
+        plain = quick(typed, options.decimal)
+        if plain is not None:
+            return _resolved(self, plain, options)
+        return best(_resolved(self, found, options) for found in _read(self, typed, options))
 
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
@@ -65,6 +77,10 @@ def _with_unit(spec: Spec, typed: str, options: Options) -> Verdict:
     """Judge as a quantity whose unit need not be typed."""
     fields = {n: getattr(spec, n) for n in quantity.Spec.__struct_fields__ if n != "bare"}
     return quantity.Spec(**fields, bare=True).judge(typed, options)
+
+
+def _resolved(spec: Spec, readings: Readings, options: Options) -> Verdict:
+    return resolve(readings, lambda n: _judge(spec, n, options), spec.decimals)
 
 
 def _judge(spec: Spec, number: Number, options: Options) -> Verdict:
@@ -99,27 +115,69 @@ def _judge_as(spec: Spec, number: Number, value: Value, options: Options) -> Ver
     return with_values(verdict, value / scale)
 
 
+COUNTED = frozenset({"px", "B", "bit", "stop", "EV", "photon", "e-", "row", "frame", "lp", "DN"})
+"""What is counted: its name may stand behind a count although no unit is asked."""
+
+_TIMES = re.compile(r" ?-? ?(?<![^\W\d_])(?:times|fold|fach|mal|[xX*]|গুণ|বার|টি|টা)$", re.IGNORECASE)
+_PER_HUNDRED = re.compile(r"^শতকরা (.+)$")
 _LENS = re.compile(r"[fFƒ] ?/? ?(?=\d)|1 ?: ?(?=\d)")
 _RATIO = re.compile(r"(?<=\d) ?: ?(?=\d)")
 
 
-def _read(spec: Spec, typed: str, options: Options) -> Readings:
+def _read(spec: Spec, typed: str, options: Options) -> list[Readings]:
+    """Read a number; several if equal things are chained."""
     source = _without_lens(spec, without_name(normalise(typed)))
     try:
-        return read_source(source, options.decimal)
-    except ReadError:
-        _refuse_unit(source)
-        raise
+        return [read_source(source, options.decimal)]
+    except ReadError as error:
+        found = [] if error.code == "two-readings" else _sides(source, options)
+        if not found:
+            raise
+    return [_counted(spec, side, source, options) for side in found]
 
 
-def _refuse_unit(source: Source) -> None:
-    """Say so when the only trouble is a unit that nobody asked for."""
+def _sides(source: Source, options: Options) -> list[Side]:
+    """The sides of what is no plain number; none if they cannot be read either."""
     try:
-        quantity = split_quantity(source)
-    except ReadError:
-        return
-    if quantity.unit is not None:
-        raise ReadError("unit-not-asked", source.column(0), quantity.unit.text)
+        bare = source.sub(_TIMES, lambda _m: "").sub(_PER_HUNDRED, lambda m: f"{m[1]} %")
+        return read_sides(bare, options.decimal)
+    except ReadError as error:
+        if error.code == "two-readings":
+            raise
+        return []
+
+
+def _counted(spec: Spec, side: Side, source: Source, options: Options) -> Readings:
+    """Read the counted thing behind a count, and percent as a word.
+
+    Raises
+    ------
+    ReadError
+        If it has a unit that nobody asked for.
+    """
+    typed = side.quantity.unit
+    if typed is None:
+        return side.readings
+    if typed.text == "%":
+        return each(side.readings, as_percent)
+    asked = _unit_of(spec, options)
+    if asked:
+        wanted = plain_unit(asked)
+        if typed.dimension == wanted.dimension:
+            return each(side.readings, lambda n: scaled(n, typed.factor / wanted.factor))
+    elif typed.text in COUNTED:
+        return side.readings
+    raise ReadError("unit-not-asked", source.column(0), typed.text)
+
+
+def _unit_of(spec: Spec, options: Options) -> str:
+    """The unit in which the question's chain shows the quantity asked, if there is one."""
+    if options.context is None or spec.percent or len(spec.of) != 1:
+        return ""
+    chain, (name,) = options.context.chain, spec.quantities()
+    step = chain.by_name.get(name)
+    shown_in = chain.given.get(name, "") if step is None else step.unit
+    return "" if shown_in == "1" else shown_in
 
 
 def _without_lens(spec: Spec, source: Source) -> Source:

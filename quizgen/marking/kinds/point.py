@@ -11,11 +11,12 @@ from quizgen.marking.diagnosis.context import CARRIED, hints_for
 from quizgen.marking.diagnosis.slips import close, common_slip
 from quizgen.marking.judging.number import Asked, judge_value, settle
 from quizgen.marking.options import Options
+from quizgen.marking.reading.chains import read_all
 from quizgen.marking.reading.lists import read_list
 from quizgen.marking.reading.named import reordered
-from quizgen.marking.reading.quantities import read_all, split_quantity
-from quizgen.marking.reading.rewrites import Source
+from quizgen.marking.reading.quantities import split_quantity
 from quizgen.marking.reading.scalars import Number
+from quizgen.marking.reading.source import Source
 from quizgen.marking.reading.unit_words import TypedUnit
 from quizgen.marking.rounding import shown
 from quizgen.marking.specs import Numbers, all_given, all_mistaken

@@ -6,12 +6,13 @@ from flint import fmpq
 
 from quizgen.marking.diagnosis.context import hints_for
 from quizgen.marking.diagnosis.slips import close, power_of_ten, radians
-from quizgen.marking.judging.number import Asked, judge_value, resolve
+from quizgen.marking.judging.number import Asked, best, judge_value, resolve
 from quizgen.marking.options import Options
+from quizgen.marking.reading.chains import Side, read_sides
 from quizgen.marking.reading.named import without_name
-from quizgen.marking.reading.quantities import TypedQuantity, split_quantity
+from quizgen.marking.reading.quantities import TypedQuantity
 from quizgen.marking.reading.rewrites import normalise
-from quizgen.marking.reading.scalars import Number, read_source
+from quizgen.marking.reading.scalars import Number
 from quizgen.marking.reading.unit_words import TypedUnit, plain_unit
 from quizgen.marking.rounding import shown
 from quizgen.marking.specs import OneNumber
@@ -42,14 +43,16 @@ class Spec(OneNumber, kw_only=True, frozen=True):
 
     def judge(self, typed: str, options: Options, /) -> Verdict:
         """Judge a typed quantity."""
-        source = without_name(normalise(typed))
-        quantity = split_quantity(source)
-        readings = read_source(quantity.number, options.decimal)
-        return resolve(readings, lambda n: _judge(self, n, quantity, options), self.decimals)
+        sides = read_sides(without_name(normalise(typed)), options.decimal)
+        return best(_resolved(self, side, options) for side in sides)
 
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
         return f"{shown(self, exact_value(self.value))} {shown_unit(self.unit)}".strip()
+
+
+def _resolved(spec: Spec, side: Side, options: Options) -> Verdict:
+    return resolve(side.readings, lambda n: _judge(spec, n, side.quantity, options), spec.decimals)
 
 
 def _judge(spec: Spec, number: Number, quantity: TypedQuantity, options: Options) -> Verdict:

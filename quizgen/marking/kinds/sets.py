@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import re
 from fractions import Fraction
 
 from quizgen.marking.options import Options
+from quizgen.marking.reading.chains import read_all
 from quizgen.marking.reading.lists import read_list
-from quizgen.marking.reading.quantities import read_all
 from quizgen.marking.reading.scalars import Number
 from quizgen.marking.rounding import shown
 from quizgen.marking.specs import Numbers, gives
 from quizgen.marking.verdict import Verdict, correct, shared, wrong
 from quizgen.maths.constants import exact_value
+from quizgen.maths.notation import ReadError
 from quizgen.maths.values import Value
 
 
@@ -20,22 +22,39 @@ class Spec(Numbers, kw_only=True, frozen=True):
 
     def judge(self, typed: str, options: Options, /) -> Verdict:
         """Judge a typed set."""
-        numbers: list[Number] = []
-        if typed.strip() not in _EMPTY:
-            items, _ = read_list(typed, None, options.decimal)
-            numbers, _, _ = read_all(items, self.unit, None, options.decimal)
-        read_as = "{" + "; ".join(number.read_as for number in numbers) + "}"
-        return _judge(self, numbers, read_as)
+        if typed.strip() in _EMPTY:
+            return _judge(self, [])
+        if not _ONE_COMMA.fullmatch(typed.strip()):
+            return _judge(self, _elements(self, typed, None, options))
+        return self._with_one_comma(typed, options)
+
+    def _with_one_comma(self, typed: str, options: Options) -> Verdict:
+        """Judge ``{0,5}``, which is one decimal or two whole numbers."""
+        two = _judge(self, _elements(self, typed, 2, options))
+        one = _judge(self, _elements(self, typed, 1, options))
+        own = one if options.decimal == "comma" else two
+        if own.credit == 1 or not (one.credit or two.credit):
+            return own
+        if own is one and one.credit:
+            return one
+        raise ReadError("comma-twice", 1, typed)
 
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
         return "{" + "; ".join(shown(self, key) for key in self.keys()) + "}"
 
 
+_ONE_COMMA = re.compile(r"[^\W\d]?[^,;|\d]*[\[({]? *[-+−–]?\d+,\d+ *[\])}]?[^,;|\d]*")
 _EMPTY = frozenset({"{}", "∅", "{ }", "()", "empty", "leer", "শূন্য"})
 
 
-def _judge(spec: Spec, numbers: list[Number], read_as: str) -> Verdict:
+def _elements(spec: Spec, typed: str, count: int | None, options: Options) -> list[Number]:
+    items, _ = read_list(typed, count, options.decimal)
+    return read_all(items, spec.unit, None, options.decimal)[0]
+
+
+def _judge(spec: Spec, numbers: list[Number]) -> Verdict:
+    read_as = "{" + "; ".join(number.read_as for number in numbers) + "}"
     keys = spec.keys()
     found, extra, twice = _matched(spec, numbers, keys)
     if len(found) == len(keys) and not extra:

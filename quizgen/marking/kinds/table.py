@@ -13,7 +13,7 @@ from quizgen.marking.kinds import angle, number, quantity
 from quizgen.marking.options import Options
 from quizgen.marking.reading.lists import read_list
 from quizgen.marking.reading.named import find_name, split_name
-from quizgen.marking.reading.rewrites import Source
+from quizgen.marking.reading.source import Source
 from quizgen.marking.specs import Measured, decode
 from quizgen.marking.verdict import Verdict, ambiguous, correct, partial, shared, with_values, wrong
 from quizgen.maths.constants import Scalar

@@ -8,7 +8,8 @@ from collections.abc import Mapping
 from quizgen.marking.echo import safe
 from quizgen.marking.judging.wording import budget, fold, slips
 from quizgen.marking.options import Options
-from quizgen.marking.reading.rewrites import LONGEST_PROSE, Source, refuse_invisible
+from quizgen.marking.reading.rewrites import LONGEST_PROSE, refuse_invisible
+from quizgen.marking.reading.source import Source
 from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, ambiguous
 from quizgen.maths.notation import ReadError

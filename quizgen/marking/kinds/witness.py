@@ -12,11 +12,20 @@ import msgspec
 from quizgen.errors import FormulaError
 from quizgen.marking.judging.sampling import BITS, Domain, compiled
 from quizgen.marking.options import Options
+from quizgen.marking.reading.chains import read_sides, sharpest
 from quizgen.marking.reading.formulas import author
-from quizgen.marking.reading.lists import depth, unbracketed
+from quizgen.marking.reading.lists import (
+    NAMED_NEXT,
+    depth,
+    even,
+    fronted,
+    read_list,
+    unbracketed,
+)
 from quizgen.marking.reading.named import find_name, name_key, split_name
-from quizgen.marking.reading.rewrites import Source, normalise
-from quizgen.marking.reading.scalars import Number, read_source
+from quizgen.marking.reading.rewrites import normalise
+from quizgen.marking.reading.scalars import Number
+from quizgen.marking.reading.source import Source
 from quizgen.marking.rounding import exact_or_figures
 from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, ambiguous, correct, with_values, wrong
@@ -158,14 +167,14 @@ def _side(side: Expr, env: dict[str, Any]) -> str | None:
     return exact_or_figures(value, 6)
 
 
-_SEPARATOR = re.compile(r"[;|\n]|,(?= )|(?<=\)),?")
+_SEPARATOR = re.compile(rf"[;|\n]|,(?= )|(?<=\)),?|{NAMED_NEXT.pattern}")
 
 
 def _numbers(spec: Spec, typed: str, decimal: str) -> dict[str, Number]:
     """Read the example: by name, in groups, or all in order."""
-    source = normalise(re.sub(r"\s*\r?\n\s*", "; ", typed.strip()), longest=400)
+    source = even(normalise(re.sub(r"\s*\r?\n\s*", "; ", typed.strip()), longest=400))
     names, placed = list(spec.names()), dict[str, Number]()
-    items = list(_items(source))
+    items = list(_items(source, decimal))
     if len(items) == 1 and not items[0][0]:
         items = [("", piece) for piece in _alone(items[0][1], len(names))]
     for label, item in items:
@@ -188,13 +197,20 @@ def _alone(item: Source, count: int) -> list[Source]:
 
 
 def _number(piece: Source, decimal: str) -> Number:
-    readings = read_source(piece, decimal)
+    readings = sharpest(read_sides(piece, decimal)).readings
     if readings.other is not None and readings.doubt is not None and not readings.doubt.native:
         raise ReadError("two-readings", piece.column(0), piece.text)
     return readings.main
 
 
-def _items(source: Source) -> Iterator[tuple[str, Source]]:
+def _items(source: Source, decimal: str) -> Iterator[tuple[str, Source]]:
+    fronts, rest = fronted(source)
+    if fronts:
+        items, _ = read_list(rest.text, len(fronts), decimal)
+        yield from zip(fronts, items, strict=True)
+        return
+    inner, _ = unbracketed(source)
+    source = inner if inner.text[:1] == "(" else source
     for piece in _cut(source, _SEPARATOR):
         label, rest = split_name(piece)
         if label or rest.text:

@@ -9,9 +9,11 @@ from functools import lru_cache
 
 import msgspec
 
-from quizgen.marking.reading.literals import Doubt, pointed
-from quizgen.marking.reading.rewrites import Rewrite, Source, normalise
+from quizgen.marking.reading.calls import bracketed
+from quizgen.marking.reading.literals import Doubt, pointed, tidied
+from quizgen.marking.reading.rewrites import normalise
 from quizgen.marking.reading.scalars import moved
+from quizgen.marking.reading.source import Rewrite, Source
 from quizgen.maths.notation import ReadError, double_reading, parse, parse_pieces, to_text, tokens
 from quizgen.maths.notation.names import FUNCTIONS, folded
 from quizgen.maths.operators import CONDITIONS
@@ -53,7 +55,9 @@ _SYNONYMS = {
 FORMULA_REWRITES: dict[str, Rewrite] = {
     "function synonyms": (
         re.compile(
-            r"(?<![^\W\d_])(?:" + "|".join(sorted(_SYNONYMS, key=len, reverse=True)) + r")(?= ?\()"
+            r"(?<![^\W\d_])(?:"
+            + "|".join(sorted(_SYNONYMS, key=len, reverse=True))
+            + r")(?= ?(?:\(|\^|\*\*| [\w(]))"
         ),
         lambda m: _SYNONYMS[m[0]],
     ),
@@ -63,6 +67,7 @@ FORMULA_REWRITES: dict[str, Rewrite] = {
     "square brackets": (re.compile(r"[\[\]]"), lambda m: "(" if m[0] == "[" else ")"),
     "leading point": (re.compile(r"(?<![\w.,)\]'])[.,](?=\d)"), lambda _m: "0."),
     "pi": (re.compile(r"π"), lambda _m: " pi "),
+    "colon": (re.compile(r"(?<=[\w)']) ?: ?(?=[\w(√])"), lambda _m: "/"),
 }
 """Rewrites that only formulas need, in order."""
 
@@ -103,9 +108,11 @@ def read_formula(typed: str, symbols: Iterable[str], decimal: str = "auto") -> F
     """
     declared = frozenset(symbols)
     source = normalise(typed, keep_x=bool(declared & {"x", "X"}))
-    source = _right_side(source)
-    for pattern, new in FORMULA_REWRITES.values():
+    source = tidied(_right_side(source))
+    for name, (pattern, new) in FORMULA_REWRITES.items():
         source = source.sub(pattern, new)
+        if name == "function synonyms":
+            source = bracketed(source, declared)
     if "e" not in declared:
         source = _euler(source)
     _refuse_bare_log(source, declared)

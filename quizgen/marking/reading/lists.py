@@ -5,12 +5,23 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from quizgen.marking.reading.rewrites import Source, normalise
+from quizgen.marking.reading.named import NAME
+from quizgen.marking.reading.rewrites import normalise
+from quizgen.marking.reading.source import Source
 from quizgen.maths.notation import ReadError
+from quizgen.maths.notation.names import FUNCTIONS
 
 BRACKETS = {"(": ")", "[": "]", "{": "}", "<": ">"}
 _HARD = re.compile(r"[;|\n]")
 _COMMA = re.compile(r",")
+_BLANK_BEFORE = re.compile(r" +(?=[,;|])")
+_JOINING = re.compile(r" (?:and|und|&|এবং|ও) ")
+_UNIT_BEHIND = re.compile(r"[^;,|\d(\[{]*| ?[\[(][^;,|\d\[\](){}]+[\])]")
+_NAMES = re.compile(rf"\(? ?({NAME}(?: ?[,;|] ?{NAME})+) ?\)? ?(?::=|[=:≈]) ?(?=\S)")
+_FRONT = re.compile(rf"({NAME})(?: {NAME})* ?(?::=|[=:≈])? ?(?=[(\[{{<])")
+NAMED_NEXT = re.compile(rf"[,;]? +(?={NAME} ?(?::=|[=:≈]|->|→) ?\S)")
+"""Where the next of several named values begins."""
+_TORN = re.compile(r"\d+ +\d+(?<! \d{3})")
 _SPACED = re.compile(r"(?<=[\d)%°A-Za-z]) +(?=[-+]?[\d.(])")
 
 
@@ -36,11 +47,68 @@ def read_list(typed: str, count: int | None, decimal: str) -> tuple[list[Source]
     ReadError
         If commas separate and mark decimals at once, or the number of items is wrong.
     """
-    source, tail = unbracketed(normalise(re.sub(r"\r?\n", ";", typed.strip())))
-    items = _items(source, count, decimal)
+    source = even(normalise(re.sub(r"\r?\n", ";", typed.strip())))
+    names, source = fronted(source)
+    source, tail = _opened(source)
+    items = _items(source, len(names) or count, decimal)
+    if names:
+        items = with_names(names, items)
     if count is not None and len(items) != count:
         raise ReadError("item-count", 1, str(len(items)), [str(count)])
     return items, tail
+
+
+def even(source: Source) -> Source:
+    """Take away blanks before separators, and put ``;`` for a word that joins values."""
+    if " " not in source.text:
+        return source
+    return source.sub(_BLANK_BEFORE, lambda _m: "").sub(_JOINING, lambda _m: "; ")
+
+
+def fronted(source: Source) -> tuple[list[str], Source]:
+    """Cut off what stands before a point: ``p' = (..)``, ``P(..)``, ``(u, v) = (..)``.
+
+    Returns
+    -------
+    list of str, Source
+        The names of the coordinates, if they are given, and the rest.
+    """
+    several = _NAMES.match(source.text)
+    if several is not None:
+        names = [name.strip() for name in re.split("[,;|]", several[1])]
+        return names, source.cut(several.end())
+    one = _FRONT.match(source.text)
+    if one is None or one[1] in FUNCTIONS:
+        return [], source
+    rest = source.cut(one.end())
+    return [], rest if unbracketed(rest)[0] is not rest else source
+
+
+def with_names(names: list[str], items: list[Source]) -> list[Source]:
+    """Put each name before its value.
+
+    Raises
+    ------
+    ReadError
+        If there are not as many.
+    """
+    if len(names) != len(items):
+        raise ReadError("item-count", 1, str(len(items)), [str(len(names))])
+    return [
+        Source(f"{name} = {item.text}", ((item.column(0),) * (len(name) + 3)) + item.columns)
+        for name, item in zip(names, items, strict=True)
+    ]
+
+
+def _opened(source: Source) -> tuple[Source, Source]:
+    """Remove all pairs of brackets around everything."""
+    inner, tail = unbracketed(source)
+    while not tail.text:
+        again, behind = unbracketed(inner)
+        if again is inner:
+            break
+        inner, tail = again, behind
+    return inner, tail
 
 
 def unbracketed(source: Source) -> tuple[Source, Source]:
@@ -49,7 +117,7 @@ def unbracketed(source: Source) -> tuple[Source, Source]:
     if close is None:
         return source, source.cut(0, 0)
     end = _closing(source.text, close)
-    if end < 0 or re.search(r"[;,|\d(\[{]", source.text[end + 1 :]):
+    if end < 0 or not _UNIT_BEHIND.fullmatch(source.text, end + 1):
         return source, source.cut(0, 0)
     return source.cut(1, end).strip(), source.cut(end + 1).strip()
 
@@ -66,6 +134,10 @@ def _closing(text: str, close: str) -> int:
 def _items(source: Source, count: int | None, decimal: str) -> list[Source]:
     if _HARD.search(source.text):
         return list(_parts(source, _HARD))
+    if "=" in source.text or ":" in source.text:
+        named = list(_parts(source, NAMED_NEXT))
+        if len(named) > 1 and (count is None or len(named) == count):
+            return named
     commas = source.text.count(",")
     if not commas:
         spaced = list(_parts(source, _SPACED))
@@ -80,7 +152,9 @@ def _by_commas(source: Source, commas: int, count: int | None, decimal: str) -> 
     if _mixed_commas(source.text):
         raise ReadError("comma-twice", source.column(source.text.index(",")), source.text)
     if count is not None and commas + 1 == count:
-        return list(_parts(source, _COMMA))
+        parts = list(_parts(source, _COMMA))
+        torn = any(map(_TORN.fullmatch, (part.text for part in parts)))
+        return spaced if torn and len(spaced) == count else parts
     if (
         len(spaced) > 1
         and not re.search(", ", source.text)

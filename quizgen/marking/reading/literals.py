@@ -6,7 +6,7 @@ import re
 
 import msgspec
 
-from quizgen.marking.reading.rewrites import Source
+from quizgen.marking.reading.source import Source
 from quizgen.maths.notation import ReadError
 
 LITERAL = re.compile(r"[.,]?\d+(?:(?:[.,]+|[ '](?=\d{3}(?!\d)))\d+)*\.?")
@@ -14,6 +14,7 @@ LITERAL = re.compile(r"[.,]?\d+(?:(?:[.,]+|[ '](?=\d{3}(?!\d)))\d+)*\.?")
 
 _ONE_MARK = re.compile(r"(\d*)([.,])(\d+)")
 _GROUPS = re.compile(r"\d{1,3}(?:([.,])\d{3})(?:\1\d{3})+|\d{1,2}(?:,\d{2})+,\d{3}")
+_LAKHS = re.compile(r"\d{1,2}(?:,\d{2})+,\d{3}\.\d+")
 _GROUPED_DECIMAL = re.compile(r"\d{1,3}(?:([.,])\d{3})+(?!\1)([.,])\d+")
 
 
@@ -77,9 +78,29 @@ def _several_marks(compact: str, column: int) -> str:
     match = _GROUPED_DECIMAL.fullmatch(compact)
     if match:
         return compact.replace(match[1], "").replace(match[2], ".")
+    if _LAKHS.fullmatch(compact):
+        return compact.replace(",", "")
     if _GROUPS.fullmatch(compact):
         return compact.replace(",", "").replace(".", "")
     raise ReadError("bad-number", column, compact)
+
+
+_ODD = re.compile(r"(?<![\d.,])\d+[.,](?:10 ?(?:\^|\*\*)|\(\d)")
+_GROUPS_BEHIND = re.compile(r"(?<![\d.,])\d+[.,]\d{3}(?:[ ']\d{3})*[ ']\d{1,2}(?![\d.,'/]| [\d/])")
+
+
+def tidied(source: Source) -> Source:
+    """Close up groups of digits behind the decimal sign: ``3.141 592 65``.
+
+    Raises
+    ------
+    ReadError
+        If a point can be a sign of multiplication (``3.10^5``) or mark a period (``6.(6)``).
+    """
+    odd = _ODD.search(source.text)
+    if odd is not None:
+        raise ReadError("two-readings", source.column(odd.start()), source.text)
+    return source.sub(_GROUPS_BEHIND, lambda m: re.sub("[ ']", "", m[0]))
 
 
 def pointed(source: Source, decimal: str) -> tuple[Source, Source | None, Doubt | None]:

@@ -4,11 +4,21 @@ from __future__ import annotations
 
 import re
 
-from quizgen.marking.reading.rewrites import Source
+from quizgen.marking.reading.source import Source
 from quizgen.maths.notation import ReadError
 from quizgen.maths.notation.names import folded
 
-_NAME = re.compile(r"([^\W\d][\w' ./-]*?) ?(?::=|[=:≈]|->|→) ?")
+SIGNS = "\u0981-\u0983\u09bc\u09be-\u09cd\u09d7"
+"""Signs of Bangla vowels and joined letters: parts of words that are no letters of their own."""
+
+NAME = rf"[^\W\d_](?:[^\W_]|[{SIGNS}])*'*(?:_[^\W_]+'*)*"
+"""A name as it is typed: ``u``, ``p'_x``, ``k_1``, ``মান``."""
+
+_WORD = rf"(?:[^\W\d_]|[{SIGNS}]){{2,}}"
+WORDS = rf"{_WORD}(?: {_WORD})+"
+"""A name in several words: ``focal length``."""
+
+_NAME = re.compile(rf"([^\W\d][\w' ./{SIGNS}-]*?) ?(?::=|[=:≈]|->|→) ?")
 
 
 def split_name(item: Source) -> tuple[str, Source]:
@@ -58,7 +68,7 @@ def reordered(items: list[Source], names: list[str], error: ReadError) -> list[S
     return [placed[name] for name in names]
 
 
-_LEADING = re.compile(r"[^\W\d_][^\W_]*'*(?:_[^\W_]+'*)* ?(?:=|≈|:|:=) ?")
+_LEADING = re.compile(rf"(?:{NAME}|{WORDS}) ?(?:=|≈|:|:=) ?")
 
 
 def without_name(source: Source) -> Source:

@@ -10,8 +10,8 @@ import re
 import unicodedata
 from collections.abc import Callable
 
-import msgspec
-
+from quizgen.marking.reading import latex
+from quizgen.marking.reading.source import Rewrite, Source
 from quizgen.maths.notation import ReadError
 from quizgen.maths.superscripts import LOWERED
 
@@ -25,51 +25,6 @@ _DIRECTION = "\u200e\u200f\u061c\u202a-\u202e\u2066-\u2069\ufeff"
 _BLANKS = "\t \u00a0\u2000-\u200a\u202f\u205f\u3000"
 
 
-class Source(msgspec.Struct, frozen=True):
-    """A text and the column (from 1) each of its characters came from."""
-
-    text: str
-    columns: tuple[int, ...]
-
-    @classmethod
-    def of(cls, text: str) -> Source:
-        """Wrap a typed text."""
-        return cls(text, tuple(range(1, len(text) + 1)))
-
-    def column(self, position: int) -> int:
-        """Column in the typed text of a position in the rewritten one."""
-        if position < len(self.columns):
-            return self.columns[position]
-        return self.columns[-1] + 1 if self.columns else 1
-
-    def cut(self, start: int, end: int | None = None) -> Source:
-        """Return a part, with its columns."""
-        return Source(self.text[start:end], self.columns[start:end])
-
-    def sub(self, pattern: re.Pattern[str], new: Callable[[re.Match[str]], str]) -> Source:
-        """Replace matches; a replacement takes the column of the match's start."""
-        if pattern.search(self.text) is None:
-            return self
-        text, columns, last = [], list[int](), 0
-        for match in pattern.finditer(self.text):
-            put = new(match)
-            text += [self.text[last : match.start()], put]
-            columns += self.columns[last : match.start()]
-            columns += [self.column(match.start())] * len(put)
-            last = match.end()
-        return Source("".join([*text, self.text[last:]]), (*columns, *self.columns[last:]))
-
-    def strip(self, characters: str = " ") -> Source:
-        """Remove characters at both ends."""
-        if self.text[:1] not in characters and self.text[-1:] not in characters:
-            return self
-        left = len(self.text) - len(self.text.lstrip(characters))
-        right = len(self.text.rstrip(characters))
-        return self.cut(left, max(left, right))
-
-
-Rewrite = tuple[re.Pattern[str], Callable[[re.Match[str]], str]]
-
 BANGLA_LETTERS = str.maketrans("কখগঘঙচছজঝঞ", "ABCDEFGHIJ")
 """Letters that count options in Bangla, and the Latin ones in the same places."""
 
@@ -77,6 +32,15 @@ _SUBSCRIPTS = str.maketrans("₀₁₂₃₄₅₆₇₈₉ₓᵢ", "0123456789x
 _APPROXIMATE = r"ca\.|approx(?:\.|imately)?|about|circa|etwa|ungefähr|rund|প্রায়|প্রায়"
 
 _ABOUT = re.compile(rf"^ *(?:≈|~|∼|=|(?:{_APPROXIMATE})(?![^\W\d_])) *", re.IGNORECASE)
+
+_IS = r"(?: *(?:is|ist|lautet|হলো|হল|হচ্ছে)(?![^\W_]) *[:=]? *| *[:=ঃ] *)"
+ANSWER = re.compile(
+    r"^ *(?:(?:the|my|die|das|meine) )?"
+    rf"(?:(?:answer|ans|antwort|উত্তর)(?![^\W_])\.?(?:{_IS}| +)"
+    rf"|(?:lösung|ergebnis|result|solution|ফলাফল|ফল|সমাধান)(?![^\W_]){_IS})(?=\S)",
+    re.IGNORECASE,
+)
+"""What stands before an answer that is a sentence."""
 
 _X = re.compile(r"(?<=[\d)])(?<!^0)(?<![^\d.,]0) *[xXхХ] *(?=\d)")
 
@@ -99,6 +63,7 @@ REWRITES: dict[str, Rewrite] = {
     ),
     "full-width forms": (re.compile(r"[！-～]"), lambda m: chr(ord(m[0]) - 0xFEE0)),
     "minus and dashes": (re.compile(r"[−‐‑‒–—﹣⁻](?![⁰¹²³⁴⁵⁶⁷⁸⁹])"), lambda _m: "-"),
+    "degrees": (re.compile(r"[º˚]"), lambda _m: "°"),
     "times": (re.compile(r"[×·∙⋅∗✕✖•⨯]"), lambda _m: "*"),
     "division": (re.compile(r"[÷∕∶⁄]"), lambda _m: "/"),
     "decimal marks": (re.compile(r"[٫˙]"), lambda _m: "."),
@@ -112,12 +77,16 @@ REWRITES: dict[str, Rewrite] = {
     ),
     "subscripts": (re.compile(r"[₀-₉ₓᵢ]+"), lambda m: m[0].translate(_SUBSCRIPTS)),
     "vulgar fractions": (re.compile(r"(\d*) ?([¼-¾⅐-⅞])"), _fraction),
+    "answer": (ANSWER, lambda _m: ""),
     "about": (_ABOUT, lambda _m: ""),
     "x between numbers": (_X, lambda _m: "*"),
 }
 """Name to pattern and replacement, in the order they are applied."""
 
-_ALWAYS = ("about", "x between numbers")
+_ALWAYS = ("answer", "about", "x between numbers")
+_RAISED = re.compile(r"[-+−–]?\d+·(?!10)\d{2,}")
+_STOPS = ".;।॥"
+_UNFINISHED = re.compile(r"[-+]?(?:\d+;|\d{1,3}(?:\.\d{3})+\.)")
 _EXOTIC = re.compile(r"[^ -~]")
 _CONTROL = frozenset({"Cc", "Cf", "Co", "Cs", "Cn", "Zl", "Zp"})
 
@@ -150,17 +119,29 @@ def normalise(typed: str, *, keep_x: bool = False, longest: int = LONGEST) -> So
     source = Source.of(typed)
     if _EXOTIC.search(typed):
         source = _fold(source)
+    if latex.MARKS.search(source.text):
+        source = latex.plain(source)
     for name in _ALWAYS:
         if not (keep_x and name == "x between numbers"):
             source = source.sub(*REWRITES[name])
     source = source.strip()
     if not source.text:
         raise ReadError("no-answer", 1)
-    return source
+    return _finished(source) if source.text[-1] in _STOPS else source
+
+
+def _finished(source: Source) -> Source:
+    """Drop the full stop of a sentence; ``1.000.`` and ``3;`` may not be written out."""
+    if _UNFINISHED.fullmatch(source.text):
+        return source
+    kept = source.cut(0, len(source.text) - 1).strip()
+    return kept if kept.text else source
 
 
 def _fold(source: Source) -> Source:
     source = source.strip(" \t\r\n\u00a0")
+    if "·" in source.text and _RAISED.fullmatch(source.text):
+        raise ReadError("two-readings", source.column(0), source.text)
     for name, (pattern, new) in REWRITES.items():
         if name not in _ALWAYS:
             source = source.sub(pattern, new)

@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 
 import msgspec
 from flint import fmpq
+from msgspec.structs import replace
 
-from quizgen.marking.reading.literals import Doubt, doubtful, pointed
-from quizgen.marking.reading.rewrites import Source, normalise
+from quizgen.marking.reading.literals import Doubt, doubtful, pointed, tidied
+from quizgen.marking.reading.rewrites import normalise
+from quizgen.marking.reading.source import Source
 from quizgen.maths.constants import constant
 from quizgen.maths.notation import ReadError, parse_pieces, to_text, tokens
 from quizgen.maths.notation.lexer import LARGEST_EXPONENT, LONGEST_NUMBER, SMALLEST_EXPONENT
+from quizgen.maths.tree import Expr
 from quizgen.maths.values import Value
 
 LARGEST_VALUE = fmpq(10) ** LARGEST_EXPONENT
@@ -54,6 +58,22 @@ class Readings(msgspec.Struct, frozen=True):
     main: Number
     other: Number | None = None
     doubt: Doubt | None = None
+
+
+def each(readings: Readings, change: Callable[[Number], Number]) -> Readings:
+    """Both readings, changed."""
+    other = None if readings.other is None else change(readings.other)
+    return Readings(change(readings.main), other, readings.doubt)
+
+
+def scaled(number: Number, scale: Value) -> Number:
+    """The number in another unit."""
+    return number if scale == 1 else replace(number, value=number.value * scale)
+
+
+def as_percent(number: Number) -> Number:
+    """The number with a percent sign behind it."""
+    return replace(number, read_as=f"{number.read_as} %", percent=True)
 
 
 _FAST = re.compile(r"([-−–]?)([0-9]{1,30})(?:([.,])([0-9]{1,30}))?")
@@ -135,7 +155,7 @@ def read_source(source: Source, decimal: str) -> Readings:
     found = quick(source.text, decimal)
     if found:
         return found
-    main, other, doubt = pointed(source, decimal)
+    main, other, doubt = pointed(tidied(source), decimal)
     if other is None:
         return Readings(_written(main))
     return Readings(_written(main), _written(other), doubt)
@@ -151,17 +171,7 @@ def _written(source: Source) -> Number:
     number = number or _expression(source, text)
     if abs(number.value) > LARGEST_VALUE:
         raise ReadError("too-large", 1)
-    if not percent:
-        return number
-    return Number(
-        number.value,
-        f"{number.read_as} %",
-        number.form,
-        number.places,
-        number.figures,
-        number.lowest,
-        percent=True,
-    )
+    return as_percent(number) if percent else number
 
 
 def _power(text: str) -> int:
@@ -237,6 +247,17 @@ def _expression(source: Source, text: str) -> Number:
         tree = parse_pieces(pieces, len(text), tight=False)
     except ReadError as error:
         raise moved(error, source) from None
+    return constant_number(tree)
+
+
+def constant_number(tree: Expr) -> Number:
+    """The number that a formula without names stands for.
+
+    Raises
+    ------
+    ReadError
+        If it has no finite real value or is too large.
+    """
     return Number(constant(tree), to_text(tree), "expression")
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from functools import lru_cache
 from typing import Any
 
@@ -128,11 +129,73 @@ WORDS = {
     "ADU": "DN",
     "fps": "frame/s",
     "line pairs": "lp",
+    "linienpaare": "lp",
+    "LP": "lp",
+    "Lp": "lp",
+    "Lux": "lx",
+    "LUX": "lx",
+    "Sek": "s",
+    "sek": "s",
+    "সে": "s",
+    "f-stop": "stop",
+    "f-stops": "stop",
+    "f/stops": "stop",
+    "pct": "%",
+    "v. H": "%",
+    "শতকরা": "%",
+    "পারসেন্ট": "%",
+    "dpt": "1/m",
+    "D": "1/m",
+    "diopter": "1/m",
+    "diopters": "1/m",
+    "dioptre": "1/m",
+    "dioptres": "1/m",
+    "dioptrie": "1/m",
+    "dioptrien": "1/m",
+    "ডায়াপ্টার": "1/m",
+    "bild": "frame",
+    "bilder": "frame",
 }
 """Spelling (any case when it is longer than three letters) to a listed unit."""
 
+_LARGE = {
+    "k": ("kilo", "কিলো"),
+    "M": ("mega", "মেগা"),
+    "G": ("giga", "গিগা"),
+}
+_SMALL = {
+    "m": ("milli", "মিলি"),
+    "u": ("micro", "mikro", "মাইক্রো"),
+    "n": ("nano", "ন্যানো"),
+}
+_STEMS = {
+    "B": ("byte", "bytes", "বাইট"),
+    "bit": ("bit", "bits", "বিট"),
+    "px": ("pixel", "pixels", "pix", "পিক্সেল"),
+    "Hz": ("hertz", "হার্টজ"),
+    "W": ("watt", "watts", "ওয়াট"),
+    "lx": ("lux", "লাক্স"),
+    "lm": ("lumen", "lumens", "লুমেন"),
+    "s": ("second", "seconds", "sekunde", "sekunden", "সেকেন্ড"),
+}
+
+
+def _prefixed() -> Iterator[tuple[str, str]]:
+    """``megabytes`` and ``MBytes``: every prefix a unit may have, before every word for it."""
+    for listed, words in _STEMS.items():
+        for letter, spoken in (_LARGE | _SMALL).items():
+            if letter + listed in SIMPLE:
+                yield from ((f"{p}{word}", letter + listed) for p in spoken for word in words)
+            if letter in _LARGE and letter + listed in SIMPLE:
+                yield from ((letter + word, letter + listed) for word in words)
+                yield from ((letter + word.capitalize(), letter + listed) for word in words)
+
+
+WORDS = {**dict(_prefixed()), **WORDS}
 _LOWER = {word.lower(): name for word, name in WORDS.items() if len(word) > 3}
 _POWER_OF_UNIT = re.compile(r"(?<=[^\W\d_])\^?\(?(-?\d)\)?(?!\d)")
+_POINTS = re.compile(r"\. ?")
+_BRACKETS = re.compile(r"[(\[]([^()\[\]*/· ]+)[)\]]")
 _PART = re.compile(r"[*/·]|[^*/·]+")
 
 
@@ -165,7 +228,7 @@ def _word(word: str) -> str:
     word = word.strip().rstrip(".").strip()
     if word in SIMPLE or word == "rad":
         return word
-    listed = WORDS.get(word) or _LOWER.get(word.lower())
+    listed = WORDS.get(word) or _LOWER.get(word.lower()) or WORDS.get(_POINTS.sub("", word))
     if listed is None and word.startswith(("µ", "μ")):
         listed = "u" + word[1:] if "u" + word[1:] in SIMPLE else None
     if listed is None:
@@ -191,7 +254,11 @@ def typed_unit(text: str) -> TypedUnit:
 
 
 def _compound(text: str) -> str:
-    text = re.sub(r"\s+per\s+|\s*প্রতি\s*", "/", text)
+    text = _BRACKETS.sub(r"\1", text)
+    if (text[:1], text[-1:]) in {("(", ")"), ("[", "]")} and text.count(text[0]) == 1:
+        text = text[1:-1]
+    text = re.sub(r"^(?:per|pro)\s+", "1/", text)
+    text = re.sub(r"\s+(?:per|pro)\s+|\s*প্রতি\s*", "/", text)
     text = re.sub(r" *([*/·]) *", r"\1", text)
     pieces = _PART.findall(text)
     return "".join(piece if piece in "*/·" else _product(piece) for piece in pieces)
