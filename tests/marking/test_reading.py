@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from quizgen.errors import KeyFileError
 from quizgen.marking.echo import safe
 from quizgen.marking.judging.wording import fold, nearest_terms
 from quizgen.marking.mark import mark
@@ -22,6 +23,7 @@ ONE_BY_ONE = [
     ("minus and dashes", "−5 – 3 — 1", "-5 - 3 - 1"),
     ("minus and dashes", "x⁻²", "x⁻²"),
     ("times", "3·4 × 5", "3*4 * 5"),
+    ("degrees", "30º 30˚", "30° 30°"),
     ("division", "6 ÷ 2 ⁄ 3", "6 / 2 / 3"),
     ("decimal marks", "12٫5", "12.5"),
     ("quotes and primes", "z′ p’_x", "z' p'_x"),
@@ -31,6 +33,10 @@ ONE_BY_ONE = [
     ("superscripts", "x² 10⁻³ r¹⁰", "x^2 10^(-3) r^(10)"),
     ("subscripts", "k₁ pₓ", "k1 px"),
     ("vulgar fractions", "½ 1½ 2 ¾", "(1/2) (1+1/2) (2+3/4)"),
+    ("answer", "Answer: 5", "5"),
+    ("answer", "Die Antwort ist 5", "5"),
+    ("answer", "উত্তরঃ ৫", "৫"),
+    ("answer", "answers 5", "answers 5"),
     ("about", "≈ 5", "5"),
     ("about", "ca. 5", "5"),
     ("about", "approximately 5", "5"),
@@ -201,3 +207,22 @@ def test_the_cap_stands_before_everything_else():
     with pytest.raises(ReadError) as caught:
         normalise("\u200b" * 1_000_000)
     assert caught.value.code == "too-long"
+
+
+@pytest.mark.parametrize("separator", ["\u2028", "\u2029", "\x85", "\x0b", "\x0c", "\x1c"])
+@pytest.mark.parametrize("kind", ["number", "gap", "choice", "code", "text", "order", "match"])
+def test_separators_of_lines_are_named_and_never_echoed(separator, kind):
+    specs = {
+        "number": {"value": "1"}, "gap": {"accept": ["a"]}, "code": {"output": "1"},
+        "choice": {"options": ["p", "q"], "correct": [1]}, "text": {"points": ["a"]},
+        "order": {"steps": ["A", "B"]}, "match": {"pairs": {"A": "1"}},
+    }  # fmt: skip
+    verdict = mark({"kind": kind, **specs[kind]}, f"1{separator}2")
+    assert separator not in verdict.message + verdict.read_as
+    assert verdict.note == "bad-character"
+    assert f"U+{ord(separator):04X}" in verdict.message
+
+
+def test_a_key_without_a_value_is_refused():
+    with pytest.raises(KeyFileError):
+        mark({"kind": "expression", "value": "1/0", "symbols": {"x": "real"}}, "x")
