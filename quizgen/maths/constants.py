@@ -73,7 +73,7 @@ def constant(tree: Expr) -> Value:
         raise ReadError("no-value", 1, str(error)) from None
     except (KeyError, TypeError, AttributeError):
         raise ReadError("not-a-number", 1) from None
-    if isinstance(value, bool):
+    if isinstance(value, int):  # a truth, or what is made of truths
         raise ReadError("not-a-number", 1)
     if not isinstance(value, fmpq) and not _sharp(value):
         raise ReadError("no-value", 1, "not determined")
