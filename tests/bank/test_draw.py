@@ -8,11 +8,13 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
+from flint import fmpq
 
-from quizgen.bank.draw import draw
+from quizgen.bank.draw import draw, reference
 from quizgen.bank.folder import Bank, builtin_root
 from quizgen.bank.plan import candidates, pick, plan_of, shuffled
 from quizgen.errors import BankError, DrawError
+from quizgen.maths.precision import working_precision
 
 
 def make_bank(tmp_path: Path, toml: str, name: str = "mine", **languages: str) -> Bank:
@@ -40,7 +42,8 @@ answer = { kind = "point", of = ["p'_x", "p'_y"], exact = true }
 
 def test_pick_is_sha256_of_the_key():
     digest = hashlib.sha256(b"A3/1/42/1/f/0").digest()
-    assert pick("A3/1/42/1/f/0", 5) == int.from_bytes(digest[:8], "big") % 5
+    for count in (5, 10**6):
+        assert pick("A3/1/42/1/f/0", count) == int.from_bytes(digest[:8], "big") % count
 
 
 def test_a_new_variable_changes_no_other_value(tmp_path):
@@ -163,3 +166,104 @@ def test_a_folder_of_solvers_needs_no_init_file(tmp_path):
     (tmp_path / solver).parent.mkdir(parents=True)
     shutil.copy(builtin_root() / solver, tmp_path / solver)
     assert draw(Bank(tmp_path, trusted=True).template("mine"), 0).values
+
+
+WORDS = """
+topic = "colour"
+tier = "A"
+[draw]
+a = { pick = [1, 2, 3, 4, 5, 6] }
+w = { words = ["red", "green", "blue"] }
+[[part]]
+answer = { kind = "choice", options = { yes = "a < 4", no = "a > 3" } }
+"""
+PHRASES = "# T\n{{ w }}\n## options\n- yes: a\n- no: b\n## words\n- red: r\n- green: g\n- blue: b\n"
+
+
+def test_a_phrase_is_the_documented_hash(tmp_path):
+    template = make_bank(tmp_path, WORDS, en=PHRASES).template("mine")
+    for seed in range(9):
+        first = int.from_bytes(hashlib.sha256(f"mine/1/{seed}/0/w/0".encode()).digest()[:8], "big")
+        assert draw(template, seed).words == {"w": ("red", "green", "blue")[first % 3]}
+
+
+def test_conditions_are_tried_before_and_after_solving(tmp_path):
+    """What names drawn quantities alone costs no solving; a solved one waits for its value."""
+    toml = BASE.replace("[draw]", 'where = ["f > 3", "abs(p\'_x) < 9"]\n[draw]')
+    plan = plan_of(make_bank(tmp_path, toml).template("mine"))
+    assert [c.text for c in plan.early] == ["f > 3"]
+    assert [c.text for c in plan.late] == ["abs(p'_x) < 9"]
+    assert plan.early[0].needs == {"f"}
+    for seed in range(30):
+        one = draw(plan.template, seed)
+        assert one.shown["f"] > 3
+        assert abs(one.values["p'_x"]) < 9
+
+
+def test_a_condition_on_all_drawn_quantities_is_tried_before_solving(tmp_path):
+    toml = BASE.replace("[draw]", 'where = ["f + p_x + p_y + p_z > 0"]\n[draw]')
+    plan = plan_of(make_bank(tmp_path, toml).template("mine"))
+    assert (len(plan.early), len(plan.late)) == (1, 0)
+
+
+@pytest.mark.parametrize(
+    ("rule", "kept", "refused"),
+    [
+        ("min = 2", "2 5/2", "1 199/100"),
+        ('max = "5/2"', "5/2 -3", "3"),
+        ('multiple = "1/4"', "1/4 3/2 0", "1/3"),
+        ("decimals = 1", "1/5 3", "1/4 1/3"),
+        ("denominator = 4", "1/4 2/3", "1/5"),
+        ("skip = [0, 1]", "2 1/2", "0 1"),
+        ("min = 1, decimals = 0", "1 2", "0 3/2"),
+    ],
+)
+def test_what_a_keep_rule_lets_through(tmp_path, rule, kept, refused):
+    toml = BASE.replace("[[part]]", f'[keep]\n"p\'_x" = {{ {rule} }}\n[[part]]')
+    (condition,) = plan_of(make_bank(tmp_path, toml).template("mine")).late
+    assert condition.text == "keep.p'_x"
+    for text in kept.split():
+        assert condition.test({"p'_x": fmpq(*map(int, text.split("/")))}), text
+    for text in refused.split():
+        assert not condition.test({"p'_x": fmpq(*map(int, text.split("/")))}), text
+
+
+REFERENCE = BASE + "[reference]\nf = 4\np_x = 2\np_y = 3\np_z = 5\n"
+
+
+def test_the_numbers_of_the_notes_are_taken_as_they_are(tmp_path):
+    one = reference(make_bank(tmp_path, REFERENCE).template("mine"))
+    assert one.shown == {"f": 4, "p_x": 2, "p_y": 3, "p_z": 5}
+    assert one.answer(0) == (fmpq(8, 5), fmpq(12, 5))
+    assert (one.seed, one.slot, one.tries, one.words) == ("reference", "0", 1, {})
+    assert one.mistaken(0)["forgot-f"] == (fmpq(2, 5), fmpq(3, 5))
+
+
+@pytest.mark.parametrize(
+    ("toml", "said"),
+    [(BASE, "'mine' has no reference instance"),
+     (REFERENCE.replace("p_z = 5", "p_z = 0"), "'mine': reference instance: no value")],
+    ids=["none", "without a value"],
+)  # fmt: skip
+def test_a_reference_that_is_none_is_named(tmp_path, toml, said):
+    with pytest.raises(DrawError, match=said):
+        reference(make_bank(tmp_path, toml).template("mine"))
+
+
+def test_the_numbers_of_the_notes_may_name_a_phrase(tmp_path):
+    toml = WORDS + '[reference]\na = 2\nw = "green"\n'
+    one = reference(make_bank(tmp_path, toml, en=PHRASES).template("mine"))
+    assert (one.shown, one.words) == ({"a": 2}, {"w": "green"})
+
+
+def test_a_part_shows_the_steps_that_it_names(tmp_path):
+    every = make_bank(tmp_path / "a", BASE).template("mine")
+    some = make_bank(tmp_path / "b", BASE + 'show = ["p\'_y"]\n').template("mine")
+    assert [step.name for step in draw(every, 0).steps(0)] == ["p'_x", "p'_y"]
+    assert [step.name for step in draw(some, 0).steps(0)] == ["p'_y"]
+
+
+def test_a_formula_is_computed_in_full_whatever_precision_is_stated_around_it(tmp_path):
+    one = draw(make_bank(tmp_path, BASE).template("mine"), 0)
+    with working_precision(20):
+        assert one.computed("sqrt(2)").rel_accuracy_bits() > 150

@@ -10,7 +10,7 @@ from small_bank import NAME, ONE, copied, fresh
 from quizgen.bank.draw import draw
 from quizgen.errors import ChoiceError, CodeError, QuizgenError
 from quizgen.paper.blueprint import load_blueprint
-from quizgen.paper.code import Code, digest_of, parse_code
+from quizgen.paper.code import Code, checked_seed, digest_of, parse_code
 from quizgen.paper.key import key_bytes
 from quizgen.paper.paper import build, rebuild
 
@@ -98,3 +98,8 @@ def test_a_wrong_language_is_named_with_what_is_allowed(bank, choice):
 def test_the_largest_seed_can_be_built_again(bank):
     paper = build(bank, ONE, 10**9, figures=False)
     assert key_bytes(rebuild(bank, paper.code, ONE, figures=False)) == key_bytes(paper)
+
+
+@pytest.mark.parametrize("seed", [0, 1, 10**9])
+def test_a_seed_from_zero_to_a_billion_is_taken(seed):
+    assert checked_seed(seed) == seed

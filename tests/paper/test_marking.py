@@ -12,8 +12,9 @@ from click.testing import CliRunner
 
 from quizgen.cli.check import check as check_command
 from quizgen.cli.mark import mark as mark_command
-from quizgen.errors import KeyFileError
+from quizgen.errors import ChoiceError, KeyFileError
 from quizgen.marking.batch import marked
+from quizgen.paper import marking
 from quizgen.paper.form import read_answers
 from quizgen.paper.key import read_key
 from quizgen.paper.marking import in_quarters, mark_paper
@@ -259,3 +260,63 @@ def test_batch_reads_no_further_than_it_has_written():
     answers = marked(source())
     next(answers)
     assert taken == [0]
+
+
+def test_a_marked_paper_as_plain_values():
+    table = mark_paper(KEY, {"1a": "50 mm", "1b": "?", "2a": "a grid", "9z": "1"}).as_json()
+    assert {name: table[name] for name in table if name != "parts"} == {
+        "code": "mock-1",
+        "marks": 0.0,
+        "points": 8.0,
+        "asked_back": 1,
+        "to_decide": 1,
+        "unknown_parts": ["9z"],
+    }
+    first, second, text, blank = table["parts"]
+    own = ("id", "question", "template", "typed", "status", "points", "marks")
+    assert [first[name] for name in own] == [
+        "1a", "1", "image-height-and-fill-distance", "50 mm", "wrong", 3.0, 0.0]  # fmt: skip
+    assert (first["verdict"], first["note"], first["credit"]) == ("wrong", "trap:no-f", 0.0)
+    assert (second["status"], second["marks"]) == ("unreadable", 0.0)
+    assert (text["status"], text["marks"]) == ("open", None)
+    assert (blank["question"], blank["status"], blank["points"]) == ("2", "blank", 2.0)
+
+
+@pytest.mark.parametrize(("decimal", "status"), [("comma", "ambiguous"), ("point", "wrong")])
+def test_a_paper_is_read_with_the_students_decimal_sign(decimal, status):
+    spec = {"kind": "number", "value": "123456", "exact": True}
+    part = {"id": "1", "points": "1", "spec": spec}
+    key = {"format": "quizgen-key/1", "questions": [{"number": "1", "parts": [part]}]}
+    assert mark_paper(key, {"1": "123.456"}, decimal=decimal).parts[0].status == status
+
+
+@pytest.mark.parametrize(
+    "options", [{"lang": "fr"}, {"decimal": "dot"}, {"lang": None}, {"decimal": None}]
+)
+def test_an_unknown_language_or_sign_of_a_paper_is_named(options):
+    with pytest.raises(
+        ChoiceError, match=next(iter({"lang": "language"}.get(n, n) for n in options))
+    ):
+        mark_paper(KEY, {}, **options)
+
+
+@pytest.mark.parametrize("settle", [False, True])
+def test_a_paper_settles_formulas_only_when_asked(monkeypatch, settle):
+    seen = []
+    plain = marking.judge
+    monkeypatch.setattr(marking, "judge", lambda *a: seen.append(a[2].settle) or plain(*a))
+    mark_paper(KEY, {"1b": "500"}, **({"settle": True} if settle else {}))
+    assert set(seen) == {settle}
+
+
+def test_an_own_value_is_carried_in_the_unit_of_the_answer():
+    """3.5 mm typed as 0.0035 m is 3.5 mm all the same: 3.5 mm / 5 µm = 700 px."""
+    found, _ = marks({"1a": "0.0035 m", "1b": "700"})
+    assert (found["1a"], found["1b"]) == (0, 2)
+
+
+def test_a_wrong_chain_of_a_key_is_located():
+    first = KEY["questions"][0]
+    broken = {**first, "chain": {**CHAIN, "steps": [["h", "f*", "mm"]]}}
+    with pytest.raises(KeyFileError, match=r"^key: question 1: chain: "):
+        mark_paper({**KEY, "questions": [broken]}, {"1a": "1 mm"})
