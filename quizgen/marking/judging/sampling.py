@@ -14,7 +14,7 @@ from quizgen.errors import MathError, Undecided
 from quizgen.maths.constants import Scalar, TooLargeError, bounded, exact_value
 from quizgen.maths.notation import ReadError
 from quizgen.maths.precision import working_precision
-from quizgen.maths.systems import compile_inner
+from quizgen.maths.systems import compile_expr
 from quizgen.maths.tree import Expr, names
 from quizgen.maths.values import Value, Values
 
@@ -73,12 +73,12 @@ def sample_points(symbols: Mapping[str, Domain]) -> tuple[dict[str, fmpq], ...]:
 
 
 def compiled(tree: Expr) -> Callable[[Env], Any]:
-    """Compile a formula for bounded exact evaluation, under a precision stated around it.
+    """Compile a formula for bounded exact evaluation.
 
     The result is None where it has no value, and the class ``Undecided`` or ``TooLargeError``
     where that cannot be told.
     """
-    function = compile_inner(tree, bounded())
+    function = compile_expr(tree, bounded())
 
     def evaluate(env: Env) -> Any:
         try:
@@ -156,15 +156,11 @@ def agree(a: Value, b: Value) -> bool | None:
     if isinstance(a, fmpq) and isinstance(b, fmpq):
         return bool(a == b)
     difference = a - b
-    if difference != 0 and not _may_vanish(difference):
+    if difference != 0:
         return False
     size = abs(a) + abs(b)
     sharp = abs(difference) < (size + fmpq(1, 10**30)) * fmpq(1, 10**20)
     return True if sharp else None
-
-
-def _may_vanish(difference: Value) -> bool:
-    return difference == 0 if isinstance(difference, fmpq) else bool(difference.contains(0))
 
 
 def _different(
