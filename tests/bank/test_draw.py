@@ -98,7 +98,7 @@ def test_shuffling_is_a_permutation_and_balanced():
         (("[draw]", "[draw"), "not valid TOML"),
         (("[draw]", 'where = ["f >"]\n[draw]'), "formula"),
         (("[draw]", 'where = ["g > 1"]\n[draw]'), "formula"),
-        (('of = ["p', 'of = ["q'), "unknown"),
+        (('of = ["p', 'of = ["q'), "part 1: unknown"),
         (("[draw]", 'drop = ["nonsense"]\n[draw]'), "not a trap"),
     ],
 )

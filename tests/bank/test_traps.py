@@ -62,6 +62,8 @@ def test_mistakes_far_apart_are_all_usable(tmp_path):
         (', rel = "1/10"', 6.24, False),
         ("", 5.06, True),
         ("", 5.04, False),
+        (', abs = "1", percent = true', 5.021, True),
+        (', abs = "1", percent = true', 5.019, False),
         (", exact = true", 5.011, True),
         (", exact = true", 5.009, False),
         (', decimals = 1, within = "2"', 5.21, True),
@@ -136,3 +138,9 @@ def test_what_has_no_value_is_no_mistake(tmp_path):
 def test_a_step_of_its_own_is_as_wide_as_it_says(tmp_path, within, apart):
     plan = part(tmp_path, f", decimals = 1, within = {within}")
     assert (plan.apart, plan.one_step) == (apart, apart == 1.0)
+
+
+def test_a_mistake_that_is_the_key_itself_is_none_where_nothing_is_allowed_for(tmp_path):
+    """With p_x = 0 every way gives 0, and a hundredth of 0 is no room."""
+    found = check(part(tmp_path, ", exact = true"), key=0.0, p_x=0.0)
+    assert found == "trap 'divided-by-f' cannot be told from 'the key'"

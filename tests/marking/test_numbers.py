@@ -62,7 +62,8 @@ def test_a_whole_number_is_meant_within_a_hundredth(value, typed, credit):
 def test_the_nearest_of_several_known_mistakes_is_named(typed):
     """All three lie within half a percent of one another."""
     spec = {"kind": "number", "value": "10", "traps": {"5": "5", "5.01": "5.01", "5.02": "5.02"}}
-    assert mark(spec, typed).note == f"trap:{typed}"
+    found = mark(spec, typed)
+    assert (found.note, found.read_as) == (f"trap:{typed}", typed)
 
 
 def test_the_first_of_two_equal_mistakes_is_named():
@@ -123,5 +124,50 @@ def test_a_step_rounded_in_its_own_unit_is_seen_to_half_the_last_place(typed, no
     """h = 29/12 mm is 2.4 mm in two figures; 2.4 mm / 7 µm = 342.857; the key is 345.238."""
     spec = {"kind": "number", "value": "7250/21", "decimals": 1, "of": ["n"]}
     found = mark(spec, typed, context=Context(CAMERA, GIVEN))
-    assert found.note == (note or "")
+    assert (found.note, found.read_as) == (note or "", typed)
     assert found.credit == {"rounded-too-early": HALF, "": 0, None: 1}[note]
+
+
+@pytest.mark.parametrize(
+    ("rule", "value", "typed"),
+    [
+        ({"decimals": 1, "within": "1/4"}, "5/4", "1.3"),
+        ({"sigfigs": 2, "within": "1/4"}, "5/4", "1.3"),
+        ({"rel": "1/1000"}, "5/4", "1.3"),
+        ({"decimals": 2}, "1/4", "0.3"),
+        ({"abs": "1/1000"}, "2", "2.005"),
+        ({"exact": True}, "sqrt(2)", "1.5"),
+        ({"decimals": 3}, "123456", "123.456"),
+    ],
+    ids=["places given", "figures given", "no digits asked", "one figure", "not asked exactly",
+         "irrational", "three places asked"],
+)  # fmt: skip
+def test_digits_excuse_nothing_where_they_are_not_the_matter(rule, value, typed):
+    found = mark({"kind": "number", "value": value, **rule}, typed)
+    assert (found.verdict, found.credit) == ("wrong", 0)
+    assert found.note not in {"decimals-asked", "figures-asked", "whole-number"}
+
+
+def test_a_form_that_was_not_asked_is_echoed():
+    lowest = mark({"kind": "number", "value": "1/2", "exact": True, "form": "lowest"}, "2/4")
+    assert (lowest.note, lowest.credit, lowest.read_as) == ("form-lowest", HALF, "2/4")
+    fraction = mark({"kind": "number", "value": "1/2", "exact": True, "form": "fraction"}, "0.5")
+    assert (fraction.note, fraction.credit, fraction.read_as) == ("form-fraction", HALF, "0.5")
+    decimal = mark({"kind": "number", "value": "1/2", "exact": True, "form": "decimal"}, "1/2")
+    assert (decimal.note, decimal.credit, decimal.read_as) == ("form-decimal", HALF, "1/2")
+
+
+def test_what_a_slip_fills_into_its_sentence():
+    assert dict(mark({"kind": "number", "value": "3"}, "3000").fields) == {"power": 3}
+    assert dict(mark({"kind": "number", "value": "3"}, "12").fields) == {"factor": "4"}
+
+
+def test_what_is_carried_forward_is_echoed_with_its_unit():
+    """An own h of 3 mm instead of 29/12 mm fills 6 mm of film twice as high."""
+    film = Chain(
+        {"a": "mm"}, (ChainStep("h", parse("a"), "mm"), ChainStep("w", parse("2*h"), "mm"))
+    )
+    context = Context(film, {"a": fmpq(29, 12000)}, {"h": fmpq(3, 1000)})
+    spec = {"kind": "quantity", "value": "29/6", "unit": "mm", "of": ["w"]}
+    found = mark(spec, "6 mm", context=context)
+    assert (found.note, found.credit, found.read_as) == ("carried-forward", 1, "6 mm")

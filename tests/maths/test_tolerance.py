@@ -61,6 +61,7 @@ def test_an_exact_answer_may_be_meant_by_two_decimals(key, width):
 
 def test_a_ball_on_the_bound_is_near():
     assert Tolerance(abs=1).near(arb(2, "1e-9"), fmpq(1))
+    assert Tolerance(abs=1).near(arb(2), fmpq(1))
     assert not Tolerance(abs=1).near(arb("2.1", "1e-9"), fmpq(1))
 
 

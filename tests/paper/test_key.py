@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from fractions import Fraction
 
+import msgspec
 import pytest
 from flint import fmpq
 from small_bank import NAME, ONE
@@ -16,13 +17,14 @@ from quizgen.paper.paper import build
 
 @pytest.fixture(scope="module")
 def paper(bank):
-    return build(bank, ONE, 7, "both", figures=False)
+    plan = msgspec.structs.replace(ONE, title={"en": "One", "bn": "এক"})
+    return build(bank, plan, 7, "both", figures=False)
 
 
 def test_the_head_of_a_key(paper):
     key = key_of(paper)
     assert (key.format, key.code, key.langs) == ("quizgen-key/1", paper.code, ("en", "bn"))
-    assert key.title == {"en": "One", "bn": "One"}
+    assert key.title == {"en": "One", "bn": "এক"}
 
 
 def test_the_key_of_one_question(paper):
