@@ -6,11 +6,13 @@ from pathlib import Path
 
 import click
 
+from quizgen.cli.terminal import Progress
+
 
 @click.command()
 @click.argument("family", required=False, metavar="[FAMILY]")
 @click.option("--out", default="tradeoff", metavar="DIR", help="Folder to write to.")
-@click.option("--quick", is_flag=True, help="Fewer inputs: under 10 seconds.")
+@click.option("--quick", is_flag=True, help="Fewer inputs: a fraction of the time.")
 @click.option("--list", "only_list", is_flag=True, help="Name the families and stop.")
 def tradeoff(family: str | None, out: str, *, quick: bool, only_list: bool) -> None:
     """Show what accuracy costs in time: an HTML page, SVG plots and JSON.
@@ -29,7 +31,8 @@ def tradeoff(family: str | None, out: str, *, quick: bool, only_list: bool) -> N
     from quizgen.tradeoff.report import measure
 
     words = ["quizgen", "tradeoff", *([family] if family else []), *(["--quick"] if quick else [])]
-    report = measure([family] if family else [], quick=quick)
+    with Progress("measuring") as progress:
+        report = measure([family] if family else [], quick=quick, progress=progress)
     write(report, Path(out), " ".join(words))
     page = Path(out) / "tradeoff.html"
     click.echo(f"{page}: {len(report.families)} families, {report.seconds:.1f} s")

@@ -80,7 +80,11 @@ def _timed(bank: Bank, blueprint: Blueprint, seed: int) -> list[str]:
         if len(chosen) == before:
             break
     if not chosen:
-        raise BlueprintError(f"no question of topic {blueprint.topic!r} fits the time")
+        shortest = min((minutes_of(rules[n]) for n in open_names), default=0)
+        raise BlueprintError(
+            f"no question of topic {blueprint.topic!r} fits the time"
+            f" (the shortest takes {shortest} min)"
+        )
     return sorted(chosen, key=lambda n: rules[n].tier)
 
 

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from quizgen.tradeoff.families import BY_NAME, FAMILIES, Family
-from quizgen.tradeoff.knobs import KNOBS, Curve
+from quizgen.tradeoff.knobs import KNOBS, Curve, Knob
 from quizgen.tradeoff.measure import (
     FULL,
     QUICK,
@@ -24,6 +24,14 @@ from quizgen.tradeoff.measure import (
     best_time,
 )
 from quizgen.tradeoff.peers import peers
+
+Progress = Callable[[str], None]
+"""Told the name of what is measured next."""
+
+
+def silent(_name: str) -> None:
+    """Progress that nobody watches."""
+
 
 EXACT = {"exact", "arb"}
 """Rungs whose answer is proven."""
@@ -53,8 +61,18 @@ class Report:
     seconds: float
 
 
-def measure(names: Iterable[str] = (), *, quick: bool = False) -> Report:
+def measure(
+    names: Iterable[str] = (), *, quick: bool = False, progress: Progress = silent
+) -> Report:
     """Measure the named families (all of them by default).
+
+    Parameters
+    ----------
+    names : iterable of str
+    quick : bool
+        Fewer inputs.
+    progress : callable
+        Told the name of each family and knob before it is measured.
 
     Raises
     ------
@@ -64,17 +82,23 @@ def measure(names: Iterable[str] = (), *, quick: bool = False) -> Report:
     start = time.perf_counter()
     effort = QUICK if quick else FULL
     chosen = [BY_NAME[name] for name in names] or list(FAMILIES)
-    families = tuple(_family(family, effort) for family in chosen)
+    families = tuple(_family(family, effort, progress) for family in chosen)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        curves = () if names else tuple((k.key, tuple(k.measure(effort))) for k in KNOBS)
+        curves = () if names else tuple(_knob(knob, effort, progress) for knob in KNOBS)
     return Report(
         families, curves, effort, _ladder(families), _figure(), _machine(),
         time.perf_counter() - start,
     )  # fmt: skip
 
 
-def _family(family: Family, effort: Effort) -> FamilyReport:
+def _knob(knob: Knob, effort: Effort, progress: Progress) -> tuple[str, tuple[Curve, ...]]:
+    progress(knob.key)
+    return knob.key, tuple(knob.measure(effort))
+
+
+def _family(family: Family, effort: Effort, progress: Progress) -> FamilyReport:
+    progress(family.name)
     bench = Bench(family, effort)
     others = tuple(_peer(bench, label, call) for label, call in peers(family.name).items())
     return FamilyReport(family.name, _formula(family), family.tolerance, tuple(bench.run()), others)
