@@ -5,6 +5,7 @@ from __future__ import annotations
 import doctest
 from pathlib import Path
 
+import click
 import msgspec
 import pytest
 
@@ -101,6 +102,17 @@ def test_every_option_of_exam_and_key_of_blueprints_is_documented():
     for struct, hidden in ((Blueprint, internal), (SlotRule, set())):
         for field in msgspec.structs.fields(struct):
             assert field.name in hidden or field.name in text, field.name
+
+
+@pytest.mark.parametrize("name", list(COMMANDS))
+def test_every_option_is_documented_and_explained(name):
+    pages = [*sorted((ROOT / "docs").glob("*.md")), ROOT / "README.md"]
+    text = "".join(page.read_text(encoding="utf-8") for page in pages if page.stem != "api")
+    for option in group.get_command(None, name).params:
+        for word in option.opts:
+            assert not word.startswith("--") or word in text, word
+        if isinstance(option, click.Option):
+            assert option.help, option.opts
 
 
 def test_links_of_the_readme_lead_somewhere():

@@ -29,7 +29,8 @@ class Options(TypedDict):
 @click.argument("typed", required=False)
 @click.option("--batch", is_flag=True, help="Read JSON Lines from standard input.")
 @language_option
-@click.option("--decimal", type=click.Choice(DECIMALS), default=DECIMALS[0], show_default=True)
+@click.option("--decimal", type=click.Choice(DECIMALS), default=DECIMALS[0], show_default=True,
+              help="The decimal sign.")  # fmt: skip
 @click.option("--settle", is_flag=True, help="Allow SymPy to settle an undecided formula.")
 def mark(spec: str | None, typed: str | None, *, batch: bool, **options: Unpack[Options]) -> None:
     """Mark TYPED against SPEC, an inline TOML table: '{kind="number", value="20/3", decimals=3}'.

@@ -47,7 +47,9 @@ def open_bank(options: BankOptions) -> Bank:
 def language_option(command: Callable[P, T]) -> Callable[P, T]:
     """Add ``--lang``, one of the languages there are."""
     kind = click.Choice(languages(), case_sensitive=False)
-    return click.option("--lang", type=kind, default=FIRST, show_default=True)(command)
+    return click.option("--lang", type=kind, default=FIRST, show_default=True, help="Language.")(
+        command
+    )
 
 
 def checked(option: str, name: str, allowed: Collection[str]) -> str:

@@ -21,10 +21,10 @@ class Options(BankOptions):
 
 @click.command()
 @click.argument("name")
-@click.option("--seed", type=SEED, default=0, show_default=True)
+@click.option("--seed", type=SEED, default=0, show_default=True, help="Number that fixes the draw.")
 @click.option("--reference", is_flag=True, help="The numbers printed in the notes.")
 @language_option
-@click.option("--html", type=click.Path(path_type=Path), help="Write a page to look at instead.")
+@click.option("--html", type=click.Path(path_type=Path), help="Write a page of it instead.")
 @bank_options
 def preview(name: str, **options: Unpack[Options]) -> None:
     """Show one question with its key and worked solution."""
