@@ -12,6 +12,7 @@ A language file has a title, a stem, one section per part and lists of named sen
     ## check          how to see that the result makes sense
     ## traps          what went wrong, by mistake
     ## options        wording of choices, pairs, ordered steps
+    ## reasons        why an option is wrong (or right), a pair does not fit, a step comes later
     ## words          wording of drawn phrases
     ## note           a remark shown with the solution (where the notes differ, and why)
 
@@ -33,7 +34,7 @@ from quizgen.errors import BankError, FormulaError
 from quizgen.maths.notation import parse
 from quizgen.maths.tree import Expr
 
-NAMED_SECTIONS = frozenset({"steps", "traps", "options", "words", "gaps", "points"})
+NAMED_SECTIONS = frozenset({"steps", "traps", "options", "words", "gaps", "points", "reasons"})
 PROSE_SECTIONS = frozenset({"why", "check", "note"})
 
 

@@ -15,7 +15,7 @@ from quizgen.marking.kinds import KINDS
 from quizgen.marking.kinds.contract import Kind
 from quizgen.marking.messages import say
 from quizgen.marking.options import DECIMALS, Context, Options
-from quizgen.marking.specs import Table, decode
+from quizgen.marking.specs import Table, Worded, decode
 from quizgen.marking.verdict import Verdict, ambiguous, unreadable, with_words
 from quizgen.maths.notation import ReadError
 from quizgen.maths.precision import working_precision
@@ -107,7 +107,7 @@ def _asked_back(error: ReadError) -> Verdict:
 
 def explained(spec: Kind, verdict: Verdict, lang: str) -> Verdict:
     """Put the verdict's note into words of a language."""
-    if not verdict.note and not verdict.cells:
+    if not (verdict.note or verdict.cells or verdict.fields):
         return verdict
     cells = tuple(explained(spec, cell, lang) for cell in verdict.cells)
     return with_words(verdict, _sentence(spec, verdict, lang), cells)
@@ -117,8 +117,18 @@ def _sentence(spec: Kind, verdict: Verdict, lang: str) -> str:
     name = verdict.note.removeprefix("trap:")
     if name == verdict.note:
         said = say(lang, verdict.note, verdict.fields) if name else ""
-        return f"{said} {_shared(verdict, lang)}".strip()
+        return " ".join(filter(None, (said, _shared(verdict, lang), _reasons(spec, verdict, lang))))
     return spec.notes.get(lang, {}).get(name) or say(lang, "trap", verdict.fields)
+
+
+def _reasons(spec: Kind, verdict: Verdict, lang: str) -> str:
+    """Why what was chosen is wrong, as the question's author says it."""
+    known = spec.why.get(lang, {}) if isinstance(spec, Worded) else {}
+    chosen = verdict.fields.get("because", ())
+    found = (
+        [known[label] for label in chosen if label in known] if isinstance(chosen, tuple) else []
+    )
+    return " ".join(dict.fromkeys(found))
 
 
 def _shared(verdict: Verdict, lang: str) -> str:

@@ -63,13 +63,15 @@ class Worded(Common, msgspec.Struct, kw_only=True, frozen=True, omit_defaults=Tr
     """Fields of every kind, and all there are of the kinds whose key is made of words.
 
     ``traps`` maps a mistake's name to the wrong answer it gives (in the shape and unit of the key,
-    which each kind states), ``notes`` a language to sentences by mistake, ``of`` names the chain's
-    quantities that the answer consists of.
+    which each kind states), ``notes`` a language to sentences by mistake, ``why`` a language to
+    the reason by option, pair or step, ``of`` names the chain's quantities that the answer
+    consists of.
     """
 
     kind: str
     traps: Mapping[str, object] = msgspec.field(default_factory=dict)
     notes: Notes = {}
+    why: Notes = {}
     of: list[str] | dict[str, str] = []
 
     def validate(self) -> None:

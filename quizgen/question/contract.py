@@ -61,6 +61,9 @@ class Built(Generic[S]):
         a matching, in the order in which they are shown.
     right : tuple of (str, str)
         Section and name of the sentences that tell the right answer in words.
+    reasons : tuple of (str, str)
+        What a learner may choose wrongly (an option's mark, a pair of marks) and the name of the
+        sentence in section ``reasons`` that says why it is wrong.
     mistakes : mapping of str to Spec
         Each known mistake and the spec of which its answer would be the key.
     """
@@ -70,6 +73,7 @@ class Built(Generic[S]):
     options: tuple[Named, ...] = ()
     targets: tuple[Named, ...] = ()
     right: tuple[Named, ...] = ()
+    reasons: tuple[Named, ...] = ()
     mistakes: Mapping[str, S] = field(default_factory=dict)
 
 

@@ -5,11 +5,12 @@ The steps come from the solver's chain; the language files add one sentence of w
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 from quizgen.bank.draw import Draw
-from quizgen.bank.prose import Block, Inline
+from quizgen.bank.prose import Block, Inline, Words
 from quizgen.question.contract import Built
 from quizgen.question.filling import Filler, Maths
 from quizgen.question.kinds import KINDS
@@ -90,9 +91,28 @@ def _part(filler: Filler, index: int, built: Built[Any]) -> PartSolution:
             for step in drawn.steps(index)
         ),
         answer=KINDS[spec.kind].printed(spec, filler.lang),
-        mistakes=tuple(
-            Mistake(trap, filler.sentence("traps", trap), mistake_text(wrong, spec.traps[trap]))
-            for trap, wrong in built.mistakes.items()
-        ),
-        options=tuple(filler.sentence(section, name) for section, name in built.right),
+        mistakes=(*_mistakes(filler, built), *_reasons(filler, built)),
+        options=tuple(_right(filler, section, name) for section, name in built.right),
     )
+
+
+def _mistakes(filler: Filler, built: Built[Any]) -> Iterator[Mistake]:
+    for trap, wrong in built.mistakes.items():
+        text = mistake_text(wrong, built.spec.traps[trap])
+        yield Mistake(trap, filler.sentence("traps", trap), text)
+
+
+def _reasons(filler: Filler, built: Built[Any]) -> Iterator[Mistake]:
+    """Wrong options, pairs and steps with the reason."""
+    right = {name for _, name in built.right}
+    for mark, name in built.reasons:
+        if name not in right:
+            yield Mistake(name, filler.sentence("reasons", name), mark)
+
+
+def _right(filler: Filler, section: str, name: str) -> tuple[Inline, ...]:
+    """A right option, and why it is right if that is written."""
+    told = filler.sentence(section, name)
+    if section == "options" and filler.text.sentence("reasons", name) is not None:
+        return (*told, Words(": "), *filler.sentence("reasons", name))
+    return told

@@ -100,6 +100,32 @@ def notes(drawn: Draw, traps: Iterable[str]) -> dict[str, dict[str, str]]:
     }
 
 
+def reasoned(drawn: Draw, names: Iterable[Named]) -> tuple[Named, ...]:
+    """Those of the marks and names for which a reason is written."""
+    texts = drawn.template.texts.values()
+    return tuple(
+        (mark, name)
+        for mark, name in names
+        if any(text.sentence("reasons", name) is not None for text in texts)
+    )
+
+
+def why(drawn: Draw, names: Iterable[Named]) -> dict[str, dict[str, str]]:
+    """The reasons as plain text in every language, by mark.
+
+    Raises
+    ------
+    BankError
+        If a reason is written in one language only.
+    """
+    found = reasoned(drawn, names)
+    fillers = {lang: Filler(drawn, lang) for lang in drawn.template.texts} if found else {}
+    return {
+        lang: {mark: plain(filler.sentence("reasons", name)) for mark, name in found}
+        for lang, filler in fillers.items()
+    }
+
+
 def mistaken(spec: S, key: str) -> dict[str, S]:
     """Each mistake of a spec with the spec of which its answer would be the key."""
     return {

@@ -54,7 +54,7 @@ def named(spec) -> str:
 def test_every_field_of_every_kind_is_looked_at():
     for shape in KINDS.values():
         looked_at = {name for spec in FULL if KINDS[spec["kind"]] is shape for name in spec}
-        common = {*Tolerance.__struct_fields__, "traps", "notes", "of"} - {"accept"}
+        common = {*Tolerance.__struct_fields__, "traps", "notes", "why", "of"} - {"accept"}
         assert {*shape.__struct_fields__} - common - {"accept"} <= looked_at, shape
 
 

@@ -185,7 +185,7 @@ def _judge_one(spec: Spec, chosen: int) -> Verdict:
     read_as = _echo(spec, [chosen])
     if chosen in spec.correct:
         return correct(read_as)
-    return wrong(read_as, _trap(spec, [chosen]))
+    return wrong(read_as, _trap(spec, [chosen]), because=_marks([chosen]))
 
 
 def _judge_many(spec: Spec, chosen: list[int]) -> Verdict:
@@ -196,7 +196,8 @@ def _judge_many(spec: Spec, chosen: list[int]) -> Verdict:
         return correct(read_as)
     credit = max(Fraction(right - extra, max(len(spec.correct), 1)), Fraction(0))
     note = _trap(spec, chosen) or ("options-extra" if extra else "options-missing")
-    fields = {"right": right, "of": len(spec.correct)}
+    extras = _marks(sorted(set(chosen) - set(spec.correct)))
+    fields = {"right": right, "of": len(spec.correct), "because": extras}
     if spec.negative and 0 < credit < 1:
         return partial(credit, read_as, note, **fields)
     return wrong(read_as, note, **fields)
@@ -207,6 +208,10 @@ def _trap(spec: Spec, chosen: list[int]) -> str:
         if sorted(positions if isinstance(positions, list) else [positions]) == sorted(chosen):
             return f"trap:{name}"
     return ""
+
+
+def _marks(chosen: list[int]) -> tuple[str, ...]:
+    return tuple(LETTERS[place - 1] for place in chosen)
 
 
 def _echo(spec: Spec, chosen: list[int]) -> str:

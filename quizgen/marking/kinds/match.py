@@ -55,11 +55,17 @@ class Spec(Worded, kw_only=True, frozen=True):
             right=right,
             of=len(self.pairs),
             names=missed,
+            because=tuple(label for left in missed for label in _labels(left, found.get(left))),
         )
 
     def show(self) -> str:
         """Return the pairs as they can be typed."""
         return ", ".join(f"{left}:{right}" for left, right in self.pairs.items())
+
+
+def _labels(left: str, chosen: str | None) -> tuple[str, ...]:
+    """What a reason can be given for: this pair, else any wrong one of its left side."""
+    return (f"{left}{chosen}", left) if chosen else ()
 
 
 def _trap(spec: Spec, found: dict[str, str]) -> str:

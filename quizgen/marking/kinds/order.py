@@ -31,6 +31,7 @@ class Spec(Worded, kw_only=True, frozen=True):
     steps: list[str]
     before: list[tuple[str, str]] | None = None
     distractors: list[str] = msgspec.field(default_factory=list)
+    traps: dict[str, list[str]] = msgspec.field(default_factory=dict)
 
     def validate(self) -> None:
         """``before`` must speak of the steps and contain no circle."""
@@ -68,7 +69,9 @@ class Spec(Worded, kw_only=True, frozen=True):
             line = len(chosen) + 1
         elif note == "order-distractor":
             line = chosen.index(intruders[0]) + 1
-        return shared(min(credit, Fraction(9, 10)), read_as, note, line=line)
+        because = tuple(chosen[line - 1 : line])
+        known = _trap(self, chosen) or note
+        return shared(min(credit, Fraction(9, 10)), read_as, known, line=line, because=because)
 
     def show(self) -> str:
         """Return one right order."""
@@ -79,6 +82,10 @@ class Spec(Worded, kw_only=True, frozen=True):
             rest.remove(step)
             shown.append(step)
         return " ".join(shown)
+
+
+def _trap(spec: Spec, chosen: list[str]) -> str:
+    return next((f"trap:{name}" for name, order in spec.traps.items() if order == chosen), "")
 
 
 def followers(spec: Spec) -> dict[str, set[str]]:

@@ -8,7 +8,16 @@ from quizgen.marking.kinds.choice import Spec
 from quizgen.marking.mark import show as printed
 from quizgen.question.contract import Built, Control
 from quizgen.question.filling import Filler, plain
-from quizgen.question.specs import answer_of, complaint, holds, lettered, mixed, specification
+from quizgen.question.specs import (
+    answer_of,
+    complaint,
+    holds,
+    lettered,
+    mixed,
+    reasoned,
+    specification,
+    why,
+)
 
 
 def build(drawn: Draw, index: int) -> Built[Spec]:
@@ -26,10 +35,13 @@ def offered(drawn: Draw, index: int, control: Control) -> Built[Spec]:
     right = [place for place, name in enumerate(order, 1) if holds(drawn, conditions[name])]
     filler = Filler(drawn, drawn.template.languages[0])
     wordings = [plain(filler.sentence("options", name)) for name in order]
+    options = lettered(order)
+    given = {"options": wordings, "correct": right, "why": why(drawn, options)}
     return Built(
-        specification(Spec, drawn, index, options=wordings, correct=right),
+        specification(Spec, drawn, index, **given),
         control,
-        options=lettered(order),
+        options=options,
+        reasons=reasoned(drawn, options),
         right=tuple(("options", order[place - 1]) for place in right),
     )
 

@@ -7,12 +7,13 @@ from quizgen.locale import word
 from quizgen.marking.kinds.expression import Spec
 from quizgen.marking.mark import show as printed
 from quizgen.question.contract import Built
-from quizgen.question.specs import mistaken, specification
+from quizgen.question.specs import answer_of, mistaken, notes, specification
 
 
 def build(drawn: Draw, index: int) -> Built[Spec]:
     """The formula as it is written."""
-    spec = specification(Spec, drawn, index)
+    traps = answer_of(drawn, index).get("traps", {})
+    spec = specification(Spec, drawn, index, notes=notes(drawn, traps) if traps else {})
     return Built(spec, mistakes=mistaken(spec, "value"))
 
 

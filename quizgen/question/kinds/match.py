@@ -7,7 +7,7 @@ from quizgen.locale import word
 from quizgen.marking.kinds.match import Spec
 from quizgen.marking.mark import show as printed
 from quizgen.question.contract import Built, Control
-from quizgen.question.specs import answer_of, lettered, mixed, specification
+from quizgen.question.specs import answer_of, lettered, mixed, reasoned, specification, why
 
 
 def build(drawn: Draw, index: int) -> Built[Spec]:
@@ -18,10 +18,18 @@ def build(drawn: Draw, index: int) -> Built[Spec]:
     targets = sorted({*pairs.values(), *answer.get("distractors", ())})
     right = mixed(drawn, index, targets, "/right")
     places = {name: str(place) for place, name in enumerate(right, 1)}
-    spec = specification(
-        Spec, drawn, index, pairs={mark: places[pairs[name]] for mark, name in left}
+    named = [
+        *left,
+        *((f"{mark}{places[n]}", f"{name} = {n}") for mark, name in left for n in right),
+    ]
+    matched = {mark: places[pairs[name]] for mark, name in left}
+    return Built(
+        specification(Spec, drawn, index, pairs=matched, why=why(drawn, named)),
+        Control("pairs"),
+        options=left,
+        targets=tuple((places[n], n) for n in right),
+        reasons=reasoned(drawn, named),
     )
-    return Built(spec, Control("pairs"), options=left, targets=tuple((places[n], n) for n in right))
 
 
 def hints(_spec: Spec, lang: str) -> tuple[str, ...]:

@@ -1,0 +1,122 @@
+"""Why an option, a pair, an order or a formula is wrong: authored, said on marking, printed."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from quizgen.bank.folder import Bank
+from quizgen.marking.mark import mark
+from quizgen.marking.specs import as_table
+from quizgen.question.compose import compose
+
+RULES = """
+topic = "light"
+tier = "A"
+[[part]]
+answer = { kind = "multi", options = { cone = true, rod = false, iris = false } }
+[[part]]
+answer = { kind = "match", pairs = { red = "long", blue = "short" } }
+[[part]]
+answer = { kind = "order", steps = ["lens", "sensor", "file"], traps = { backwards = ["file", "sensor", "lens"] } }
+[[part]]
+answer = { kind = "expression", value = "f*X/Z", symbols = { f = "real", X = "real", Z = "real" }, traps = { inverted = "f*Z/X" } }
+[[part]]
+answer = { kind = "choice", options = { cone = true, rod = false } }
+"""
+
+PROSE = """# Eyes
+A stem.
+## a
+Which?
+## b
+Match.
+## c
+Order.
+## d
+Formula?
+## e
+Which one?
+## options
+- cone: cones
+- rod: rods
+- iris: the iris
+- red: red
+- blue: blue
+- long: long waves
+- short: short waves
+- lens: lens
+- sensor: sensor
+- file: file
+## traps
+- backwards: [{0}] You followed the light backwards.
+- inverted: [{0}] Depth stands below.
+## reasons
+- cone: [{0}] Three pigments.
+- rod: [{0}] Rods have one pigment.
+- red = short: [{0}] Red light has long waves.
+- file: [{0}] A file needs a sensor first.
+"""
+
+
+@pytest.fixture
+def parts(tmp_path):
+    folder = tmp_path / "templates" / "light" / "eyes"
+    folder.mkdir(parents=True)
+    (folder / "template.toml").write_text(RULES, "utf-8")
+    for lang in ("en", "bn"):
+        (folder / f"{lang}.md").write_text(PROSE.replace("{0}", lang), "utf-8")
+    question, key = compose(Bank(tmp_path, trusted=True).template("eyes"), 1, "en", figures=False)
+    specs = [json.loads(json.dumps(as_table(spec))) for spec in key.specs]
+    marks = [{n: m for m, n in names_of(part.field)} for part in question.parts]
+    return specs, marks, key.solution.parts
+
+
+def names_of(field):
+    """Each option's or target's mark, and its first word."""
+    return [(mark, text[0].text.split()[-1]) for mark, text in (*field.options, *field.targets)]
+
+
+def test_a_wrong_tick_gets_its_reason_in_the_learners_language(parts):
+    specs, marks, _ = parts
+    both = f"{marks[0]['cones']}, {marks[0]['rods']}"
+    assert "[en] Rods have one pigment." in mark(specs[0], both).message
+    assert "[bn] Rods" in mark(specs[0], both, lang="bn").message
+    assert "pigment" not in mark(specs[0], marks[0]["iris"]).message
+    assert mark(specs[4], marks[4]["rods"]).message == "[en] Rods have one pigment."
+
+
+def test_a_wrong_pair_gets_its_reason(parts):
+    (_, spec, *_), marks, _ = parts
+    left = {name: m for name, m in marks[1].items() if name in {"red", "blue"}}
+    places = spec["pairs"]
+    swapped = f"{left['red']}{places[left['blue']]} {left['blue']}{places[left['red']]}"
+    assert "[en] Red light has long waves." in mark(spec, swapped).message
+    assert "Red light" not in mark(spec, f"{left['blue']}{places[left['red']]}").message
+
+
+def test_a_wrong_order_gets_its_reason_or_its_mistake(parts):
+    specs, marks, _ = parts
+    lens, sensor, file = (marks[2][name] for name in ("lens", "sensor", "file"))
+    early = mark(specs[2], f"{lens} {file} {sensor}")
+    assert "[en] A file needs a sensor first." in early.message
+    backwards = mark(specs[2], f"{file} {sensor} {lens}")
+    assert backwards.note == "trap:backwards"
+    assert backwards.message == "[en] You followed the light backwards."
+
+
+def test_a_wrong_formula_gets_its_mistake(parts):
+    verdict = mark(parts[0][3], "f*Z/X")
+    assert (verdict.note, verdict.message) == ("trap:inverted", "[en] Depth stands below.")
+
+
+def test_the_solution_prints_them(parts):
+    _, marks, solved = parts
+    printed = [{m.name: m.value for m in part.mistakes} for part in solved]
+    assert printed[0] == {"rod": marks[0]["rods"]}, "not the right option's"
+    assert set(printed[1]) == {"red = short"}
+    assert set(printed[2]) == {"backwards", "file"}
+    assert set(printed[3]) == {"inverted"}
+    said = "".join(getattr(part, "text", "") for part in solved[4].options[0])
+    assert said == "cones: [en] Three pigments."
