@@ -2,19 +2,27 @@
 
 from __future__ import annotations
 
+import re
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
+from quizgen.cli.terminal import visible
 from quizgen.errors import KeyFileError
 from quizgen.locale import FIRST, languages
+from quizgen.marking.echo import safe
 
 if TYPE_CHECKING:
     from quizgen.paper.form import Answers
     from quizgen.paper.key import Key
     from quizgen.paper.marking import PaperResult
+
+PAGE = "exam.html"
+HEAD = 4096
+"""Bytes at the start of a page in which it says what paper it is of."""
 
 
 class Marked(NamedTuple):
@@ -39,15 +47,54 @@ def check(key: Path, answers: tuple[Path, ...], lang: str | None, **flags: bool)
     """Mark ANSWERS (answers.toml or answers.json, one or many) with KEY (key.json).
 
     One form prints a table with the mistake found in each part; several forms print CSV: marks and
-    notes per part, one line per student.
+    notes per part, one line per student. A form that cannot be read is named and the others are
+    marked. Exit codes: 0 every form was marked, 1 some were, 2 none.
     """
     from quizgen.paper.key import read_key
 
     paper = read_key(key)
-    marked = [_marked(paper, path, lang, settle=not flags["no_settle"]) for path in answers]
+    _belongs(key.parent / PAGE, paper)
+    marked = list(_all_marked(paper, answers, lang, settle=not flags["no_settle"]))
+    if marked:
+        _print(marked, flags, many=len(answers) > 1)
+    missing = len(answers) - len(marked)
+    if missing:
+        sys.exit(1 if marked else 2)
+
+
+def _belongs(page: Path, key: Key) -> None:
+    """Refuse a key that lies beside the page of another paper.
+
+    Raises
+    ------
+    KeyFileError
+        Naming the page.
+    """
+    try:
+        with page.open("rb") as stream:
+            head = stream.read(HEAD)
+    except OSError:
+        return
+    found = re.search(rb'data-paper="([0-9a-f]*)"', head)
+    if key.paper and found and found[1].decode() != key.paper:
+        raise KeyFileError(f"{page} is of another paper than the key beside it ({safe(key.code)})")
+
+
+def _all_marked(
+    key: Key, answers: tuple[Path, ...], lang: str | None, *, settle: bool
+) -> Iterator[Marked]:
+    """Mark each form that can be read, and say of each other why not."""
+    for path in answers:
+        try:
+            yield _marked(key, path, lang, settle=settle)
+        except KeyFileError as error:
+            click.echo(f"quizgen: {visible(' '.join(str(error).split()))}", err=True)
+
+
+def _print(marked: list[Marked], flags: dict[str, bool], *, many: bool) -> None:
     if flags["as_json"]:
         _print_json(marked)
-    elif flags["as_csv"] or len(marked) > 1:
+    elif flags["as_csv"] or many:
         from quizgen.paper.report import class_csv
 
         click.echo(class_csv([(one.file, one.name, one.result) for one in marked]), nl=False)
@@ -62,7 +109,11 @@ def _marked(key: Key, path: Path, lang: str | None, *, settle: bool) -> Marked:
     form = read_answers(path)
     if form.code and key.code and form.code != key.code:
         raise KeyFileError(
-            f"{path}: code {form.code} belongs to another paper; the key is for {key.code}"
+            f"{path}: code {safe(form.code)} belongs to another paper; the key is for {key.code}"
+        )
+    if form.paper and key.paper and form.paper != key.paper:
+        raise KeyFileError(
+            f"{path}: is for other questions than the key, though both are called {key.code}"
         )
     chosen = lang or _own(form, key)
     decimal = form.student.decimal

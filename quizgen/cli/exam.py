@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING, Unpack
 import click
 
 from quizgen import render
+from quizgen.cli.command import command
 from quizgen.cli.options import SEED, BankOptions, bank_options, checked, open_bank, split
-from quizgen.errors import CodeError
+from quizgen.cli.terminal import visible
+from quizgen.errors import ChoiceError, CodeError, RenderError
 from quizgen.locale import FIRST, choices
 
 if TYPE_CHECKING:
@@ -20,6 +22,10 @@ if TYPE_CHECKING:
     from quizgen.paper.paper import Paper
 
 KEY, FORM = "key.json", "answers.toml"
+HOME = Path("exam")
+"""Holds a folder for each paper, named by its code."""
+USUAL = "mock"
+"""The blueprint of who asks for none."""
 
 
 class Options(BankOptions):
@@ -27,19 +33,19 @@ class Options(BankOptions):
 
     seed: int | None
     code: str | None
-    blueprint: str
+    blueprint: str | None
     topic: str | None
     minutes: int | None
     lang: str | None
     formats: str
-    out: Path
+    out: Path | None
     reference: bool
 
 
 @click.command()
 @click.option("--seed", type=SEED, help="Number that fixes every draw.")
 @click.option("--code", help="Code of a paper: builds exactly that paper again.")
-@click.option("--blueprint", default="mock", show_default=True, help="mock, trial or a TOML file.")
+@click.option("--blueprint", help=f"mock, trial or a TOML file. [default: {USUAL}]")
 @click.option("--topic", help="Questions of one topic (or all), instead of a blueprint.")
 @click.option(
     "--minutes", type=click.IntRange(3, 9999), help="As many questions as this time allows."
@@ -49,38 +55,59 @@ class Options(BankOptions):
     "--format", "formats", default="html,pdf", show_default=True,
     help=f"Outputs, by comma: {', '.join(render.RENDERERS)}.",
 )  # fmt: skip
-@click.option("--out", type=click.Path(path_type=Path), default=Path("exam"), show_default=True,
-              help="Folder to write to.")  # fmt: skip
+@click.option("--out", type=click.Path(path_type=Path),
+              help=f"Folder to write to. [default: {HOME}/CODE]")  # fmt: skip
 @click.option("--reference", is_flag=True, help="The questions with the numbers of the notes.")
 @bank_options
 def exam(**options: Unpack[Options]) -> None:
     """Make a mock exam with worked solutions, answer key and a blank answer form."""
     from quizgen.files import write_all
-    from quizgen.paper.form import form_bytes, holds_answers
+    from quizgen.paper.form import form_bytes
     from quizgen.paper.key import key_bytes
 
     formats = [checked("--format", name, render.RENDERERS) for name in split(options["formats"])]
     paper = _paper(options)
+    folder = options["out"] or HOME / paper.code
+    kept = _filled_in(folder, paper)
     contents = dict(_rendered(paper, formats))
-    contents[KEY] = key_bytes(paper)
-    folder = options["out"]
-    kept = holds_answers(folder / FORM)
     if not kept:
         contents[FORM] = form_bytes(paper)
+    contents[KEY] = key_bytes(paper)
     write_all(folder, contents)
-    _report(folder, paper, contents, kept=kept)
+    _report(folder, paper, contents, options, kept=kept)
+
+
+def _filled_in(folder: Path, paper: Paper) -> bool:
+    """Whether the folder has a form with answers to this very paper.
+
+    Raises
+    ------
+    RenderError
+        If it has one with answers to another, which would be separated from its key.
+    """
+    from quizgen.paper.form import code_of_answers, holds_answers
+
+    for path in sorted(path for path in folder.glob("*") if path.suffix in {".toml", ".json"}):
+        code = code_of_answers(path)
+        unclear = path.name == FORM and not code and holds_answers(path)
+        if unclear or code not in {"", paper.code}:
+            what = f"holds answers to {visible(code)}" if code else "may hold answers"
+            raise RenderError(f"{path} {what}; nothing was written. Name another folder with --out")
+    return holds_answers(folder / FORM)
 
 
 def _paper(options: Options) -> Paper:
     from quizgen.paper.paper import build, rebuild, reference_paper
 
     bank = open_bank(options)
-    blueprint = _blueprint(options, bank)
     if options["code"]:
         if options["seed"] is not None or options["lang"]:
             raise CodeError("--code already fixes seed and language; leave --seed and --lang out")
-        given = blueprint if Path(options["blueprint"]).suffix else None
+        if options["topic"] is not None or options["minutes"] is not None:
+            raise CodeError("--code already fixes the questions; leave --topic and --minutes out")
+        given = _blueprint(options, bank) if options["blueprint"] else None
         return rebuild(bank, options["code"], given, progress=_tell)
+    blueprint = _blueprint(options, bank)
     lang = options["lang"] or FIRST
     if options["reference"]:
         return reference_paper(bank, blueprint, lang)
@@ -93,7 +120,9 @@ def _blueprint(options: Options, bank: Bank) -> Blueprint:
 
     topic, minutes = options["topic"], options["minutes"]
     if topic is None and minutes is None:
-        return load_blueprint(options["blueprint"], bank)
+        return load_blueprint(options["blueprint"] or USUAL, bank)
+    if options["blueprint"]:
+        raise ChoiceError("--blueprint names the questions; leave --topic and --minutes out")
     if topic is not None:
         checked("--topic", topic, topics(bank))
     return of_topic(bank, topic or EVERYTHING, minutes or 0)
@@ -114,7 +143,9 @@ def _rendered(paper: Paper, formats: list[str]) -> Iterator[tuple[str, bytes]]:
     click.echo("", err=True)
 
 
-def _report(folder: Path, paper: Paper, written: Collection[str], *, kept: bool) -> None:
+def _report(
+    folder: Path, paper: Paper, written: Collection[str], options: Options, *, kept: bool
+) -> None:
     for name in sorted(written):
         click.echo(f"  {folder / name}")
     if kept:
@@ -123,5 +154,21 @@ def _report(folder: Path, paper: Paper, written: Collection[str], *, kept: bool)
     click.echo(f"{count}, {float(paper.points):g} points, {paper.minutes} min")
     if paper.variety:
         click.echo(f"One of {paper.variety_text} papers that this blueprint can make")
-    click.echo(f"Code: {paper.code}   (quizgen exam --code {paper.code} makes this paper again)")
-    click.echo(f"Next: fill in {folder / FORM}, then: quizgen check {folder / KEY} {folder / FORM}")
+    again = command("exam", "--code", paper.code, *_again(options))
+    check = command("check", folder / KEY, folder / FORM)
+    click.echo(f"Code: {paper.code}")
+    click.echo(f"The same paper again: {again}")
+    click.echo(f"Next: fill in {folder / FORM}, then: {check}")
+    if "exam.html" in written:
+        page = command("check", folder / KEY, folder / "answers.json")
+        click.echo(f"  or fill in {folder / 'exam.html'}, save answers.json there, then: {page}")
+
+
+def _again(options: Options) -> list[str]:
+    """Options without which a code does not lead to the same paper."""
+    words: list[str] = []
+    if options["blueprint"] and Path(options["blueprint"]).exists():
+        words += ["--blueprint", options["blueprint"]]
+    if options["bank"]:
+        words += ["--bank", str(options["bank"])]
+    return words + ["--trust"] * options["trust"]

@@ -16,9 +16,6 @@ from quizgen.marking.options import DECIMALS
 if TYPE_CHECKING:
     from quizgen.paper.paper import Item, Paper
 
-LONGEST = 10_000
-"""Bits of the longest whole number that is taken as typed."""
-
 
 class Student(msgspec.Struct):
     """Who filled in the form, and how they write."""
@@ -43,14 +40,10 @@ class Answers(msgspec.Struct):
 
     def typed(self) -> dict[str, str]:
         """Texts as typed; a number written without quotes counts as its text."""
-        return {part: _as_text(value) for part, value in self.answers.items()}
-
-
-def _as_text(value: str | float | bool | None) -> str:
-    """A value as it was typed; Python writes no whole number of more than 4300 digits."""
-    if isinstance(value, int) and not isinstance(value, bool) and value.bit_length() > LONGEST:
-        return f"{value:#x}"
-    return "" if value is None else str(value).lower() if isinstance(value, bool) else str(value)
+        return {
+            part: "" if text is None else str(text).lower() if isinstance(text, bool) else str(text)
+            for part, text in self.answers.items()
+        }
 
 
 def form_bytes(paper: Paper) -> bytes:
@@ -98,6 +91,15 @@ def read_answers(path: Path) -> Answers:
         wrong = found.student.decimal
         raise KeyFileError(f"{path}: student.decimal {wrong!r} is not {', '.join(DECIMALS)}")
     return found
+
+
+def code_of_answers(path: Path) -> str:
+    """The code of a form that holds answers; empty for any other file."""
+    try:
+        form = read_answers(path)
+    except KeyFileError:
+        return ""
+    return "" if form.blank else form.code
 
 
 def holds_answers(path: Path) -> bool:

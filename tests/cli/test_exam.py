@@ -23,7 +23,8 @@ def run(*arguments: str, cwd: Path, **extra) -> subprocess.CompletedProcess:
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
     folder = tmp_path_factory.mktemp("paper")
-    result = run("exam", "--seed", "4", "--blueprint", "trial", "--lang", "both", cwd=folder)
+    result = run("exam", "--seed", "4", "--blueprint", "trial", "--lang", "both", "--out", "exam",
+                 cwd=folder)  # fmt: skip
     assert result.returncode == 0, result.stderr
     return folder, result
 
@@ -47,18 +48,58 @@ def test_the_code_rebuilds_the_same_bytes(made):
         assert (folder / "again" / name).read_bytes() == (folder / "exam" / name).read_bytes()
 
 
-def test_a_filled_in_form_is_never_overwritten(made, tmp_path):
-    run("exam", "--seed", "4", "--blueprint", "trial", "--format", "html", cwd=tmp_path)
-    form = tmp_path / "exam" / "answers.toml"
+def filled(form: Path) -> bytes:
     form.write_text(form.read_text().replace('"2" = ""', '"2" = "6,67"', 1))
-    kept = form.read_bytes()
+    return form.read_bytes()
+
+
+TRIAL = ("exam", "--blueprint", "trial", "--format", "html", "--seed")
+
+
+def test_a_paper_has_a_folder_of_its_own_named_by_its_code(tmp_path):
+    codes = []
+    for seed in "45":
+        result = run(*TRIAL, seed, cwd=tmp_path)
+        codes.append(re.search(r"Code: (\S+)", result.stdout)[1])
+    assert sorted(path.name for path in (tmp_path / "exam").iterdir()) == sorted(codes)
+    for code in codes:
+        assert code in (tmp_path / "exam" / code / "key.json").read_text()
+
+
+def test_a_filled_form_is_kept_beside_its_own_paper(tmp_path):
+    run(*TRIAL, "4", "--out", "o", cwd=tmp_path)
+    kept = filled(tmp_path / "o" / "answers.toml")
     assert b"6,67" in kept
-    result = run("exam", "--seed", "5", "--blueprint", "trial", "--format", "html", cwd=tmp_path)
-    assert result.returncode == 0
-    assert form.read_bytes() == kept
+    result = run(*TRIAL, "4", "--out", "o", cwd=tmp_path)
+    assert result.returncode == 0, result.stderr
     assert "left as it is" in result.stdout
+    assert (tmp_path / "o" / "answers.toml").read_bytes() == kept
+
+
+@pytest.mark.parametrize("name", ["answers.toml", "answers.json", "rahim.toml"])
+def test_a_filled_form_is_never_separated_from_its_key(tmp_path, name):
+    run(*TRIAL, "4", "--out", "o", cwd=tmp_path)
+    code = json.loads((tmp_path / "o" / "key.json").read_text())["code"]
+    form = tmp_path / "o" / name
+    if name.endswith("json"):
+        form.write_text(json.dumps({"code": code, "answers": {"2": "6,67"}}))
+    else:
+        form.write_bytes((tmp_path / "o" / "answers.toml").read_bytes())
+        filled(form)
+    before = {path.name: path.read_bytes() for path in (tmp_path / "o").iterdir()}
+    result = run(*TRIAL, "5", "--out", "o", cwd=tmp_path)
+    assert result.returncode == 2
+    assert f"holds answers to {code}; nothing was written" in result.stderr
+    assert {path.name: path.read_bytes() for path in (tmp_path / "o").iterdir()} == before
+
+
+def test_a_form_that_cannot_be_read_is_never_overwritten(tmp_path):
+    (tmp_path / "o").mkdir()
+    form = tmp_path / "o" / "answers.toml"
     form.write_text("half [ broken")
-    run("exam", "--seed", "6", "--blueprint", "trial", "--format", "html", cwd=tmp_path)
+    result = run(*TRIAL, "6", "--out", "o", cwd=tmp_path)
+    assert result.returncode == 2
+    assert "may hold answers" in result.stderr
     assert form.read_text() == "half [ broken"
 
 
@@ -85,6 +126,8 @@ MISTAKES = [
     (["exam", "--bank", "missing"], "no folder 'templates'"),
     (["exam", "--code", "trial-4-en-000000"], "other templates"),
     (["exam", "--code", "trial-4-en-000000", "--seed", "3"], "already fixes"),
+    (["exam", "--code", "trial-4-en-000000", "--topic", "optics"], "already fixes"),
+    (["exam", "--blueprint", "trial", "--topic", "optics"], "leave --topic"),
     (["preview", "Z99"], "unknown template"),
     (["frobnicate"], "No such command"),
 ]

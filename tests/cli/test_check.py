@@ -1,0 +1,86 @@
+"""Marking from files: one bad form stops no other, and what does not belong together is told."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+
+import pytest
+from click.testing import CliRunner
+
+from quizgen.cli.check import check
+from quizgen.paper.blueprint import load_blueprint
+from quizgen.paper.form import form_bytes
+from quizgen.paper.key import key_bytes
+from quizgen.paper.paper import build
+
+
+@pytest.fixture
+def folder(bank, tmp_path):
+    paper = build(bank, load_blueprint("trial"), 4, "en", figures=False)
+    (tmp_path / "key.json").write_bytes(key_bytes(paper))
+    (tmp_path / "answers.toml").write_bytes(form_bytes(paper))
+    return tmp_path
+
+
+def marked(folder, *names, options=()):
+    paths = [str(folder / name) for name in ("key.json", *names)]
+    return CliRunner().invoke(check, [*paths, *options])
+
+
+BAD = {
+    "empty.toml": b"",
+    "broken.toml": b"[answers\n",
+    "latin.toml": '[answers]\n"1" = "\u00e4"\n'.encode("latin-1"),
+    "other.toml": b'code = "trial-5-en-000000"\n[answers]\n',
+    "escape.toml": b'code = "\\u001b]0;pwned\\u0007"\n[answers]\n',
+    "deep.json": b'{"answers":' + b"[" * 100_000,
+    "huge.toml": b'[answers]\n"1a" = 0x' + b"f" * 5000 + b"\n",
+    "missing.toml": None,
+}
+
+
+def test_one_bad_form_stops_no_other(folder):
+    form = (folder / "answers.toml").read_text()
+    for name in ("ada.toml", "ben.toml"):
+        (folder / name).write_text(form.replace('name = ""', f'name = "{name[:3]}"', 1))
+    for name, data in BAD.items():
+        if data is not None:
+            (folder / name).write_bytes(data)
+    done = marked(folder, "ada.toml", *BAD, "ben.toml")
+    assert done.exit_code == 1
+    rows = list(csv.DictReader(io.StringIO(done.stdout)))
+    assert [row["name"] for row in rows] == ["ada", "ben"]
+    lines = done.stderr.splitlines()
+    assert [line.split(":")[0] for line in lines] == ["quizgen"] * len(BAD)
+    for name, line in zip(BAD, lines, strict=True):
+        assert name in line
+    assert "\x1b" not in done.stderr
+
+
+def test_only_bad_forms_are_exit_code_two(folder):
+    done = marked(folder, "missing.toml", "gone.toml")
+    assert done.exit_code == 2
+    assert done.stdout == ""
+
+
+def test_form_and_key_of_other_numbers_do_not_belong_together(folder):
+    form = folder / "answers.toml"
+    text = form.read_text()
+    assert 'paper = "' in text
+    form.write_text(text.replace('paper = "', 'paper = "00', 1))
+    done = marked(folder, "answers.toml")
+    assert done.exit_code == 2
+    assert "other questions than the key" in done.stderr
+
+
+def test_a_page_of_another_paper_beside_the_key_is_told(folder):
+    page = folder / "exam.html"
+    digest = json.loads((folder / "key.json").read_text())["paper"]
+    page.write_text(f'<!DOCTYPE html>\n<html lang="en" data-paper="{digest}">')
+    assert marked(folder, "answers.toml").exit_code == 0
+    page.write_text('<!DOCTYPE html>\n<html lang="en" data-paper="0123456789abcdef">')
+    done = marked(folder, "answers.toml")
+    assert done.exit_code != 0
+    assert "another paper" in str(done.exception)

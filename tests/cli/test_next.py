@@ -1,0 +1,85 @@
+"""What the program prints as the next command works as printed, from where the user stands."""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+OWN = """
+[title]
+en = "My optics"
+[[slot]]
+count = 1
+topic = "optics"
+"""
+
+
+def shell(line: str, cwd: Path, **extra: str) -> subprocess.CompletedProcess:
+    environment = {k: v for k, v in os.environ.items() if not k.startswith("UV")} | extra
+    environment["PATH"] = f"{Path(sys.executable).parent}{os.pathsep}{environment['PATH']}"
+    return subprocess.run(line, shell=True, cwd=cwd, capture_output=True, text=True, check=False,
+                          env=environment)  # fmt: skip
+
+
+def printed(done: subprocess.CompletedProcess) -> tuple[str, str]:
+    assert done.returncode == 0, done.stderr
+    again = re.search(r"again: (.*)", done.stdout)[1]
+    return again, re.search(r"then: (.*)", done.stdout)[1]
+
+
+@pytest.mark.parametrize("start", ["quizgen", f"{shlex.quote(sys.executable)} -m quizgen"])
+def test_the_commands_work_as_printed_with_an_own_blueprint(tmp_path, start):
+    folder = tmp_path / "exam papers"
+    folder.mkdir()
+    (folder / "mine.toml").write_text(OWN)
+    made = shell(f"{start} exam --blueprint mine.toml --format html --seed 3", folder)
+    again, check = printed(made)
+    assert again.startswith("quizgen " if start == "quizgen" else "python")
+    assert "--blueprint mine.toml" in again
+    checked = shell(check, folder)
+    assert checked.returncode == 0, checked.stderr
+    (key,) = folder.glob("exam/*/key.json")
+    before = key.read_bytes()
+    key.unlink()
+    rebuilt = shell(f"{again} --format html", folder)
+    assert rebuilt.returncode == 0, rebuilt.stderr
+    assert key.read_bytes() == before
+
+
+def test_paths_with_blanks_are_quoted(tmp_path):
+    made = shell("quizgen exam --blueprint trial --format html --seed 3 --out 'to night'", tmp_path)
+    _, check = printed(made)
+    assert "'to night/key.json'" in check
+    assert shell(check, tmp_path).returncode == 0
+
+
+def test_an_own_bank_is_named_with_its_trust(tmp_path):
+    bank = tmp_path / "my bank"
+    bank.mkdir()
+    for name in ("templates", "solvers"):
+        (bank / name).symlink_to(ROOT / name)
+    made = shell("quizgen exam --bank 'my bank' --trust --topic optics --minutes 9 --format html",
+                 tmp_path)  # fmt: skip
+    again, _ = printed(made)
+    assert "--bank 'my bank' --trust" in again
+    assert shell(f"{again} --format html", tmp_path).returncode == 0
+
+
+def test_after_uv_run_the_commands_begin_with_it(tmp_path, monkeypatch):
+    from quizgen.cli.command import command
+
+    monkeypatch.setenv("UV_RUN_RECURSION_DEPTH", "1")
+    monkeypatch.chdir(ROOT)
+    assert command("check", "a b") == "uv run quizgen check 'a b'"
+    monkeypatch.chdir(tmp_path)
+    home = Path(sys.prefix).parent
+    if (home / "pyproject.toml").exists():
+        expected = f"uv run --project {shlex.quote(str(home))} quizgen check x"
+        assert command("check", "x") == expected
