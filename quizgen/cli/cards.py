@@ -57,10 +57,10 @@ def cards(**options: Unpack[Options]) -> None:
         click.echo("Nothing to learn: no card fits.")
         return
     folder = options["out"]
-    written = write_all(folder, _contents(deck, formats))
-    if deck.media and set(formats) & {"tsv"}:
-        written += write_all(folder / "media", deck.media)[:1]
-    _report(deck, written)
+    made = _contents(deck, formats)
+    media = deck.media if "tsv" in formats else {}
+    write_all(folder, {**{f"media/{name}": data for name, data in media.items()}, **made})
+    _report(deck, [folder / name for name in made])
 
 
 def _deck(options: Options) -> Deck:

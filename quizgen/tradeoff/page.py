@@ -11,6 +11,7 @@ from pathlib import Path
 import jinja2
 from markupsafe import Markup
 
+from quizgen.files import write_all
 from quizgen.locale import language, languages
 from quizgen.render.fonts import bangla_uri
 from quizgen.tradeoff.data import as_data, markdown, words
@@ -34,18 +35,13 @@ _ROUNDING = 2.0**-53
 
 def write(report: Report, folder: Path, command: str) -> list[Path]:
     """Write the page, its data, a short table and one SVG per plot; return their paths."""
-    folder.mkdir(parents=True, exist_ok=True)
     plots = {family.name: family_plot(family, "en") for family in report.families}
     plots |= {key: knob_plot(key, curves, "en") for key, curves in report.knobs}
     made = {f"{name}.svg": svg for name, svg in plots.items()}
     made["tradeoff.json"] = json.dumps(as_data(report, command), indent=1) + "\n"
-    made["tradeoff.html"] = html(report, command)
     made["tradeoff.md"] = markdown(report, command)
-    paths = []
-    for name, text in made.items():
-        paths.append(folder / name)
-        paths[-1].write_text(text, encoding="utf-8")
-    return paths
+    made["tradeoff.html"] = html(report, command)
+    return write_all(folder, {name: text.encode() for name, text in made.items()})
 
 
 def html(report: Report, command: str) -> str:

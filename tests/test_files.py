@@ -1,0 +1,132 @@
+"""Sets of files appear together or not at all, whatever moment a run is killed at."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+from quizgen.files import STALE, write_all
+
+KILLED = """
+import os, signal, sys
+from pathlib import Path
+from quizgen.files import write_all
+left = int(sys.argv[2])
+def dying(name):
+    before = getattr(Path, name)
+    def step(self, *arguments, **options):
+        global left
+        if left == 0:
+            os.kill(os.getpid(), signal.SIGKILL)
+        left -= 1
+        return before(self, *arguments, **options)
+    setattr(Path, name, step)
+for name in ("rename", "replace", "unlink", "mkdir", "open"):
+    dying(name)
+write_all(Path(sys.argv[1]), {"a.html": b"new", "media/b.svg": b"new", "key.json": b"new"})
+"""
+NAMES = ("a.html", "media/b.svg", "key.json")
+
+
+def killed(folder, step: int) -> bool:
+    done = subprocess.run([sys.executable, "-c", KILLED, str(folder), str(step)], check=False)
+    return done.returncode != 0
+
+
+def found(folder) -> dict[str, bytes]:
+    return {name: (folder / name).read_bytes() for name in NAMES if (folder / name).exists()}
+
+
+def test_a_new_folder_appears_whole_wherever_the_run_is_killed(tmp_path):
+    steps = 0
+    while killed(tmp_path / str(steps), steps):
+        assert found(tmp_path / str(steps)) in ({}, dict.fromkeys(NAMES, b"new"))
+        steps += 1
+    assert steps > 6
+    assert found(tmp_path / str(steps)) == dict.fromkeys(NAMES, b"new")
+
+
+def test_the_last_file_never_stands_beside_others_of_another_set(tmp_path):
+    steps = 0
+    while True:
+        folder = tmp_path / str(steps)
+        write_all(folder, dict.fromkeys(NAMES, b"old"))
+        if not killed(folder, steps):
+            break
+        now = found(folder)
+        assert "key.json" not in now or len({*now.values()}) == 1
+        steps += 1
+    assert steps > 8
+    assert found(folder) == dict.fromkeys(NAMES, b"new")
+
+
+def test_what_killed_runs_left_behind_is_swept_when_it_is_old(tmp_path):
+    folder = tmp_path / "o"
+    write_all(folder, {"a": b""})
+    mark = "12-0123abcd.part"
+    old, young, other = (folder / name for name in (f".x.{mark}", f".y.{mark}", ".notes.part"))
+    for path in (old, young, other):
+        path.mkdir()
+        (path / "file").write_bytes(b"")
+    for path in (old, other):
+        os.utime(path, (0, 0))
+    write_all(folder, {"a": b""})
+    assert STALE >= 600
+    assert not old.exists()
+    assert young.exists()
+    assert other.exists()
+
+
+INTERRUPTED = """
+import signal, sys
+from pathlib import Path
+from quizgen.files import write_all
+before = Path.replace
+def step(self, target):
+    signal.raise_signal(signal.SIGINT)
+    return before(self, target)
+Path.replace = step
+try:
+    write_all(Path(sys.argv[1]), {"a": b"new", "b": b"new"})
+except KeyboardInterrupt:
+    sys.exit(130)
+"""
+
+
+def test_ctrl_c_waits_until_all_files_stand_where_they_belong(tmp_path):
+    folder = tmp_path / "o"
+    write_all(folder, {"a": b"old", "b": b"old"})
+    done = subprocess.run([sys.executable, "-c", INTERRUPTED, str(folder)], check=False)
+    assert done.returncode == 130
+    assert {path.name: path.read_bytes() for path in folder.iterdir()} == {"a": b"new", "b": b"new"}
+
+
+@pytest.mark.parametrize("formats", ["tsv", "apkg,tsv,csv"])
+def test_cards_and_their_pictures_are_one_set(tmp_path, monkeypatch, formats):
+    from click.testing import CliRunner
+
+    from quizgen import files
+    from quizgen.cli.cards import cards
+
+    sets = []
+    monkeypatch.setattr(
+        files, "write_all", lambda _folder, contents: sets.append(list(contents)) or []
+    )
+    options = [
+        "--kind",
+        "figure",
+        "--topic",
+        "distortion",
+        "--format",
+        formats,
+        "--out",
+        str(tmp_path),
+    ]
+    done = CliRunner().invoke(cards, options)
+    assert done.exit_code == 0, done.output
+    (names,) = sets
+    assert names[-1].startswith("quizgen.")
+    assert any(name.startswith("media/") for name in names)
