@@ -21,6 +21,7 @@ class Student(msgspec.Struct):
     """Who filled in the form, and how they write."""
 
     name: str = ""
+    matriculation: str = ""
     lang: str = ""
     decimal: str = "auto"
 
@@ -55,6 +56,7 @@ def form_bytes(paper: Paper) -> bytes:
         "",
         "[student]",
         'name = ""',
+        'matriculation = ""',
         f'lang = "{paper.langs[0]}"',
         'decimal = "auto"   # auto, point or comma',
         "",
