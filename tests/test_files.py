@@ -84,6 +84,7 @@ INTERRUPTED = """
 import signal, sys
 from pathlib import Path
 from quizgen.files import write_all
+signal.signal(signal.SIGINT, signal.default_int_handler)
 before = Path.replace
 def step(self, target):
     signal.raise_signal(signal.SIGINT)
