@@ -76,12 +76,23 @@ class Plan:
 
     def __init__(self, template: Template) -> None:
         self.template = template
+        self._check_order()
         self.variables = [self._variable(name) for name in template.rules.draw]
         conditions = list(self._conditions())
         drawn = {v.name for v in self.variables}
         self.early = [c for c in conditions if c.needs <= drawn]
         self.late = [c for c in conditions if not c.needs <= drawn]
         self.parts = [PartPlan(template, index) for index in range(len(template.rules.part))]
+
+    def _check_order(self) -> None:
+        known: set[str] = set()
+        for name, rule in self.template.rules.draw.items():
+            source = rule.formula or rule.by
+            unknown = names(self.template.formula(source)) - known if source else set()
+            if unknown:
+                place = f"{self.template.path / 'template.toml'}: draw.{name}"
+                raise BankError(f"{place}: uses {sorted(unknown)}, not drawn before it")
+            known.add(name)
 
     def _variable(self, name: str) -> _Variable:
         rule = self.template.rules.draw[name]

@@ -6,12 +6,13 @@ balls that exclude a tie; binary floating point never decides a digit.
 
 from __future__ import annotations
 
+import math
 import re
 from fractions import Fraction
 
 from flint import arb, fmpq, fmpz
 
-from quizgen.errors import FormulaError, Undecided
+from quizgen.errors import FormulaError, MathError, Undecided
 from quizgen.maths.precision import WIDE, working_precision
 from quizgen.maths.values import Value
 
@@ -105,6 +106,8 @@ def magnitude(value: Value) -> int:
     number = abs(to_float(value))
     if number == 0:
         return 0
+    if not math.isfinite(number):
+        raise MathError("too large to be written")
     guess = int(f"{number:e}".split("e")[1])  # may have been rounded up to a power of ten
     with working_precision(WIDE):
         return guess - 1 if abs(value) < fmpq(10) ** guess else guess
