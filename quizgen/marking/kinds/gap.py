@@ -81,7 +81,9 @@ _NUMBER = re.compile(
     r"(?:^|(?<=[\s,;(]))\(?"
     r"(?:(\d{1,2}) ?(?:[).:]\)?|=|→|-+>|[-–—](?=\D)|(?=[^\W\d]))|([a-h])[).])\s*"
 )
-_ENDING = re.compile(r"(.{6,}?)(?:ly|e|er|en|es|em)")
+_ENDINGS = ("ly", "e", "er", "en", "es", "em")
+LONG = 6
+"""Letters of a term that may take an ending."""
 _ENDS = " \t\r\n,;"
 _QUOTES = "[]{}“”„‘’«»\"'"
 _JOINED = re.compile(r"\s(?:and|und|এবং|ও)$")
@@ -94,7 +96,9 @@ def _words(typed: str, count: int) -> list[str]:
     if not typed.strip():
         raise ReadError("no-answer", 1)
     refuse_invisible(Source.of(typed.strip("\u200e\u200f\ufeff \r\n")), "\r\n\t" + _JOINERS)
-    typed = ANSWER.sub("", typed).strip()
+    typed = typed.strip()
+    if " " in typed or ":" in typed:
+        typed = ANSWER.sub("", typed)
     if count == 1:
         return [_NUMBERED.sub("", typed).strip(_ENDS + _QUOTES)]
     return _by_number(rewrite("digits", typed), count) or _in_a_row(typed, count)
@@ -165,13 +169,16 @@ def _nearest(word: str, gap: list[str], others: list[str]) -> Verdict:
 
 def _compact(word: str) -> str:
     """``C, M, Y, K`` is CMYK."""
-    return fold(re.sub(r"[\s,./·-]", "", word))
+    return fold(re.sub(r"[\s,./·-]", "", word)) if re.search(r"[,.·]", word) else ""
 
 
 def _inflected(word: str, right: set[str]) -> bool:
     """An adverb or an ending of German: ``additively``, ``additive Mischung`` without its noun."""
-    match = _ENDING.fullmatch(fold(word))
-    return match is not None and match[1] in right
+    whole = fold(word)
+    return any(
+        whole.endswith(end) and len(whole) - len(end) >= LONG and whole[: -len(end)] in right
+        for end in _ENDINGS
+    )
 
 
 def _holds_a_term(word: str, terms: list[str]) -> bool:

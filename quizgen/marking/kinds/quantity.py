@@ -44,6 +44,8 @@ class Spec(OneNumber, kw_only=True, frozen=True):
     def judge(self, typed: str, options: Options, /) -> Verdict:
         """Judge a typed quantity."""
         sides = read_sides(without_name(normalise(typed)), options.decimal)
+        if len(sides) == 1:
+            return _resolved(self, sides[0], options)
         return best(_resolved(self, side, options) for side in sides)
 
     def show(self) -> str:

@@ -66,7 +66,7 @@ def read_sides(source: Source, decimal: str) -> list[Side]:
 
 def sharpest(sides: list[Side]) -> Side:
     """The side that says most: an exact one, else the one with most decimals."""
-    return max(sides, key=lambda side: side.places)
+    return sides[0] if len(sides) == 1 else max(sides, key=lambda side: side.places)
 
 
 def _side(source: Source, decimal: str) -> Side:

@@ -60,9 +60,9 @@ def read_list(typed: str, count: int | None, decimal: str) -> tuple[list[Source]
 
 def even(source: Source) -> Source:
     """Take away blanks before separators, and put ``;`` for a word that joins values."""
-    if " " not in source.text:
-        return source
-    return source.sub(_BLANK_BEFORE, lambda _m: "").sub(_JOINING, lambda _m: "; ")
+    if " ," in source.text or " ;" in source.text or " |" in source.text:
+        source = source.sub(_BLANK_BEFORE, lambda _m: "")
+    return source.sub(_JOINING, lambda _m: "; ") if source.text.count(" ") > 1 else source
 
 
 def fronted(source: Source) -> tuple[list[str], Source]:

@@ -121,9 +121,10 @@ def normalise(typed: str, *, keep_x: bool = False, longest: int = LONGEST) -> So
         source = _fold(source)
     if latex.MARKS.search(source.text):
         source = latex.plain(source)
-    for name in _ALWAYS:
-        if not (keep_x and name == "x between numbers"):
-            source = source.sub(*REWRITES[name])
+    if not source.text[:1].isdigit():
+        source = source.sub(*REWRITES["answer"]).sub(*REWRITES["about"])
+    if not keep_x:
+        source = source.sub(*REWRITES["x between numbers"])
     source = source.strip()
     if not source.text:
         raise ReadError("no-answer", 1)
