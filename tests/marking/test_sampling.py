@@ -8,7 +8,13 @@ import pytest
 from flint import arb, fmpq
 
 from quizgen.marking.judging.proving import proved_equal
-from quizgen.marking.judging.sampling import Comparison, agree, compare, sample_points
+from quizgen.marking.judging.sampling import (
+    Comparison,
+    _relation,
+    agree,
+    compare,
+    sample_points,
+)
 from quizgen.maths.notation import parse
 
 
@@ -78,6 +84,7 @@ def test_values_agree_as_sharp_balls_only(first, second, same):
         ("2", "4/2", True, 1, "proved"),
         ("2", "3", False, 1, "proved"),
         ("sqrt(2)", "2^(1/2)", True, 1, "sampled"),
+        ("2", "sqrt(2)^2", True, 1, "sampled"),
         ("2", "1/0", False, 1, "domain"),
         ("2", "floor(sqrt(2)^2)", None, 0, "undecided"),
         ("floor(sqrt(2)^2)", "2", None, 0, "undecided"),
@@ -105,7 +112,24 @@ def test_a_formula_without_any_value_in_common_is_undecided():
 def test_a_common_factor_or_offset_is_found(typed, ratio, difference):
     found = compared("x", typed)
     assert (found.equal, found.ratio, found.difference) == (False, ratio, difference)
-    assert found.points == 1
+    assert (found.points, found.ground) == (1, "differs")
+
+
+@pytest.mark.parametrize(("points", "named"), [(2, False), (3, True), (4, True)])
+def test_a_factor_is_named_from_three_points_on(points, named):
+    """The root has a value at so many of the twelve points that are looked at."""
+    values = sorted((p["x"] for p in sample_points({"x": "real"})[:12]), reverse=True)
+    start = values[points - 1]
+    root = f"sqrt(x - {start.p}/{start.q} + 1/1000000)"
+    ratio = compared(root, f"2*{root}").ratio
+    assert ratio.contains(2) if named else ratio is None
+
+
+@pytest.mark.parametrize("odd", range(3))
+def test_a_factor_or_offset_is_that_of_every_point(odd):
+    pairs = [(fmpq(1), fmpq(3 if place == odd else 2)) for place in range(3)]
+    assert _relation(pairs) == (None, None)
+    assert _relation([(fmpq(1), fmpq(2))] * 3) == (2, 1)
 
 
 def test_no_factor_is_named_where_a_formula_vanishes():

@@ -132,7 +132,7 @@ def _sampled(
     for point in points:
         a, b = first(point), second(point)
         large += b is TooLargeError
-        if isinstance(a, type) or isinstance(b, type) or (a is None and b is None):
+        if isinstance(a, type) or isinstance(b, type):
             continue
         if a is None or b is None:
             apart += a is not None
