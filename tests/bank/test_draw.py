@@ -267,3 +267,12 @@ def test_a_formula_is_computed_in_full_whatever_precision_is_stated_around_it(tm
     one = draw(make_bank(tmp_path, BASE).template("mine"), 0)
     with working_precision(20):
         assert one.computed("sqrt(2)").rel_accuracy_bits() > 150
+
+
+def test_a_phrase_may_follow_a_drawn_number(tmp_path):
+    """Counted from 0 and round again: 1 is green, 2 blue, 3 red."""
+    toml = WORDS.replace('"blue"] }', '"blue"], by = "a" }')
+    template = make_bank(tmp_path, toml, en=PHRASES).template("mine")
+    for seed in range(12):
+        one = draw(template, seed)
+        assert one.words["w"] == ("red", "green", "blue")[int(one.shown["a"].p) % 3]

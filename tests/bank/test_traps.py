@@ -144,3 +144,11 @@ def test_a_mistake_that_is_the_key_itself_is_none_where_nothing_is_allowed_for(t
     """With p_x = 0 every way gives 0, and a hundredth of 0 is no room."""
     found = check(part(tmp_path, ", exact = true"), key=0.0, p_x=0.0)
     assert found == "trap 'divided-by-f' cannot be told from 'the key'"
+
+
+def test_mistakes_are_as_far_apart_as_they_are_written_down(tmp_path):
+    """5.4 and 7.45 are 2.05 apart, but 5 and 7 where whole numbers count within 2."""
+    twins = {"p_x": 21.6, "f": 21.6 / 7.45}
+    found = check(part(tmp_path / "a", ", decimals = 0, within = 2"), **twins)
+    assert found == "trap 'forgot-f' cannot be told from 'divided-by-f'"
+    assert sorted(check(part(tmp_path / "b", ", abs = 1"), **twins)) == list(ALL)

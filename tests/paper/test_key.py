@@ -110,3 +110,10 @@ def test_points_that_are_no_number_are_located(points, said):
 def test_another_format_is_named(found):
     with pytest.raises(KeyFileError, match=rf"^key: format is {found!r}, not 'quizgen-key/1'$"):
         load_key({**TABLE, "format": found})
+
+
+def test_a_wrong_file_is_named(tmp_path):
+    path = tmp_path / "mine.json"
+    path.write_text('{"format": "x"}')
+    with pytest.raises(KeyFileError, match=r"mine\.json: format is 'x'"):
+        read_key(path)

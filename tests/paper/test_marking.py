@@ -29,7 +29,7 @@ CHAIN = {
     "steps": [["h", "f*X/Z", "mm"], ["n", "h/pitch", "px"]],
 }
 KEY = {
-    "format": "quizgen-key/2",
+    "format": "quizgen-key/1",
     "code": "mock-1",
     "title": {"en": "Mock", "bn": "মক"},
     "langs": ["en", "bn"],
@@ -320,3 +320,11 @@ def test_a_wrong_chain_of_a_key_is_located():
     broken = {**first, "chain": {**CHAIN, "steps": [["h", "f*", "mm"]]}}
     with pytest.raises(KeyFileError, match=r"^key: question 1: chain: "):
         mark_paper({**KEY, "questions": [broken]}, {"1a": "1 mm"})
+
+
+def test_an_own_value_without_a_unit_is_carried_in_that_of_the_chain():
+    """A number asked in mm: 3.5 is 3.5 mm, which is 700 px of 5 µm."""
+    first = KEY["questions"][0]
+    bare = {"id": "1a", "points": "3", "spec": {"kind": "number", "value": "5/2", "of": ["h"]}}
+    key = {**KEY, "questions": [{**first, "parts": [bare, first["parts"][1]]}]}
+    assert [part.marks for part in mark_paper(key, {"1a": "3.5", "1b": "700"}).parts] == [0, 2]
