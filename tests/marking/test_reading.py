@@ -6,7 +6,7 @@ import pytest
 
 from quizgen.errors import KeyFileError
 from quizgen.marking.echo import safe
-from quizgen.marking.judging.wording import fold, nearest_terms
+from quizgen.marking.judging.wording import budget, fold, nearest_terms, slips
 from quizgen.marking.mark import mark
 from quizgen.marking.reading.formulas import FORMULA_REWRITES, read_formula
 from quizgen.marking.reading.literals import read_literal
@@ -226,3 +226,16 @@ def test_separators_of_lines_are_named_and_never_echoed(separator, kind):
 def test_a_key_without_a_value_is_refused():
     with pytest.raises(KeyFileError):
         mark({"kind": "expression", "value": "1/0", "symbols": {"x": "real"}}, "x")
+
+
+def test_terms_equally_near_are_returned_together():
+    assert nearest_terms("bloowing", ["blooming", "hue", "blooping"]) == (
+        ["blooming", "blooping"],
+        1,
+    )
+    assert nearest_terms("bloomng", ["blooping", "blooming"]) == (["blooming"], 1)
+
+
+def test_slips_allowed_grow_with_the_word():
+    assert [budget("a" * length) for length in (4, 5, 8, 9)] == [0, 1, 1, 2]
+    assert [slips("hue", "cat", most) for most in (1, 2, 3)] == [2, 3, 3]
