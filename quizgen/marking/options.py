@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cached_property
 
 import msgspec
 
@@ -31,10 +30,19 @@ class Context:
     chain: Chain
     given: Values
     earlier: Values = field(default_factory=dict)
+    _solved: list[Values] = field(init=False, repr=False, compare=False, default_factory=list)
 
-    @cached_property
+    @property
     def solved(self) -> Values:
-        """The right value of every quantity; empty if the chain does not fit the given numbers."""
+        """The right value of every quantity; empty if the chain does not fit the given numbers.
+
+        Kept in a list, since a cached property would wait for the precision under its own lock.
+        """
+        if not self._solved:
+            self._solved.append(self._all())
+        return self._solved[0]
+
+    def _all(self) -> Values:
         try:
             return self.chain.solve(self.given)
         except (MathError, KeyError):

@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+import json
+import sys
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
+from functools import cached_property
 
 import flint
 import mpmath
 import pytest
 
 from quizgen.bank.draw import draw
-from quizgen.bank.folder import builtin
+from quizgen.bank.folder import Bank, builtin
+from quizgen.marking.options import Context
+from quizgen.maths.precision import working_precision
 from quizgen.paper.blueprint import load_blueprint
-from quizgen.paper.key import key_bytes
+from quizgen.paper.key import key_bytes, load_key
+from quizgen.paper.marking import mark_paper
 from quizgen.paper.paper import build, single
 
 SEEDS = range(3)
@@ -117,3 +123,33 @@ def test_a_shown_value_is_computed_once(monkeypatch):
     text = one.text("N")
     monkeypatch.setitem(first, "N", None)
     assert one.text("N") == text
+
+
+def test_no_cached_property_states_a_precision(monkeypatch):
+    """A cached property has a lock of its own for all instances (up to Python 3.11): whoever waits
+    in it for the precision, while the one who holds that waits for the property, waits for ever."""
+    fill = cached_property.__get__.__code__
+    entered, faults = working_precision.__enter__, set()
+
+    def watched(self):
+        frame, below = sys._getframe(1), ""
+        while frame is not None:
+            if frame.f_code is fill:
+                faults.add(below)
+            frame, below = frame.f_back, frame.f_code.co_qualname
+        return entered(self)
+
+    monkeypatch.setattr(working_precision, "__enter__", watched)
+    bank = Bank(BANK.root, trusted=True)
+    for name in IRRATIONAL:
+        key = load_key(json.loads(key_bytes(single(bank.template(name), 7, "en", figures=False))))
+        mark_paper(key, {part.id: "1.25" for q in key.questions for part in q.parts})
+    assert not faults
+
+
+def test_every_number_of_a_question_is_solved_once(monkeypatch):
+    template = BANK.template("gaussian-peak-and-tail-shares")
+    context = Context(template.chain, dict(draw(template, 0).shown))
+    first = context.solved
+    monkeypatch.setattr(type(template.chain), "solve", None)
+    assert context.solved is first
