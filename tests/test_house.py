@@ -21,3 +21,10 @@ TREES = {path: ast.parse(path.read_text(encoding="utf-8")) for path in FILES}
 def test_no_long_file_and_no_long_function(path):
     assert path.read_text(encoding="utf-8").count("\n") <= 400
     assert not [f.name for f in measure.functions(TREES[path]) if measure.length(f) > 40]
+
+
+def test_few_parameters_are_typed_any():
+    found = [
+        a for tree in TREES.values() for f in measure.functions(tree) for a in measure.parameters(f)
+    ]
+    assert sum(map(measure.is_any, found)) <= 0.03 * len(found)
