@@ -4,6 +4,8 @@ The Python interface, in the order of the line: a bank of templates gives questi
 gives a paper, a key marks what was typed. Each name is loaded when it is first used;
 ``docs/api.md`` shows them at work.
 
+In: Python values. Out: questions, papers, verdicts. Must never know: a terminal.
+
 Examples
 --------
 >>> import quizgen

@@ -83,6 +83,15 @@ def test_every_package_has_its_layer():
     assert {package_of(path) for path in FILES} <= LAYERS.keys()
 
 
+PACKAGES = [path for path in MODULES.values() if path.name == "__init__.py"]
+
+
+@pytest.mark.parametrize("path", PACKAGES, ids=lambda p: str(p.relative_to(PACKAGE)))
+def test_a_package_says_what_comes_in_what_goes_out_and_what_it_must_never_know(path):
+    said = " ".join((ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or "").split())
+    assert [word for word in ("In: ", "Out: ", "Must never know: ") if word not in said] == []
+
+
 def test_layers_are_listed_from_the_ground_up():
     below: set[str] = set()
     for package, uses in LAYERS.items():

@@ -1,7 +1,9 @@
 """Stable array functions: the formulas of the chapter, right to the last digits for every input.
 
-In come Python numbers, lists and NumPy arrays that broadcast together; out go floats for scalar
-arguments, else arrays. One module per family of formulas, and below them:
+In: Python numbers, lists and NumPy arrays that broadcast together. Out: floats for scalar
+arguments, else arrays. Must never know: a question, a picture, SymPy.
+
+One module per family of formulas, and below them:
 
 * ``aliases``: the types that pass between the functions
 * ``domain``: where there is an answer, and what happens where there is none

@@ -1,8 +1,8 @@
 """A camera that simulates only what the scene calls for.
 
 In: a scene and a camera, as plain values or as a TOML file, and a budget in grey levels. Out: a
-picture, and a plan that says what ran, what was left out, why, and by how much that can matter. It
-never knows questions, languages or figures.
+picture, and a plan that says what ran, what was left out, why, and by how much that can matter.
+Must never know: questions, languages, figures.
 
 ``scene`` holds plain values, ``effects`` one module per effect, ``plan`` decides, ``simulate``
 runs. Pictures are float32 arrays (H, W, 3), linear until ``gamma``; importing needs NumPy only.

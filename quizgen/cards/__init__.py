@@ -1,9 +1,12 @@
 """Flashcards: one deck of terms, formulas, mistakes, statements, figures and questions.
 
+In: a bank, and a marked paper for cards of what went wrong. Out: notes, and files that Anki and
+other programs import. Must never know: how a paper is printed, how an answer is marked.
+
 ``build`` makes the notes, ``quizgen.cards.apkg.package`` writes them for Anki, and
 ``quizgen.cards.tables`` writes them for other programs. Every sentence of the content stands in
-``content/*.toml`` in English and Bangla; every formula is written once, in the grammar that
-students type, and printed by ``quizgen.typeset``.
+the bank (``templates/cards/*.toml``) in each of its languages; every formula is written
+once, in the grammar that students type, and printed by ``quizgen.typeset``.
 """
 
 from quizgen.cards.deck import Deck, build

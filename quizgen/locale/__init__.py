@@ -1,5 +1,8 @@
 """Words of each language: ``locale/<lang>/*.toml``, and nothing about a language in Python.
 
+In: a language and the name of a sentence. Out: the sentence with its blanks filled in. Must never
+know: what it is said about, which languages there are.
+
 A language is a folder. ``language.toml`` holds its name, its place in lists and its script; the
 other files hold its sentences:
 

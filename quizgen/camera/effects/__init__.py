@@ -1,5 +1,8 @@
 """The table of effects in physical order: light, lens, motion, sensor, raw development, edits.
 
+In: layers and a view of them. Out: layers, and bounds on what each effect can change. Must never
+know: the budget, the plan.
+
 Adding an effect is one module with an ``EFFECT``, and its import and its line here.
 """
 

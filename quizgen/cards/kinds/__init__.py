@@ -1,4 +1,8 @@
-"""Kinds of cards: one module each, one table."""
+"""Kinds of cards: one module each, one table.
+
+In: a wish (bank, languages, topics, seed). Out: notes, in the order of learning. Must never know:
+the program that shows them.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,8 @@
-"""The answer kinds: one module each, with a ``Spec`` that keeps to ``contract.Kind``."""
+"""The answer kinds: one module each, with a ``Spec`` that keeps to ``contract.Kind``.
+
+In: the fields of a key, and a typed text. Out: a verdict, and the key as it is printed. Must never
+know: the template and the draw that the key comes from, how a learner is asked.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,8 @@
-"""The one table of answer kinds on the asking side: a module each, see ``QuestionKind``."""
+"""The one table of answer kinds on the asking side: a module each, see ``QuestionKind``.
+
+In: a draw and the authored ``answer`` of a part. Out: a ``Built``: the specification, how it is
+answered, what each mistake would give. Must never know: an output, a paper.
+"""
 
 from __future__ import annotations
 
