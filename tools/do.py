@@ -1,0 +1,44 @@
+"""The five commands that people use: ``uv run python tools/do.py test|style|proof|speed|pins``."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+COMMANDS: dict[str, tuple[list[str], ...]] = {
+    "test": (["pytest"],),
+    "style": (
+        ["ruff", "check"],
+        ["ruff", "format", "--check", "quizgen", "solvers", "tests", "benchmarks", "tools"],
+        ["mypy"],
+        [sys.executable, "tools/measure.py"],
+    ),
+    "proof": (["quizgen", "lint", "--seeds", "1000"],),
+    "speed": (
+        [sys.executable, "benchmarks/papers.py"],
+        [sys.executable, "benchmarks/marking.py"],
+    ),
+    "pins": ([sys.executable, "tools/pin.py"],),
+}
+"""What to type, and what it runs: tests; style, types, lengths; every draw; ratios; versions."""
+
+
+def main(names: list[str]) -> int:
+    """Run the commands of each name; the first that fails ends it."""
+    unknown = [name for name in names if name not in COMMANDS]
+    if unknown or not names:
+        print(f"usage: tools/do.py {'|'.join(COMMANDS)}", file=sys.stderr)
+        return 2
+    return next(
+        (
+            code
+            for name in names
+            for command in COMMANDS[name]
+            if (code := subprocess.run(command, check=False).returncode)
+        ),
+        0,
+    )
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
