@@ -95,7 +95,7 @@ def command(places, *arguments):
     [
         ["preview", "point-to-image-plane"],
         ["practice", "--count", "1", "--fresh"],
-        ["exam", "--topic", "projection", "--format", "html"],
+        ["exam", "--topic", "projection", "--format", "html", "--out", "exam"],
     ],
     ids=lambda a: a[0],
 )
