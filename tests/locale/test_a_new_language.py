@@ -74,7 +74,7 @@ def test_languages_are_the_folders(place, known):
 
 def test_pages_are_in_the_language(paper):
     page = (paper / "solutions.html").read_text(encoding="utf-8")
-    assert f'<html lang="{LANG}">' in page
+    assert f'<html lang="{LANG}" ' in page
     for english in ("Mock exam", "Worked solutions", "Sanity check", "Thin lens: where is the image?"):  # fmt: skip
         assert english not in page
     for english in ("Mock exam", "Worked solutions", "Thin lens: where is the image?"):

@@ -90,7 +90,7 @@ _TERMS = frozenset({
     "increase", "decrease", "increases", "decreases", "increasing", "decreasing", "inverse",
     "reverse", "converse", "affect", "effect", "additive", "adaptive", "addictive",
     "subtractive", "aberration", "defocus", "focus", "translation", "transition", "rotation",
-    "notation", "projection", "protection", "detection", "objection", "injection", "resolution",
+    "notation", "protection", "detection", "objection", "injection", "resolution",
     "revolution", "solution", "dilution", "illumination", "elimination", "luminance",
     "illuminance", "luminosity", "radiance", "irradiance", "radiation", "contrast", "constant",
     "content", "extent", "intensity", "density", "magnification", "minification",
@@ -100,8 +100,8 @@ _TERMS = frozenset({
     "deblurring", "noising", "denoising", "photon", "proton", "phonon", "electron", "neutron",
     "rod", "cone", "near", "far", "nearsighted", "farsighted", "myopia", "hyperopia", "myopic",
     "hyperopic", "monochromatic", "dichromatic", "trichromatic", "chromatic", "achromatic",
-    "photopic", "scotopic", "mesopic", "quantisation", "quantization", "normalisation",
-    "normalization", "binarisation", "equalisation", "equalization", "linear", "nonlinear",
+    "photopic", "scotopic", "mesopic", "quantisation", "quantization",
+    "binarisation", "equalisation", "equalization", "linear", "nonlinear",
 })  # fmt: skip
 """Words of the subject that differ by a letter or two: none of them is another's misspelling."""
 
