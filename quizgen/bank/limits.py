@@ -43,6 +43,7 @@ class Answer(msgspec.Struct, frozen=True):
     gaps: tuple[str, ...] = ()
     points: tuple[str, ...] = ()
     true: bool | str = True
+    claim: str = ""
     cells: dict[str, dict[str, bool | Scalar]] = {}
     accept: tuple[Scalar, Scalar] | None = None
     traps: dict[str, Any] = {}

@@ -21,7 +21,9 @@ from quizgen.question.contract import Built, Named, S
 from quizgen.question.filling import Filler, plain
 
 LETTERS = "ABCDEFGHIJKL"
-OWN_KEYS = frozenset({"of", "options", "pairs", "steps", "before", "distractors", "gaps", "true"})
+OWN_KEYS = frozenset(
+    {"of", "options", "pairs", "steps", "before", "distractors", "gaps", "true", "claim"}
+)
 """Keys of an authored answer that a builder replaces; all others are handed on as they are."""
 ROUNDED_MISTAKE = 4
 """Significant figures of a mistake's answer that has no short exact form."""

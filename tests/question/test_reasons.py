@@ -24,6 +24,11 @@ answer = { kind = "order", steps = ["lens", "sensor", "file"], traps = { backwar
 answer = { kind = "expression", value = "f*X/Z", symbols = { f = "real", X = "real", Z = "real" }, traps = { inverted = "f*Z/X" } }
 [[part]]
 answer = { kind = "choice", options = { cone = true, rod = false } }
+[[part]]
+answer = { kind = "tf", true = "n = 0", claim = "claim" }
+[draw]
+n = { pick = [1] }
+claim = { words = ["few", "many"], by = "n" }
 """
 
 PROSE = """# Eyes
@@ -38,6 +43,11 @@ Order.
 Formula?
 ## e
 Which one?
+## f
+{{ claim }}
+## words
+- few: Rods have one pigment.
+- many: Rods have three.
 ## options
 - cone: cones
 - rod: rods
@@ -57,6 +67,7 @@ Which one?
 - rod: [{0}] Rods have one pigment.
 - red = short: [{0}] Red light has long waves.
 - file: [{0}] A file needs a sensor first.
+- many: [{0}] Rods have {{ n }}, no: one.
 """
 
 
@@ -111,6 +122,13 @@ def test_a_wrong_formula_gets_its_mistake(parts):
     assert (verdict.note, verdict.message) == ("trap:inverted", "[en] Depth stands below.")
 
 
+def test_a_wrong_truth_gets_the_reason_of_the_claim(parts):
+    spec = parts[0][5]
+    assert mark(spec, "true").message == "[en] Rods have 1, no: one."
+    assert mark(spec, "মিথ্যা", lang="bn").verdict == "correct"
+    assert mark(spec, "সত্য", lang="bn").message == "[bn] Rods have 1, no: one."
+
+
 def test_the_solution_prints_them(parts):
     _, marks, solved = parts
     printed = [{m.name: m.value for m in part.mistakes} for part in solved]
@@ -120,3 +138,4 @@ def test_the_solution_prints_them(parts):
     assert set(printed[3]) == {"inverted"}
     said = "".join(getattr(part, "text", "") for part in solved[4].options[0])
     assert said == "cones: [en] Three pigments."
+    assert [part.text for part in solved[5].options[0]] == ["[en] Rods have ", "1", ", no: one."]
