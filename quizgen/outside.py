@@ -14,6 +14,7 @@ import stat
 import tomllib
 import unicodedata
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TypeAlias
 
@@ -59,6 +60,31 @@ def named(text: str, what: str, error: Failure) -> str:
     if is_name(text):
         return text
     raise error(f"{what}: {text[:LONGEST_NAME]!r} is no name (allowed: {NAMES})")
+
+
+@contextmanager
+def located(file: Path | None, kind: Failure = QuizgenError) -> Iterator[None]:
+    """Have errors about what stands in a file name the file.
+
+    An error that names the file already, or another of its folder, stays as it is.
+
+    Parameters
+    ----------
+    file : pathlib.Path or None
+        None where there is no file.
+    kind : type
+        The errors that are about it.
+    """
+    try:
+        yield
+    except kind as error:
+        if file and not _names(str(error), file):
+            error.args = (f"{file}: {error}", *error.args[1:])
+        raise
+
+
+def _names(message: str, file: Path) -> bool:
+    return str(file) in message or f"{file.parent}{os.sep}" in message
 
 
 def defused(cell: str) -> str:

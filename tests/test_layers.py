@@ -26,7 +26,7 @@ LAYERS = {
     "camera": "errors outside files png maths arrays",
     "figures": "errors png locale arrays camera",
     "marking": "errors locale maths",
-    "question": "errors locale maths typeset bank figures marking",
+    "question": "errors outside locale maths typeset bank figures marking",
     "paper": "errors outside files locale maths bank marking question",
     "practice": "errors outside files locale maths bank marking question paper",
     "render": "errors outside files locale typeset bank question paper",

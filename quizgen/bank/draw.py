@@ -24,6 +24,7 @@ from quizgen.maths.precision import working_precision
 from quizgen.maths.systems import compile_expr, exact
 from quizgen.maths.units import factor
 from quizgen.maths.values import Value, Values
+from quizgen.outside import located
 
 SHOWN_FIGURES = 6
 """Significant figures of a shown value that has no short exact form."""
@@ -133,7 +134,8 @@ def draw(template: Template, seed: str | int, slot: str | int = "0") -> Draw:
     DrawError
         If no try within ``MAX_TRIES`` is admissible; names the condition met most often.
     """
-    return _first(plan_of(template), str(seed), str(slot))
+    with located(template.file):
+        return _first(plan_of(template), str(seed), str(slot))
 
 
 @working_precision()
@@ -150,10 +152,7 @@ def _first(plan: Plan, seed: str, slot: str) -> Draw:
             return Draw(template, seed, slot, attempt + 1, shown, words, values, traps)
         reasons[result] += 1
     worst, count = reasons.most_common(1)[0]
-    raise DrawError(
-        f"template {template.id!r}: no admissible draw in {MAX_TRIES} tries; "
-        f"{worst!r} rejected {count} of them"
-    )
+    raise DrawError(f"no admissible draw in {MAX_TRIES} tries; {worst!r} rejected {count} of them")
 
 
 def reference(template: Template) -> Draw:
@@ -167,7 +166,8 @@ def reference(template: Template) -> Draw:
     given = template.rules.reference
     if given is None:
         raise DrawError(f"template {template.id!r} has no reference instance")
-    return _referred(plan_of(template), given)
+    with located(template.file):
+        return _referred(plan_of(template), given)
 
 
 @working_precision()
@@ -183,6 +183,6 @@ def _referred(plan: Plan, given: Mapping[str, Scalar]) -> Draw:
             variable.derive(shown, words)
     result = admissible(plan, shown, lenient=True)
     if isinstance(result, str):
-        raise DrawError(f"template {template.id!r}: reference instance: {result}")
+        raise DrawError(f"reference instance: {result}")
     values, traps = result
     return Draw(template, "reference", "0", 1, shown, words, values, traps)

@@ -28,7 +28,7 @@ from quizgen.errors import BankError, QuizgenError
 from quizgen.locale import languages
 from quizgen.maths.chain import Chain
 from quizgen.maths.model import Model
-from quizgen.outside import NAMES, is_name, named, read_bytes
+from quizgen.outside import NAMES, is_name, located, named, read_bytes
 
 PROSE = re.compile(r"[a-z]{2,3}\.md")
 """What a language's file is called."""
@@ -51,6 +51,10 @@ def mount(folder: Path, name: str) -> None:
 def solver_module(name: str) -> ModuleType:
     """A module of the built-in solvers, for example ``colour/rgb_to_hsv``."""
     return builtin().solver(name)
+
+
+class _SolverError(BankError):
+    """A template asks for a solver that is not there."""
 
 
 class Bank:
@@ -154,12 +158,12 @@ class Bank:
             If it does not exist or fails, or the bank has solvers of its own and is not trusted.
         """
         if not all(map(is_name, name.split("/"))):
-            raise BankError(f"solver: {name!r} is no name (allowed: {NAMES}, folders by '/')")
+            raise _SolverError(f"solver: {name!r} is no name (allowed: {NAMES}, folders by '/')")
         file = self.root / "solvers" / f"{name}.py"
         if not file.exists():
             if self.root != builtin_root():
                 return builtin().solver(name)
-            raise BankError(f"{file}: no such solver")
+            raise _SolverError(f"solver {file}: no such solver")
         if not self.trusted:
             raise BankError(f"{file}: this bank brings its own Python; allow it with --trust")
         with authored(file):
@@ -168,7 +172,7 @@ class Bank:
     def rules(self, name: str) -> Rules:
         """Checked ``template.toml`` of a template, without loading solver or prose."""
         if name not in self._rules:
-            path = self._folder(name) / "template.toml"
+            path = self.folder_of(name) / "template.toml"
             rules = read_rules(path)
             if rules.topic not in (self.about.topics or {rules.topic}):
                 allowed = ", ".join(self.about.topics)
@@ -189,10 +193,18 @@ class Bank:
             If it is unknown or wrong; names the file and the place.
         """
         if name not in self._templates:
-            self._templates[name] = self._load(name)
+            with located(self.folder_of(name) / "template.toml", _SolverError):
+                self._templates[name] = self._load(name)
         return self._templates[name]
 
-    def _folder(self, name: str) -> Path:
+    def folder_of(self, name: str) -> Path:
+        """Folder of a template.
+
+        Raises
+        ------
+        BankError
+            If there is none of this name; tells similar ones.
+        """
         if name not in self.paths:
             raise BankError(f"unknown template {name!r}{self._hint(name)}")
         return self.paths[name]
@@ -209,10 +221,12 @@ class Bank:
         return tuple(path.stem for path in self._prose(name))
 
     def _prose(self, name: str) -> list[Path]:
-        return [path for path in sorted(self._folder(name).iterdir()) if PROSE.fullmatch(path.name)]
+        return [
+            path for path in sorted(self.folder_of(name).iterdir()) if PROSE.fullmatch(path.name)
+        ]
 
     def _load(self, name: str) -> Template:
-        folder = self._folder(name)
+        folder = self.folder_of(name)
         rules = self.rules(name)
         prose = self._prose(name)
         files = [folder / "template.toml", *prose]

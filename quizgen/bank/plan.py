@@ -47,7 +47,7 @@ class _Variable:
 
     def derive(self, shown: dict[str, fmpq], words: dict[str, str]) -> None:
         """Set the quantity, or the phrase at the place that the formula counts from 0."""
-        value = self.formula(shown) if self.formula else fmpq(0)
+        value = self._counted(shown)
         if isinstance(value, bool):
             raise BankError(f"{self.place}: a condition, where a number is needed")
         if self.words:
@@ -56,6 +56,12 @@ class _Variable:
             words[self.name] = self.words[int(value.floor()) % len(self.words)]
         else:
             shown[self.name] = value
+
+    def _counted(self, shown: dict[str, fmpq]) -> Value:
+        try:
+            return self.formula(shown) if self.formula else fmpq(0)
+        except (MathError, ZeroDivisionError, OverflowError) as error:
+            raise BankError(f"{self.place}: {error}") from error
 
 
 @dataclass(frozen=True)
@@ -90,7 +96,7 @@ class Plan:
             source = rule.formula or rule.by
             unknown = names(self.template.formula(source)) - known if source else set()
             if unknown:
-                place = f"{self.template.path / 'template.toml'}: draw.{name}"
+                place = f"{self.template.file}: draw.{name}"
                 raise BankError(f"{place}: uses {sorted(unknown)}, not drawn before it")
             known.add(name)
 
@@ -99,7 +105,7 @@ class Plan:
         source = rule.formula or rule.by
         formula = compile_inner(self.template.formula(source), exact()) if source else None
         listed = () if source else candidates(rule.pick, rule.range, rule.skip)
-        place = f"{self.template.path / 'template.toml'}: draw.{name}"
+        place = f"{self.template.file}: draw.{name}"
         if not (source or listed or rule.words):
             raise BankError(f"{place}: no value is left")
         return _Variable(place, name, listed, rule.words, formula)

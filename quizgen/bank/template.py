@@ -61,6 +61,11 @@ class Template:
         return self.rules.formerly or self.id
 
     @property
+    def file(self) -> Path:
+        """What the rules were read from."""
+        return self.path / "template.toml"
+
+    @property
     def languages(self) -> tuple[str, ...]:
         """Languages the template is written in."""
         return tuple(self.texts)
@@ -104,12 +109,10 @@ class Template:
         try:
             expr = parse(text, symbols=tuple(self.units))
         except FormulaError as error:
-            raise BankError(f"{self.path / 'template.toml'}: formula {text!r}: {error}") from error
+            raise BankError(f"{self.file}: formula {text!r}: {error}") from error
         unknown = names(expr) - set(self.units)
         if unknown:
-            raise BankError(
-                f"{self.path / 'template.toml'}: formula {text!r} uses unknown {sorted(unknown)}"
-            )
+            raise BankError(f"{self.file}: formula {text!r} uses unknown {sorted(unknown)}")
         return expr
 
 
@@ -165,7 +168,7 @@ def check_against_chain(template: Template) -> None:
     BankError
         If a drawn or kept quantity is unknown, or a given one is not drawn.
     """
-    path, rules = template.path / "template.toml", template.rules
+    path, rules = template.file, template.rules
     missing = set(template.chain.given) - set(rules.draw)
     if missing:
         raise BankError(f"{path}: draw lacks {sorted(missing)}, given in solver {rules.solver!r}")

@@ -22,6 +22,7 @@ from quizgen.camera.facts import NO_ERROR, Error, Facts, coarse, glimpsed, measu
 from quizgen.camera.filters import opencv
 from quizgen.camera.scene import Scene, SceneError
 from quizgen.camera.view import View
+from quizgen.outside import located
 
 BUDGETS = {"same": 0.5, "visible": 2.0, "sketch": 8.0}
 """Named budgets in 8-bit grey levels."""
@@ -299,7 +300,12 @@ def plan(
     prepared = scene if isinstance(scene, Prepared) else Prepared(scene, camera or Camera())
     given, limit = prepared.given, read_budget(budget)
     asked = wanted(question, given.scene)
-    present, absent = _sorted_out(given)
+    with located(given.scene.file):
+        return _planned(prepared, asked, limit)
+
+
+def _planned(prepared: Prepared, asked: frozenset[str], limit: float) -> Plan:
+    present, absent = _sorted_out(prepared.given)
     if not present:
         return Plan((), (), absent, 0.0, 0.0, limit)
     units = _units(present, asked)
@@ -311,7 +317,8 @@ def everything(scene: Scene | Prepared, camera: Camera | None = None) -> Plan:
     """The plan that runs every present effect exactly."""
     prepared = scene if isinstance(scene, Prepared) else Prepared(scene, camera or Camera())
     present, absent = _sorted_out(prepared.given)
-    used, view = opencv() is not None, prepared.view
+    with located(prepared.given.scene.file):
+        used, view = opencv() is not None, prepared.view
     steps = tuple(
         Step(effect.name, EXACT, "everything", math.nan, effect.cost(view, EXACT, used))
         for effect in present

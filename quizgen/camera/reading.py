@@ -216,7 +216,7 @@ def _scene(file: _File, things: tuple[Thing, ...]) -> Scene:
         if nearness.shape[:2] != shape:
             raise file.fail("scene", 0, "depth_map", "a depth map needs an image of its size")
         values["depth"] = _depths(nearness, near, far)
-    return Scene(things=things, **values)
+    return Scene(things=things, file=file.path, **values)
 
 
 def _depths(nearness: NDArray[np.float64], near: float, far: float) -> Image:

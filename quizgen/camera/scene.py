@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, fields
 from functools import cached_property
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -116,6 +117,8 @@ class Scene:
         Seed of every random effect.
     title : str
         Shown by the command line.
+    file : pathlib.Path or None
+        What it was read from: errors that show only when it is photographed name it.
     """
 
     width: int = 640
@@ -128,6 +131,7 @@ class Scene:
     question: tuple[str, ...] = ()
     seed: int = 0
     title: str = ""
+    file: Path | None = None
 
     @property
     def metric(self) -> bool:

@@ -16,6 +16,7 @@ from quizgen.camera.facts import EXCEEDED
 from quizgen.camera.filters import warm_up
 from quizgen.camera.plan import GREY_LEVELS, Plan, Prepared, everything, plan
 from quizgen.camera.scene import Image, Scene
+from quizgen.outside import located
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,6 +52,11 @@ class Photo:
 
 def run(prepared: Prepared, what: Plan) -> Photo:
     """Run the steps of a plan on a scene."""
+    with located(prepared.given.scene.file):
+        return _run(prepared, what)
+
+
+def _run(prepared: Prepared, what: Plan) -> Photo:
     if what.steps:
         warm_up()
     started = perf_counter()

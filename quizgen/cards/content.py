@@ -22,18 +22,27 @@ from quizgen.outside import parse_toml, read_text
 Tier = Literal["A", "B", "C", "D"]
 
 
+_FROM = "/file"
+"""Under what name an entry is told its file; no key of a file is taken for it."""
+
 Passage = dict[str, str]
 """One sentence or passage: language to text."""
 
 
 class Entry(msgspec.Struct, forbid_unknown_fields=True, frozen=True, kw_only=True):
-    """What every entry has."""
+    """What every entry has, and the file that it was read from."""
 
     id: str
     topic: str
     tier: Tier
     section: str
     refs: tuple[str, ...] = ()
+    file: str = msgspec.field(default="", name=_FROM)
+
+    @property
+    def place(self) -> str:
+        """Where it stands, for errors."""
+        return f"{self.file}: entry {self.id!r}"
 
 
 class Term(Entry, frozen=True, kw_only=True):
@@ -137,9 +146,10 @@ def load(source: str, kind: type[E], where: str, langs: tuple[str, ...] = ()) ->
 
 def _entry(row: dict[str, object], kind: type[E], where: str, langs: tuple[str, ...]) -> E:
     try:
-        entry = msgspec.convert(row, kind)
+        entry = msgspec.convert({**row, _FROM: where}, kind)
     except msgspec.ValidationError as error:
-        allowed = ", ".join(sorted(field.encode_name for field in msgspec.structs.fields(kind)))
+        names = {field.encode_name for field in msgspec.structs.fields(kind)}
+        allowed = ", ".join(sorted(names - {_FROM}))
         hint = f" (allowed: {allowed})" if "unknown field" in str(error) else ""
         raise BankError(f"{where}: entry {row.get('id', '?')!r}: {error}{hint}") from error
     for name in passages(kind):
@@ -166,8 +176,8 @@ def entries(bank: Bank, kind: type[E]) -> tuple[E, ...]:
     (name,) = (name for name, entry in KINDS.items() if entry is kind)
     if name not in bank.cards:
         return ()
-    source = read_text(bank.cards[name], BankError)
-    return load(source, kind, f"{name}.toml", bank.languages)
+    file = bank.cards[name]
+    return load(read_text(file, BankError), kind, str(file), bank.languages)
 
 
 def words(lang: str) -> dict[str, str]:
@@ -181,13 +191,13 @@ def passage(entry: Entry, name: str, lang: str) -> tuple[Block, ...]:
     Raises
     ------
     BankError
-        Naming entry, field, language and column.
+        Naming file, entry, field, language and column.
     """
     texts: Passage = getattr(entry, name)
     try:
         return fill_blocks(blocks(in_language(texts, lang, "")), _printed, _no_program)
     except BankError as error:
-        raise BankError(f"card {entry.id!r}, {name}.{lang}: {error}") from error
+        raise BankError(f"{entry.place}: {name}.{lang}: {error}") from error
 
 
 def sentence(entry: Entry, name: str, lang: str) -> tuple[Inline, ...]:
@@ -196,13 +206,13 @@ def sentence(entry: Entry, name: str, lang: str) -> tuple[Inline, ...]:
     Raises
     ------
     BankError
-        Naming entry, field, language and column.
+        Naming file, entry, field, language and column.
     """
     texts: Passage = getattr(entry, name)
     try:
         return fill(inlines(in_language(texts, lang, "")), _printed)
     except BankError as error:
-        raise BankError(f"card {entry.id!r}, {name}.{lang}: {error}") from error
+        raise BankError(f"{entry.place}: {name}.{lang}: {error}") from error
 
 
 def _printed(part: Slot | Formula) -> tuple[Inline, ...]:

@@ -23,9 +23,9 @@ from quizgen.cards.note import Blocks, Note
 from quizgen.cards.prose import Label
 from quizgen.cards.versions import template_version
 from quizgen.cards.wish import Wish
-from quizgen.errors import KeyFileError
+from quizgen.errors import CodeError, KeyFileError
 from quizgen.locale import chosen
-from quizgen.outside import parse_json, read_text
+from quizgen.outside import located, parse_json, read_text
 from quizgen.paper.blueprint import load_blueprint
 from quizgen.paper.code import parse_code
 from quizgen.paper.paper import Item, Paper, rebuild
@@ -95,10 +95,12 @@ def from_marks(path: Path, lang: str, *, bank: Bank, blueprint: str | None = Non
     wish = Wish(chosen(lang, bank.languages), bank=bank)
     notes: dict[str, Note] = {}
     seed = 0
+    own = load_blueprint(blueprint, bank) if blueprint else None
     for marked in read_marks(path):
-        code = parse_code(marked.code)
+        with located(path, CodeError):
+            code = parse_code(marked.code)
+            paper = rebuild(bank, marked.code, own)
         seed = max(seed, 0 if code.is_reference else int(code.seed))
-        paper = rebuild(bank, marked.code, load_blueprint(blueprint, bank) if blueprint else None)
         for found in _notes(marked, paper, wish, path):
             notes.setdefault(found.key, found)
     return Deck(tuple(notes.values()), replace(wish, seed=seed))

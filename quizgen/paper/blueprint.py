@@ -55,6 +55,7 @@ class Blueprint(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     source: str = ""
     topic: str = ""
     budget: int = 0
+    file: Path | None = None
 
 
 EVERYTHING = "all"
@@ -132,28 +133,28 @@ def _read(path: Path) -> Blueprint:
             f"{path}: {path.stem!r} cannot stand in a code (allowed: letters, digits, blanks, '_', "
             "'.' and '-', at most 80)"
         )
-    return _convert(read_text(path, BlueprintError), path.stem, str(path))
+    return _convert(read_text(path, BlueprintError), path.stem, path)
 
 
-def _convert(source: str, name: str, where: str) -> Blueprint:
+def _convert(source: str, name: str, where: Path) -> Blueprint:
     try:
         blueprint = msgspec.convert(parse_toml(source, where, BlueprintError), Blueprint)
     except msgspec.ValidationError as error:
         raise BlueprintError(f"{where}: {error}{_allowed(str(error))}") from error
     _check(blueprint, where)
-    return msgspec.structs.replace(blueprint, name=name, source=source)
+    return msgspec.structs.replace(blueprint, name=name, source=source, file=where)
 
 
 def _allowed(message: str) -> str:
     if "unknown field" not in message:
         return ""
     kind = SlotRule if "$.slot" in message else Blueprint
-    internal = {"name", "source", "topic", "budget"} if kind is Blueprint else set()
+    internal = {"name", "source", "topic", "budget", "file"} if kind is Blueprint else set()
     names = sorted({f.encode_name for f in msgspec.structs.fields(kind)} - internal)
     return f" (allowed: {', '.join(names)})"
 
 
-def _check(blueprint: Blueprint, where: str) -> None:
+def _check(blueprint: Blueprint, where: Path) -> None:
     if not blueprint.slot:
         raise BlueprintError(f"{where}: at least one [[slot]] is needed")
     for index, slot in enumerate(blueprint.slot, 1):

@@ -8,8 +8,9 @@ from collections.abc import Iterator
 from itertools import repeat
 
 from quizgen.bank.folder import Bank
-from quizgen.bank.rules import minutes_of
-from quizgen.errors import BlueprintError
+from quizgen.bank.rules import Rules, minutes_of
+from quizgen.errors import BankError, BlueprintError
+from quizgen.outside import located
 from quizgen.paper.blueprint import EVERYTHING, Blueprint, SlotRule
 
 
@@ -36,7 +37,7 @@ def _slotted(bank: Bank, blueprint: Blueprint, seed: int) -> list[str]:
     uses: dict[str, int] = {}
     chosen: list[str] = []
     for index, slot in enumerate(blueprint.slot, 1):
-        fitting = _fitting(bank, slot, index)
+        fitting = _fitting(bank, blueprint, index)
         for place in range(slot.count):
             best = min(
                 fitting,
@@ -95,7 +96,7 @@ def variety(bank: Bank, blueprint: Blueprint) -> int:
     """
     total = 1 if blueprint.slot else 0
     for index, slot in enumerate(blueprint.slot, 1):
-        pools = [bank.rules(name).pool or 1 for name in _fitting(bank, slot, index)]
+        pools = [bank.rules(name).pool or 1 for name in _fitting(bank, blueprint, index)]
         rounds, rest = divmod(slot.count, len(pools))
         ways = [1] + [0] * rest
         for pool in pools:
@@ -109,18 +110,27 @@ def _rank(seed: int, index: int, place: int, origin: str) -> bytes:
     return hashlib.sha256(f"choose/{seed}/{index}/{place}/{origin}".encode()).digest()
 
 
-def _fitting(bank: Bank, slot: SlotRule, index: int) -> list[str]:
+def _fitting(bank: Bank, blueprint: Blueprint, index: int) -> list[str]:
+    """Templates that may fill a slot, counted from 1."""
+    slot = blueprint.slot[index - 1]
     names = list(slot.templates) or list(bank.paths)
-    for name in slot.templates:
-        bank.rules(name)
-    fitting = [
-        name for name in names
-        if (slot.tier is None or bank.rules(name).tier == slot.tier)
-        and (slot.topic is None or bank.rules(name).topic == slot.topic)
-    ]  # fmt: skip
+    with located(blueprint.file):
+        _check_known(bank, slot, index)
+    fitting = [name for name in names if _fits(bank.rules(name), slot)]
     if not fitting:
-        raise BlueprintError(
-            f"slot {index}: no template has tier {slot.tier or 'any'} and topic "
-            f"{slot.topic or 'any'}"
-        )
+        wish = f"tier {slot.tier or 'any'} and topic {slot.topic or 'any'}"
+        with located(blueprint.file):
+            raise BlueprintError(f"slot {index}: no template has {wish}")
     return fitting
+
+
+def _fits(rules: Rules, slot: SlotRule) -> bool:
+    return slot.tier in {None, rules.tier} and slot.topic in {None, rules.topic}
+
+
+def _check_known(bank: Bank, slot: SlotRule, index: int) -> None:
+    for name in slot.templates:
+        try:
+            bank.folder_of(name)
+        except BankError as error:
+            raise BlueprintError(f"slot {index}: {error}") from error

@@ -13,12 +13,15 @@ import msgspec
 from flint import fmpq
 
 from quizgen.bank.limits import MOST_POINTS
-from quizgen.errors import KeyFileError
+from quizgen.errors import FormulaError, KeyFileError
 from quizgen.files import read_table
+from quizgen.marking.mark import load_spec
 from quizgen.marking.options import Context
 from quizgen.maths.chain import Chain, ChainStep
 from quizgen.maths.constants import exact_value
 from quizgen.maths.numbers import written
+from quizgen.maths.precision import working_precision
+from quizgen.maths.units import factor
 
 if TYPE_CHECKING:
     from quizgen.paper.paper import Item, Paper
@@ -196,6 +199,9 @@ def load_key(table: Mapping[str, Any], place: str = "key") -> Key:
             raise KeyFileError(f"{place}: part {part.id!r} stands twice")
         seen.add(part.id)
         _check_points(part, place)
+        _check_spec(part, place)
+    for question in key.questions:
+        _check_chain(question, place)
     return key
 
 
@@ -209,6 +215,27 @@ def _check_points(part: KeyPart, place: str) -> None:
             f"{place}: part {part.id!r}: points {part.points[:40]!r} (allowed: more than 0, "
             f"at most {MOST_POINTS})"
         )
+
+
+def _check_spec(part: KeyPart, place: str) -> None:
+    try:
+        spec = load_spec(part.in_order())
+        for unit in spec.value_units():
+            factor(unit)
+    except (KeyFileError, FormulaError) as error:
+        raise KeyFileError(f"{place}: part {part.id!r}: {error}") from None
+
+
+@working_precision()
+def _check_chain(question: KeyQuestion, place: str) -> None:
+    if question.chain is None:
+        return
+    try:
+        question.chain.context({})
+        for unit in question.chain.units().values():
+            factor(unit)
+    except FormulaError as error:
+        raise KeyFileError(f"{place}: question {question.number!r}: chain: {error}") from None
 
 
 def read_key(path: Path) -> Key:

@@ -10,11 +10,11 @@ from typing import Any
 
 import msgspec
 
-from quizgen.errors import FormulaError, KeyFileError, one_of
+from quizgen.errors import one_of
 from quizgen.locale import languages
 from quizgen.marking.kinds.contract import Kind
 from quizgen.marking.mark import explained, judge, load_spec
-from quizgen.marking.options import DECIMALS, Context, Options
+from quizgen.marking.options import DECIMALS, Options
 from quizgen.marking.verdict import Verdict
 from quizgen.maths.precision import working_precision
 from quizgen.maths.units import factor
@@ -173,18 +173,11 @@ class Marker:
     @working_precision()
     def mark(self, part: KeyPart, typed: str) -> PartResult:
         """Mark one part; a part marked again replaces its earlier values."""
-        spec = _spec(part)
+        spec = load_spec(part.in_order())
         verdict = _verdict(self.question, spec, typed, self.options, self.earlier)
         if self.question.chain is not None:
             _remember(self.question, spec, verdict, self.earlier)
         return _result(self.question, part, typed, explained(spec, verdict, self.options.lang))
-
-
-def _spec(part: KeyPart) -> Kind:
-    try:
-        return load_spec(part.in_order())
-    except KeyFileError as error:
-        raise KeyFileError(f"key: part {part.id}: {error}") from None
 
 
 def _verdict(
@@ -195,15 +188,8 @@ def _verdict(
     around = question.chain is not None and spec.quantities() and typed.strip()
     if not around or not verdict.graded or verdict.verdict == "correct":
         return verdict
-    context = _context(question, earlier)
+    context = question.chain.context(earlier) if question.chain else None
     return judge(spec, typed, msgspec.structs.replace(options, context=context))
-
-
-def _context(question: KeyQuestion, earlier: dict[str, Any]) -> Context | None:
-    try:
-        return question.chain.context(earlier) if question.chain else None
-    except FormulaError as error:
-        raise KeyFileError(f"key: question {question.number}: chain: {error}") from None
 
 
 def _remember(question: KeyQuestion, spec: Kind, verdict: Verdict, earlier: dict[str, Any]) -> None:

@@ -15,6 +15,7 @@ from quizgen.bank.template import Template
 from quizgen.errors import BlueprintError, CodeError, DrawError
 from quizgen.locale import chosen
 from quizgen.maths.superscripts import RAISED
+from quizgen.outside import located
 from quizgen.paper.blueprint import Blueprint, SlotRule, named_blueprint
 from quizgen.paper.choose import choose, variety, weights
 from quizgen.paper.code import REFERENCE, Code, checked_seed, digest_of, parse_code
@@ -209,7 +210,9 @@ def reference_paper(
     if not blueprint.reference:
         raise BlueprintError(f"blueprint {blueprint.name!r} lists no reference questions")
     langs = chosen(choice, bank.languages)
-    templates = [bank.template(name) for name in blueprint.reference]
+    with located(blueprint.file):
+        folders = [bank.folder_of(name) for name in blueprint.reference]
+    templates = [bank.template(folder.name) for folder in folders]
     drawn = [instance(t, REFERENCE if t.rules.reference is not None else 0) for t in templates]
     items = []
     for number, one in enumerate(drawn, 1):
@@ -241,7 +244,7 @@ def _draws(bank: Bank, blueprint: Blueprint, seed: int) -> Iterator[Draw]:
             if identity(one) not in seen:
                 break
         else:
-            raise DrawError(f"template {template.id!r}: no further distinct instance")
+            raise DrawError(f"{template.file}: no further distinct instance")
         seen.add(identity(one))
         yield one
 

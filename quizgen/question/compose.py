@@ -23,6 +23,7 @@ from quizgen.marking.specs import AnySpec
 from quizgen.maths.notation import to_text
 from quizgen.maths.numbers import key_text, to_float, written
 from quizgen.maths.units import factor
+from quizgen.outside import located
 from quizgen.question.contract import Built, Control, Named
 from quizgen.question.filling import Filler
 from quizgen.question.kinds import KINDS, build
@@ -179,6 +180,12 @@ def put_into_words(
     if lang not in template.languages:
         known = ", ".join(template.languages)
         raise BankError(f"template {template.id!r} is not written in {lang!r} (only in {known})")
+    with located(template.file):
+        return _worded(drawn, lang, number, figures=figures)
+
+
+def _worded(drawn: Draw, lang: str, number: str, *, figures: bool) -> tuple[Question, Key]:
+    template = drawn.template
     built = tuple(build(drawn, index) for index in range(len(template.rules.part)))
     filler = Filler(drawn, lang, hidden=True)
     question = Question(
@@ -218,9 +225,7 @@ def _part(filler: Filler, index: int, number: str, built: Built[Any]) -> Part:
     label = template.labels[index]
     body = filler.section(label) if label else ()
     if label and not body:
-        raise BankError(
-            f"template {template.id!r}: section {label!r} is missing in {filler.lang}.md"
-        )
+        raise BankError(f"{template.path / filler.lang}.md: section {label!r} is missing")
     field = Field(
         id=f"{number}{label}",
         control=built.control,

@@ -83,10 +83,20 @@ class Filler:
         BankError
             If the language file lacks it, or a slot names nothing that may stand there.
         """
+        return fill(self.unfilled(section, name), self._value)
+
+    def unfilled(self, section: str, name: str) -> tuple[Inline, ...]:
+        """A named sentence as it is written.
+
+        Raises
+        ------
+        BankError
+            If the language file lacks it.
+        """
         found = self.text.sentence(section, name)
         if found is None:
             raise BankError(self._complaint(f"section {section!r} lacks {name!r}"))
-        return fill(found, self._value)
+        return found
 
     def _value(self, part: Slot | Formula) -> tuple[Inline, ...]:
         return self._slot(part.name) if isinstance(part, Slot) else (_inline_maths(part.expr),)
@@ -162,7 +172,7 @@ def in_program(text: str, drawn: Draw, known: Values) -> str:
         written = exact_text(known[name], minus="-") if name in known else None
         if written is None:
             what = f"{{{{ {name} }}}} cannot stand in a program"
-            raise BankError(f"template {drawn.template.id!r}: {what}")
+            raise BankError(f"{drawn.template.file}: {what}")
         return written
 
     return fill_text(text, value)

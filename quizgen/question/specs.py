@@ -40,7 +40,7 @@ def answer_of(drawn: Draw, index: int) -> Mapping[str, Any]:
 
 def complaint(drawn: Draw, index: int, what: str) -> BankError:
     """An error that names the template and the part."""
-    return BankError(f"{drawn.template.path / 'template.toml'}: part {index + 1}: {what}")
+    return BankError(f"{drawn.template.file}: part {index + 1}: {what}")
 
 
 def specification(shape: type[S], drawn: Draw, index: int, **given: object) -> S:
@@ -166,11 +166,9 @@ def synonyms(drawn: Draw, name: str) -> list[str]:
         If a language has none.
     """
     found: list[str] = []
-    for text in drawn.template.texts.values():
-        words = text.sentence("gaps", name)
-        if words is None:
-            raise BankError(f"template {drawn.template.id!r}: no words for gap {name!r}")
-        found += [word.strip() for word in plain(words).split("|")]
+    for lang in drawn.template.texts:
+        words = plain(Filler(drawn, lang).unfilled("gaps", name))
+        found += [word.strip() for word in words.split("|")]
     return list(dict.fromkeys(found))
 
 

@@ -242,7 +242,7 @@ def test_the_numbers_of_the_notes_are_taken_as_they_are(tmp_path):
 @pytest.mark.parametrize(
     ("toml", "said"),
     [(BASE, "'mine' has no reference instance"),
-     (REFERENCE.replace("p_z = 5", "p_z = 0"), "'mine': reference instance: no value")],
+     (REFERENCE.replace("p_z = 5", "p_z = 0"), r"mine.template\.toml: reference instance: no value")],
     ids=["none", "without a value"],
 )  # fmt: skip
 def test_a_reference_that_is_none_is_named(tmp_path, toml, said):

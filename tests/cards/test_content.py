@@ -264,9 +264,11 @@ def test_two_entries_of_one_name_are_refused():
 @pytest.mark.parametrize("text", ["$f*$", "{{ f }}", "{% if %}"])
 def test_bad_prose_is_located(text):
     both = {"en": "fine", "bn": text}
-    entry = Cheat(id="x", topic="noise", tier="A", section="1", ask=both, answer=both)
+    entry = Cheat(
+        id="x", topic="noise", tier="A", section="1", ask=both, answer=both, file="cheat.toml"
+    )
     assert passage(entry, "ask", "en")
-    with pytest.raises(BankError, match=r"card 'x', ask\.bn"):
+    with pytest.raises(BankError, match=r"^cheat\.toml: entry 'x': ask\.bn"):
         passage(entry, "ask", "bn")
 
 

@@ -20,7 +20,6 @@ from quizgen.cards.content import KINDS as CARDS
 from quizgen.cards.content import load as load_cards
 from quizgen.cards.content import passage, passages
 from quizgen.cards.mistakes import from_marks
-from quizgen.errors import KeyFileError
 from quizgen.paper.blueprint import load_blueprint
 from quizgen.paper.choose import choose, variety
 from quizgen.paper.form import read_answers
@@ -28,7 +27,7 @@ from quizgen.paper.key import key_bytes, read_key
 from quizgen.paper.marking import mark_paper
 from quizgen.paper.paper import build, single
 from quizgen.paper.report import class_csv, table_lines
-from quizgen.png import decode, encode
+from quizgen.png import encode
 from quizgen.render import render_paper
 from quizgen.render.text import question_text
 
@@ -96,7 +95,8 @@ def cards(folder: Path, chance: Chance) -> None:
     name = chance.choice(list(CARDS))
     table = tomllib.loads(builtin().cards[name].read_text("utf-8"))
     few = {"entry": chance.sample(table["entry"], 3)}
-    entries = load_cards(toml(mutated(few, chance)), CARDS[name], f"{name}.toml")
+    file = folder / f"{name}.toml"
+    entries = load_cards(toml(mutated(few, chance)), CARDS[name], str(file))
     for entry in entries:
         for field in passages(type(entry)):
             passage(entry, field, "en")
@@ -136,10 +136,10 @@ def png(folder: Path, chance: Chance) -> None:
     data = bytearray(damaged(a_picture(), chance))
     if chance.random() < 0.3 and len(data) > 24:
         data[chance.randrange(16, 24)] = chance.randrange(256)
-    try:
-        decode(bytes(data))
-    except ValueError as error:
-        raise KeyFileError(str(error)) from None  # the reader of scenes adds file and line
+    (folder / "picture.png").write_bytes(data)
+    file = folder / "scene.toml"
+    file.write_text('[scene]\nimage = "picture.png"\n', "utf-8")
+    load_scene(file)
 
 
 @cache

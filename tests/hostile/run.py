@@ -1,4 +1,4 @@
-"""Run mutants and say what each came to: a result, a located error, or a failure.
+"""Run mutants and say what each came to: a result, an error that names its file, or a failure.
 
 ``uv run python tests/hostile/run.py 100000 [processes]`` runs a long sweep and counts.
 """
@@ -34,7 +34,7 @@ class Hung(BaseException):
 
 
 class Outcome(NamedTuple):
-    """What a mutant came to."""
+    """What a mutant came to; ``located`` if its error names the file that is wrong."""
 
     kind: str
     number: int
@@ -42,6 +42,7 @@ class Outcome(NamedTuple):
     error: str
     seconds: float
     megabytes: int
+    located: bool = True
 
 
 @contextmanager
@@ -88,7 +89,10 @@ def tried(number: int) -> Outcome:
         failure = f"{type(found).__name__} at {_place(found.__traceback__)}: {str(found)[:80]}"
     finally:
         shutil.rmtree(folder, ignore_errors=True)
-    return Outcome(kind, number, failure, error, time.process_time() - started, peak() - size)
+    located = not error or f"{folder}/" in error
+    return Outcome(
+        kind, number, failure, error, time.process_time() - started, peak() - size, located
+    )
 
 
 def _place(trace: object) -> str:
@@ -109,7 +113,7 @@ def main() -> None:
     count = int(sys.argv[1])
     processes = int(sys.argv[2]) if len(sys.argv) > 2 else 2
     first = int(sys.argv[3]) if len(sys.argv) > 3 else 0
-    ways, kinds, slow = Counter(), Counter(), []
+    ways, kinds, slow, nameless = Counter(), Counter(), [], 0
     with get_context("spawn").Pool(processes, warm, maxtasksperchild=5000) as pool:
         for one in pool.imap_unordered(tried, range(first, first + count), chunksize=50):
             kinds[one.kind, "failure" if one.failure else "error" if one.error else "result"] += 1
@@ -117,6 +121,9 @@ def main() -> None:
                 ways[one.kind, one.failure[:110]] += 1
                 if ways[one.kind, one.failure[:110]] == 1:
                     print("FAIL", one.kind, one.number, one.failure, flush=True)
+            if not one.located:
+                nameless += 1
+                print("NO FILE", one.kind, one.number, one.error[:300], flush=True)
             if one.error and "--errors" in sys.argv:
                 print("ERR", one.kind, one.number, one.error[:300].replace("\n", " "), flush=True)
             if one.seconds > LONGEST or one.megabytes > LARGEST:
@@ -131,7 +138,14 @@ def main() -> None:
                 )
     for row in sorted(kinds.items()):
         print(*row)
-    print(sum(ways.values()), "failures,", len(slow), "too slow or too large")
+    print(
+        sum(ways.values()),
+        "failures,",
+        nameless,
+        "errors without a file,",
+        len(slow),
+        "too slow or too large",
+    )
     for (kind, way), times in ways.most_common():
         print(times, kind, way)
 

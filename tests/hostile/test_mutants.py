@@ -24,7 +24,7 @@ def _warm():
 def failures(numbers):
     found = [tried(number) for number in numbers]
     assert {one.kind for one in found} == KINDS.keys()
-    return [one for one in found if one.failure or (one.error and not one.error.strip())], found
+    return [one for one in found if one.failure or not one.located], found
 
 
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")  # NumPy's, of numbers that nobody means

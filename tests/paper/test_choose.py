@@ -9,8 +9,9 @@ from types import SimpleNamespace
 
 import pytest
 
+from quizgen.bank.folder import builtin
 from quizgen.errors import BlueprintError
-from quizgen.paper.blueprint import Blueprint, SlotRule
+from quizgen.paper.blueprint import Blueprint, SlotRule, load_blueprint
 from quizgen.paper.choose import choose, variety, weights
 
 
@@ -27,6 +28,9 @@ class Shelf:
     def rules(self, name):
         default = {"tier": "A", "topic": "optics", "pool": None, "minutes": 5, "apart": ()}
         return SimpleNamespace(**{**default, **self.table[name]})
+
+    def folder_of(self, name):
+        return self.paths[name]
 
     def origin(self, name):
         return name
@@ -109,3 +113,18 @@ def test_slots_multiply_and_a_template_without_numbers_is_one_question():
 def test_the_marks_of_slots_go_to_their_questions():
     found = weights(plan(SlotRule(count=2, points=4), SlotRule(), SlotRule(points=1.5)))
     assert [next(found) for _ in range(5)] == [4, 4, None, 1.5, None]
+
+
+@pytest.mark.parametrize(
+    ("slot", "said"),
+    [
+        ('templates = ["nothing-of-it"]', "unknown template 'nothing-of-it'"),
+        ('topic = "optics"\ntier = "A"\ntemplates = ["rgb-to-hsv"]', "no template has tier A"),
+    ],
+)
+def test_a_slot_that_cannot_be_filled_is_located(tmp_path, slot, said):
+    file = tmp_path / "week.toml"
+    file.write_text(f'[title]\nen = "x"\n[[slot]]\ntier = "B"\n[[slot]]\n{slot}\n')
+    with pytest.raises(BlueprintError) as caught:
+        choose(builtin(), load_blueprint(str(file)), 1)
+    assert str(caught.value).startswith(f"{file}: slot 2: {said}")

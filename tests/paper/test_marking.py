@@ -319,7 +319,7 @@ def test_an_own_value_is_carried_in_the_unit_of_the_answer():
 def test_a_wrong_chain_of_a_key_is_located():
     first = KEY["questions"][0]
     broken = {**first, "chain": {**CHAIN, "steps": [["h", "f*", "mm"]]}}
-    with pytest.raises(KeyFileError, match=r"^key: question 1: chain: "):
+    with pytest.raises(KeyFileError, match=r"^key: question '1': chain: "):
         mark_paper({**KEY, "questions": [broken]}, {"1a": "1 mm"})
 
 

@@ -9,6 +9,7 @@ from quizgen.cards.content import FigureEntry, entries, passage
 from quizgen.cards.note import Note
 from quizgen.cards.prose import Picture
 from quizgen.cards.wish import Wish
+from quizgen.errors import BankError
 
 
 def notes(wish: Wish) -> Iterator[Note]:
@@ -35,5 +36,8 @@ def notes(wish: Wish) -> Iterator[Note]:
 
 
 def _picture(entry: FigureEntry, langs: tuple[str, ...], *, quiz: bool) -> Picture:
-    drawn = [figures.render(entry.figure, entry.values, quiz=quiz, lang=lang) for lang in langs]
+    try:
+        drawn = [figures.render(entry.figure, entry.values, quiz=quiz, lang=lang) for lang in langs]
+    except BankError as error:
+        raise BankError(f"{entry.place}: {error}") from error
     return Picture(entry.figure, drawn[0], " / ".join(figure.alt for figure in drawn))

@@ -43,9 +43,9 @@ def notes(wish: Wish) -> Iterator[Note]:
 
 def _holes(entry: FormulaEntry) -> Iterator[Hole]:
     for index, line in enumerate(entry.lines):
-        signs, parts = sides(line, entry.inside, f"formulas.toml: card {entry.id!r}")
+        signs, parts = sides(line, entry.inside, entry.place)
         if not signs:
-            raise BankError(f"formulas.toml: card {entry.id!r}: {line!r} has only one side")
+            raise BankError(f"{entry.place}: {line!r} has only one side")
         cut = signs.index("⇒") + 1 if "⇒" in signs else 1
         yield Hole(
             _shown(parts[:cut], signs[:cut]),
