@@ -92,7 +92,7 @@ class PartPlan:
     def unit_of(self, template: Template, name: str) -> str:
         """Unit an answer is given in."""
         asked = self.answer.get("unit")
-        return str(asked) if asked is not None else template.units.get(name, "")
+        return str(asked) if asked is not None else template.units[name]
 
     def check(
         self, env: Mapping[str, float], shown: Mapping[str, fmpq], *, lenient: bool

@@ -60,7 +60,7 @@ def _with_numbers(drawn: Draw, expr: Expr) -> Side:
 
 
 def _node(drawn: Draw, name: str) -> typeset.Node:
-    return typeset.quantity(drawn.text(name), unit_shown(drawn.template.units.get(name, "")))
+    return typeset.quantity(drawn.text(name), unit_shown(drawn.template.units[name]))
 
 
 def _typed(drawn: Draw, name: str) -> str:

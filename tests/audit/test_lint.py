@@ -73,3 +73,13 @@ def test_the_bank_says_in_which_languages_a_template_must_be(tmp_path, about, mi
     found = [line.split("; ")[0] for line in done.stderr.splitlines()]
     assert found == [f"{template / 'bn.md'}: {problem}" for problem in missing]
     assert done.exit_code == bool(missing)
+
+
+def test_what_a_report_counts(bank):
+    """No mistake may vanish here, so each is met in every draw; 6*15/2 = 45 is the largest image."""
+    report = lint_template(bank.template("point-to-image-plane"), 20)
+    assert report.problems == []
+    assert (report.seeds, len(report.traps), set(report.traps.values())) == (20, 7, {20})
+    assert report.ranges.keys() == {"p'_x", "p'_y"}
+    for low, high in report.ranges.values():
+        assert -45 <= low < 0 < high <= 45

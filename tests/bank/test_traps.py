@@ -152,3 +152,10 @@ def test_mistakes_are_as_far_apart_as_they_are_written_down(tmp_path):
     found = check(part(tmp_path / "a", ", decimals = 0, within = 2"), **twins)
     assert found == "trap 'forgot-f' cannot be told from 'divided-by-f'"
     assert sorted(check(part(tmp_path / "b", ", abs = 1"), **twins)) == list(ALL)
+
+
+def test_small_numbers_are_the_same_only_if_they_are(tmp_path):
+    """In 10^-12: 2/8 is 0.25 and the key 0.51; both vanish beside a room of a tenth."""
+    plan = part(tmp_path, ', abs = "1/10"', '"divided-by-f"')
+    found = check(plan, p_x=2e-12, key=0.51e-12)
+    assert found == "trap 'divided-by-f' cannot be told from 'the key'"

@@ -7,8 +7,9 @@ from fractions import Fraction
 import pytest
 from flint import fmpq
 
-from quizgen.marking.diagnosis.slips import power_of_ten
+from quizgen.marking.diagnosis.slips import close, common_slip, power_of_ten, radians
 from quizgen.marking.mark import Context, mark
+from quizgen.marking.verdict import Verdict
 from quizgen.maths.chain import Chain, ChainStep
 from quizgen.maths.notation import parse
 
@@ -109,6 +110,53 @@ def test_powers_of_ten_are_seen_within_half_a_percent_up_to_eighteen(value, powe
     assert power_of_ten(value, fmpq(1)) == power
 
 
+def test_one_is_a_power_of_ten_of_others_and_zero_of_none():
+    assert power_of_ten(fmpq(1), fmpq(100)) == -2
+    assert power_of_ten(fmpq(5), fmpq(0)) == 0
+
+
+def test_half_a_percent_is_close_and_not_more():
+    assert close(fmpq(201), fmpq(200))
+    assert close(fmpq(199), fmpq(200))
+    assert not close(fmpq(20101, 100), fmpq(200))
+
+
+def test_one_radian_is_57_degrees_and_nothing_is_no_angle():
+    """180/π = 57.2958."""
+    assert radians(fmpq(1), fmpq("573/10"))
+    assert not radians(fmpq(0), fmpq(0))
+
+
+def cells(*said):
+    return [Verdict("wrong" if credit < 1 else "correct", Fraction(credit), note=note, fields=fields)
+            for credit, note, fields in said]  # fmt: skip
+
+
+TWICE, THRICE = {"factor": "2"}, {"factor": "3"}
+
+
+@pytest.mark.parametrize(
+    ("said", "shared"),
+    [
+        ([(0, "factor", TWICE), (0, "factor", TWICE)], ("factor", TWICE)),
+        ([(0, "factor", TWICE), (0, "factor", THRICE)], ("factor", {})),
+        ([(0, "x", {"power": 1, "asked": "m"}), (0, "x", {"power": 2, "asked": "m"})],
+         ("x", {"asked": "m"})),
+        ([(0, "factor", TWICE), (0, "factor", {})], ("factor", {})),
+        ([(HALF, "factor", TWICE), (0, "factor", TWICE)], ("factor", TWICE)),
+        ([(0, "factor", TWICE), (0, "sign", {})], ("", {})),
+        ([(0, "factor", TWICE), (1, "", {})], ("", {})),
+        ([(1, "factor", TWICE), (0, "factor", TWICE)], ("", {})),
+        ([(0, "", {}), (0, "", {})], ("", {})),
+    ],
+    ids=["the same", "other factors", "one of two fields", "one without", "half right", "other slips",
+         "one right", "one right though noted", "unexplained"],
+)  # fmt: skip
+def test_what_all_cells_share_is_said_once(said, shared):
+    """Fields that differ are left out: no cell's factor stands for the others."""
+    assert common_slip(cells(*said)) == shared
+
+
 CAMERA = Chain(
     {"f": "mm", "X": "m", "Z": "m", "pitch": "um"},
     (ChainStep("h", parse("f*X/Z"), "mm"), ChainStep("n", parse("h/pitch"), "px")),
@@ -171,3 +219,13 @@ def test_what_is_carried_forward_is_echoed_with_its_unit():
     spec = {"kind": "quantity", "value": "29/6", "unit": "mm", "of": ["w"]}
     found = mark(spec, "6 mm", context=context)
     assert (found.note, found.credit, found.read_as) == ("carried-forward", 1, "6 mm")
+
+
+def test_a_slip_in_the_chain_is_echoed_with_its_unit():
+    """1/50 - 1/200 = 3/200 gives 200/3 mm; with a plus, 1/50 + 1/200 = 1/40 gives 40 mm."""
+    steps = (ChainStep("r", parse("1/f - 1/z"), "1/mm"), ChainStep("b", parse("1/r"), "mm"))
+    lens = Chain({"f": "mm", "z": "mm"}, steps)
+    context = Context(lens, {"f": fmpq(1, 20), "z": fmpq(1, 5)})
+    spec = {"kind": "quantity", "value": "200/3", "unit": "mm", "rel": "0.005", "of": ["b"]}
+    found = mark(spec, "40 mm", context=context)
+    assert (found.note, found.read_as) == ("operator", "40 mm")

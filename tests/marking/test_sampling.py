@@ -49,6 +49,13 @@ def test_points_lie_inside_their_domain(domain, low, high):
     assert all(low < Fraction(int(p["x"].p), int(p["x"].q)) < high for p in points)
 
 
+def test_no_point_lies_within_a_4096th_of_the_end_of_an_interval():
+    """The last step is 4094/4096, moved by 1/9767: 0.99961 of the way, and 4095/4096 is 0.99976."""
+    for high in range(1, 13):
+        points = [point["x"] / high for point in sample_points({"x": ["0", str(high)]})]
+        assert max(points) < fmpq(4095, 4096)
+
+
 def test_a_real_domain_has_both_signs():
     assert {p["x"] > 0 for p in sample_points({"x": "real"})[:8]} == {True, False}
 
@@ -130,6 +137,11 @@ def test_a_factor_or_offset_is_that_of_every_point(odd):
     pairs = [(fmpq(1), fmpq(3 if place == odd else 2)) for place in range(3)]
     assert _relation(pairs) == (None, None)
     assert _relation([(fmpq(1), fmpq(2))] * 3) == (2, 1)
+
+
+def test_a_factor_is_named_where_a_value_is_one_and_not_where_it_is_zero():
+    assert _relation([(fmpq(n, 2), fmpq(n)) for n in (1, 2, 3)]) == (2, None)
+    assert _relation([(fmpq(n), fmpq(0)) for n in (1, 2, 3)]) == (None, None)
 
 
 def test_no_factor_is_named_where_a_formula_vanishes():

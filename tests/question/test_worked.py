@@ -31,7 +31,7 @@ TEXT = """# Title
 """
 
 
-def drawn(given, steps, stem="Stem", words=""):
+def drawn(given, steps, stem="Stem", *, words="", said=None):
     """A draw of a template made by hand: quantity to (unit, value), and name, formula, unit."""
     units = {name: unit for name, (unit, _) in given.items()}
     names = (*given, *(name for name, _, _ in steps))
@@ -45,7 +45,7 @@ def drawn(given, steps, stem="Stem", words=""):
     text = parse_text(TEXT.replace("{stem}", stem) + words)
     template = Template("by-hand", rules, chain, {"en": text}, f"{given}{steps}{stem}", Path())
     shown = {name: rational(value) for name, (_, value) in given.items()}
-    return Draw(template, "0", "0", 1, shown, {}, plan_of(template).solve(shown), ((),))
+    return Draw(template, "0", "0", 1, shown, said or {}, plan_of(template).solve(shown), ((),))
 
 
 def typed(one, name):
@@ -112,6 +112,29 @@ def test_a_program_in_a_stem_cannot_show_a_solved_value():
     one = drawn(LENS, [("u", "f*X/Z", "mm")], "Look:\n\n```\nprint({{ u }})\n```\n")
     with pytest.raises(BankError, match=r"\{\{ u \}\} cannot stand in a program"):
         put_into_words(one, "en")
+
+
+def test_a_program_in_a_stem_has_the_minus_of_the_keyboard():
+    one = drawn({"a": ("", "-3")}, [("u", "2*a", "")], "Look:\n\n```\nprint({{ a }})\n```\n")
+    question, _ = put_into_words(one, "en")
+    assert question.stem[1].text.strip() == "print(-3)"
+
+
+def test_a_stem_shows_a_drawn_phrase():
+    words = "## words\n- wide: a wide lens\n- long: a long lens\n"
+    one = drawn(
+        LENS, [("u", "f*X/Z", "mm")], "Take {{ lens }}.", words=words, said={"lens": "long"}
+    )
+    question, _ = put_into_words(one, "en")
+    assert plain(question.stem[0].children) == "Take a long lens."
+
+
+@pytest.mark.parametrize(
+    ("a", "line"), [("3", "u = a + 1 = 3 + 1 = 4"), ("1", "u = 2*a = 2*1 = 2")]
+)
+def test_only_the_branch_that_applies_is_shown(a, line):
+    said, _ = typed(drawn({"a": ("", a)}, [("u", "piecewise(a + 1, a > 2, 2*a)", "")]), "u")
+    assert said == line
 
 
 def test_the_solution_may_show_it():

@@ -57,10 +57,8 @@ def radians(value: Value, key: Value) -> bool:
     return value != 0 and close(value * 180 / arb.pi(), key)
 
 
-def slip(
-    number: Number, value: Value, key: Value, *, ratio: bool = True
-) -> tuple[str, dict[str, object]]:
-    """Explain a wrong number by one generic slip.
+def slip(number: Number, value: Value, key: Value, *, ratio: bool) -> tuple[str, dict[str, object]]:
+    """Explain a wrong number by one generic slip; a sign alone was looked for before.
 
     Parameters
     ----------
@@ -76,10 +74,6 @@ def slip(
     tuple of str and dict
         The note (empty if nothing explains it) and what its sentence fills in.
     """
-    if value == 0 or key == 0:
-        return "", {}
-    if close(-value, key):
-        return "sign", {}
     power = power_of_ten(value, key)
     if power:
         return _power_note(number, key, power)
@@ -95,7 +89,7 @@ def common_slip(cells: Sequence[Verdict]) -> tuple[str, dict[str, object]]:
 
     Its fields are kept where they are the same, too; a sentence does without the others.
     """
-    notes = {cell.note for cell in cells if cell.credit < 1}
+    notes = {cell.note for cell in cells}
     if len(notes) != 1 or any(cell.credit == 1 for cell in cells):
         return "", {}
     first = cells[0].fields
