@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import subprocess
 import sys
+from functools import cache
 from graphlib import TopologicalSorter
 from pathlib import Path
 
@@ -53,10 +54,16 @@ def module_name(path: Path) -> str:
 MODULES = {module_name(path): path for path in sorted(PACKAGE.rglob("*.py"))}
 
 
+@cache
+def nodes(path: Path) -> tuple[ast.AST, ...]:
+    """All nodes of a file, the module first."""
+    return tuple(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
+
+
 def imported_modules(path: Path) -> set[str]:
     """Modules of quizgen that a file imports, anywhere in it."""
     found = set()
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for node in nodes(path):
         if isinstance(node, ast.ImportFrom) and node.module and node.module.startswith("quizgen"):
             whole = {f"{node.module}.{alias.name}" for alias in node.names} & MODULES.keys()
             found |= whole or {node.module}
@@ -88,7 +95,7 @@ PACKAGES = [path for path in MODULES.values() if path.name == "__init__.py"]
 
 @pytest.mark.parametrize("path", PACKAGES, ids=lambda p: str(p.relative_to(PACKAGE)))
 def test_a_package_says_what_comes_in_what_goes_out_and_what_it_must_never_know(path):
-    said = " ".join((ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or "").split())
+    said = " ".join((ast.get_docstring(nodes(path)[0]) or "").split())
     assert [word for word in ("In: ", "Out: ", "Must never know: ") if word not in said] == []
 
 
@@ -105,12 +112,8 @@ def test_no_module_imports_itself_in_a_circle():
 
 @pytest.mark.parametrize("path", MODULES.values(), ids=lambda p: str(p.relative_to(PACKAGE)))
 def test_nothing_is_imported_by_a_computed_name(path):
-    names = {
-        node.id for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, ast.Name)
-    }
-    attributes = {
-        n.attr for n in ast.walk(ast.parse(path.read_text())) if isinstance(n, ast.Attribute)
-    }
+    names = {node.id for node in nodes(path) if isinstance(node, ast.Name)}
+    attributes = {node.attr for node in nodes(path) if isinstance(node, ast.Attribute)}
     if {"import_module", "__import__"} & (names | attributes):
         assert str(path.relative_to(PACKAGE)) in MAY_IMPORT_BY_NAME
 
@@ -129,7 +132,7 @@ def test_no_text_is_ever_run():
     banned = {"eval", "exec", "sympify", "parse_expr"}
     for folder in ("quizgen", "solvers"):
         for path in (ROOT / folder).rglob("*.py"):
-            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            for node in nodes(path):
                 if isinstance(node, ast.Call):
                     name = getattr(node.func, "id", getattr(node.func, "attr", ""))
                     assert name not in banned, f"{path}: {name}"

@@ -2,28 +2,37 @@
 
 from __future__ import annotations
 
-import colour
 import numpy as np
 import pytest
 
 from quizgen.arrays.luminosity import photopic, scotopic
 
-DAY = colour.SDS_LEFS["CIE 1924 Photopic Standard Observer"]
-NIGHT = colour.SDS_LEFS["CIE 1951 Scotopic Standard Observer"]
+DAY = "CIE 1924 Photopic Standard Observer"
+NIGHT = "CIE 1951 Scotopic Standard Observer"
+
+
+@pytest.fixture(scope="module")
+def standards():
+    """The tables; their package takes seconds to load, which no other test should wait for."""
+    import colour
+
+    return colour.SDS_LEFS
 
 
 @pytest.mark.parametrize(
-    ("curve", "standard", "first", "last"),
+    ("curve", "name", "first", "last"),
     [(photopic, DAY, 360, 830), (scotopic, NIGHT, 380, 780)],
 )
-def test_a_curve_is_the_standard_at_every_table_point(curve, standard, first, last):
+def test_a_curve_is_the_standard_at_every_table_point(standards, curve, name, first, last):
+    standard = standards[name]
     at = np.arange(first, last + 1, 5.0)
     np.testing.assert_allclose(curve(at), [standard[nm] for nm in at], rtol=4e-15)
     np.testing.assert_array_equal(curve(np.array([0.0, first - 0.01, last + 0.01])), 0.0)
 
 
-@pytest.mark.parametrize(("curve", "standard"), [(photopic, DAY), (scotopic, NIGHT)])
-def test_straight_lines_between_them_miss_little(curve, standard):
+@pytest.mark.parametrize(("curve", "name"), [(photopic, DAY), (scotopic, NIGHT)])
+def test_straight_lines_between_them_miss_little(standards, curve, name):
+    standard = standards[name]
     every = np.array(standard.wavelengths)
     np.testing.assert_allclose(curve(every), standard.values, atol=0.0025)
     assert curve(every).sum() == pytest.approx(np.sum(standard.values), rel=1e-4)

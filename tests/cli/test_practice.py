@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from functools import cache
 
 import pytest
 from click.testing import CliRunner
@@ -64,13 +65,16 @@ def test_unreadable_answers_cost_no_try_and_three_wrong_ones_show_the_solution()
     assert "Practise next: Projection (--topic projection)" in done.output
 
 
-SEVERAL = next(seed for seed in "abcdefgh" if len(first_question(seed).specs) > 1)
-"""A seed whose first question has several parts."""
+@cache
+def several():
+    """A seed whose first question has several parts."""
+    return next(seed for seed in "abcdefgh" if len(first_question(seed).specs) > 1)
 
 
-@pytest.mark.parametrize("options", [["--seed", SEVERAL], []], ids=["a seed", "no seed"])
+@pytest.mark.parametrize("seeded", [True, False], ids=["a seed", "no seed"])
 @pytest.mark.parametrize("stop", [[], ["quit"], ["QUIT"]], ids=["end of input", "quit", "QUIT"])
-def test_the_same_command_goes_on_where_it_was_left(shelf, stop, options):
+def test_the_same_command_goes_on_where_it_was_left(shelf, stop, seeded):
+    options = ["--seed", several()] if seeded else []
     done = run(["!", *stop], *options, "--count", "2")
     assert done.exit_code == 0
     assert "Session kept" in done.output
@@ -107,7 +111,7 @@ def test_ctrl_c_keeps_the_session_and_says_so(shelf, monkeypatch):
 
     monkeypatch.setattr("builtins.input", answer)
     done = CliRunner().invoke(
-        practice.practice, ["--topic", "projection", "--tier", "A", "--seed", SEVERAL]
+        practice.practice, ["--topic", "projection", "--tier", "A", "--seed", several()]
     )
     assert done.exit_code == 130
     assert done.output.endswith("Session kept. The same command goes on with it.\n")
@@ -180,12 +184,13 @@ def test_bangla_and_giving_up():
     assert "বিষয় ধরে ফলাফল" in done.output
 
 
-NOTHING = next(
-    ["--topic", topic, "--tier", tier]
-    for topic in builtin().topics for tier in "ABCD"
-    if not fitting(builtin(), Wish(topic=topic, tier=tier))
-)  # fmt: skip
-"""A topic that has no question of a tier."""
+def nothing():
+    """A topic that has no question of a tier."""
+    return next(
+        ["--topic", topic, "--tier", tier]
+        for topic in builtin().topics for tier in "ABCD"
+        if not fitting(builtin(), Wish(topic=topic, tier=tier))
+    )  # fmt: skip
 
 
 @pytest.mark.parametrize(("options", "names"), [
@@ -195,7 +200,7 @@ NOTHING = next(
     ([], "tiers there: "),
 ])  # fmt: skip
 def test_filters_that_fit_nothing_name_what_there_is(options, names):
-    options = options or NOTHING
+    options = options or nothing()
     done = CliRunner().invoke(practice.practice, options)
     assert done.exit_code == 2
     assert names in done.output
