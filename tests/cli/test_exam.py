@@ -9,22 +9,23 @@ import sys
 from pathlib import Path
 
 import pytest
+from inside import run
 
 ROOT = Path(__file__).parents[2]
 
 
-def run(*arguments: str, cwd: Path, **extra) -> subprocess.CompletedProcess:
+def cold(*arguments: str, cwd: Path) -> subprocess.CompletedProcess:
     return subprocess.run(
         [sys.executable, "-m", "quizgen", *arguments], capture_output=True, text=True, cwd=cwd,
-        check=False, **extra,
+        check=False,
     )  # fmt: skip
 
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
     folder = tmp_path_factory.mktemp("paper")
-    result = run("exam", "--seed", "4", "--blueprint", "trial", "--lang", "both", "--out", "exam",
-                 cwd=folder)  # fmt: skip
+    result = cold("exam", "--seed", "4", "--blueprint", "trial", "--lang", "both", "--out", "exam",
+                  cwd=folder)  # fmt: skip
     assert result.returncode == 0, result.stderr
     return folder, result
 
@@ -40,6 +41,7 @@ def test_everything_is_written_and_the_next_step_told(made):
 
 
 def test_the_code_rebuilds_the_same_bytes(made):
+    """Here, what another process made."""
     folder, result = made
     code = re.search(r"Code: (\S+)", result.stdout)[1]
     again = run("exam", "--code", code, "--out", "again", cwd=folder)
@@ -140,6 +142,12 @@ def test_mistakes_cost_one_line_and_exit_code_two(tmp_path, arguments, message):
     assert message in result.stderr
     assert "Traceback" not in result.stderr
     assert not list(tmp_path.iterdir())
+
+
+def test_the_exit_code_reaches_the_shell(tmp_path):
+    result = cold(*MISTAKES[0][0], cwd=tmp_path)
+    assert (result.returncode, len(result.stderr.splitlines())) == (2, 1)
+    assert MISTAKES[0][1] in result.stderr
 
 
 def test_malformed_templates_are_located(tmp_path):
