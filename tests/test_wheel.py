@@ -42,6 +42,7 @@ def test_wheel_and_sdist_hold_the_bank(built):
     assert next(built.glob("*.tar.gz")).stat().st_size > 0
 
 
+@pytest.mark.slow
 def test_a_wheel_in_an_empty_environment_makes_the_same_paper(uv, built, tmp_path):
     environment = tmp_path / "venv"
     subprocess.run(

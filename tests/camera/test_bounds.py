@@ -15,7 +15,7 @@ from quizgen.camera.simulate import difference_dn, run
 
 ROUNDING = 1e-5
 SCENES = 600
-BATCHES = 6
+BATCHES = [pytest.param(n, marks=[pytest.mark.slow] * (n > 1)) for n in range(6)]
 
 
 def photographs(first, last, *, noise):
@@ -34,11 +34,11 @@ def apart(one, other):
 
 
 def batch(number):
-    size = SCENES // BATCHES
+    size = SCENES // len(BATCHES)
     return number * size, (number + 1) * size
 
 
-@pytest.mark.parametrize("number", range(BATCHES))
+@pytest.mark.parametrize("number", BATCHES)
 def test_planned_and_everything_differ_by_at_most_the_reported_bound(number):
     for seed, _, prepared, whole in photographs(*batch(number), noise=False):
         for budget in (0.5, 2.0, 8.0, 60.0):
@@ -59,7 +59,7 @@ def _chosen(units, source):
     return each + mixed
 
 
-@pytest.mark.parametrize("number", range(BATCHES))
+@pytest.mark.parametrize("number", BATCHES)
 def test_every_single_choice_keeps_its_bound(number):
     """Also choices no budget would allow: each effect skipped alone, each rung, random mixtures."""
     for seed, source, prepared, whole in photographs(*batch(number), noise=False):

@@ -47,8 +47,18 @@ def run(code, cwd):
                           text=True, check=False)  # fmt: skip
 
 
-@pytest.mark.parametrize("how", [RAISED, SWALLOWED], ids=["raised", "as another error"])
-@pytest.mark.parametrize(("module", "place", "arguments"), PLACES, ids=lambda p: str(p)[-20:])
+CATCHING = ("lint", "preview", "cards")
+"""Commands that turn some errors of their own into messages."""
+STOPS = [
+    pytest.param(
+        *place, how, id=f"{place[2][0]}-{name}",
+        marks=[pytest.mark.slow] * (how is SWALLOWED and place[2][0] not in CATCHING),
+    )
+    for place in PLACES for name, how in (("raised", RAISED), ("as another error", SWALLOWED))
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("module", "place", "arguments", "how"), STOPS)
 def test_an_interrupt_is_one_line_and_status_130(tmp_path, module, place, arguments, how):
     code = STOPPED.format(module=module, place=place, arguments=arguments, how=how)
     done = run(code, tmp_path)

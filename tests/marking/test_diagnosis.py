@@ -169,6 +169,7 @@ def test_languages_have_the_same_sentences():
         assert blanks == {b.split("}")[0] for b in sentences("bn")[note].split("{")[1:]}, note
 
 
+@pytest.mark.slow
 def test_full_diagnosis_of_a_wrong_answer_is_fast():
     context = Context(TOWER, TOWER_GIVEN)
     mark(HEIGHT, "3.3 mm", context=context)

@@ -14,7 +14,10 @@ from hypothesis import strategies as st
 from quizgen.marking.mark import mark
 
 SPECS = {row.spec["kind"]: row.spec for row in rows()}
+HANGS = 2.0
+"""CPU seconds that no machine needs for one answer; what is evaluated by mistake takes for ever."""
 LIMIT = 0.05
+"""CPU seconds that an answer may take on a machine of today."""
 
 HOSTILE = {
     "tower": "9**9**9**9",
@@ -63,17 +66,26 @@ HOSTILE = {
 }
 
 
+def timed(kind, text):
+    start = time.process_time()
+    verdict = mark(SPECS[kind], text)
+    return verdict, time.process_time() - start
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", SPECS)
+def test_hostile_input_costs_next_to_nothing(kind):
+    """The best of three: the first loads what is needed, and another may meet the collector."""
+    for text in HOSTILE.values():
+        assert min(timed(kind, text)[1] for _ in range(3)) < LIMIT, text[:40]
+
+
 @pytest.mark.parametrize("name", HOSTILE)
 @pytest.mark.parametrize("kind", SPECS)
 def test_hostile_input_is_answered_quickly_and_never_right(kind, name):
     text = HOSTILE[name]
-    mark(SPECS[kind], "1")
-    best = 1.0
-    for _ in range(3):
-        start = time.process_time()
-        verdict = mark(SPECS[kind], text)
-        best = min(best, time.process_time() - start)
-    assert best < LIMIT
+    verdict, seconds = timed(kind, text)
+    assert seconds < HANGS
     assert len(verdict.message) < 600
     assert "<img" not in verdict._repr_html_()
     assert len(verdict.read_as) < 700
@@ -123,22 +135,20 @@ def _mutated(source: random.Random) -> str:
     return "".join(text)
 
 
-def test_a_hundred_thousand_strings_raise_nothing():
-    """Half random, half mutated valid answers; each kind gets its share; none is slow."""
+@pytest.mark.parametrize("count", [5_000, pytest.param(100_000, marks=pytest.mark.slow)])
+def test_strings_raise_nothing_and_none_takes_long(count):
+    """Half random, half mutated valid answers; each kind gets its share."""
     source = random.Random(20261120)
     kinds = list(SPECS)
-    slowest = (0.0, "", "")
-    for number in range(100_000):
+    for number in range(count):
         if number % 2:
             text = "".join(source.choices(ALPHABET, k=source.randint(0, 24)))
         else:
             text = _mutated(source)
         kind = kinds[number % len(kinds)]
-        start = time.process_time()
-        verdict = mark(SPECS[kind], text)
-        slowest = max(slowest, (time.process_time() - start, kind, text))
+        verdict, seconds = timed(kind, text)
         assert 0 <= verdict.credit <= 1
-    assert slowest[0] < LIMIT, slowest
+        assert seconds < HANGS, (kind, text)
 
 
 @settings(max_examples=300, deadline=None, suppress_health_check=[HealthCheck.too_slow])
