@@ -127,7 +127,7 @@ def _write_synced(path: Path, data: bytes) -> None:
 
 
 def read_table(path: Path) -> Mapping[str, Any]:
-    """Read a TOML file (by its suffix) or a JSON file; numbers with a point stay text.
+    """Read a JSON file or, by its suffix or its first sign, a TOML file; 0.50 stays text.
 
     Raises
     ------
@@ -135,7 +135,8 @@ def read_table(path: Path) -> Mapping[str, Any]:
         Naming the file and, if possible, the line.
     """
     text = read_text(path, KeyFileError)
-    if path.suffix == ".toml":
+    suffix = path.suffix.lower()
+    if suffix == ".toml" or (suffix != ".json" and not text.lstrip().startswith("{")):
         return parse_toml(text, path, KeyFileError, parse_float=str)
     table = parse_json(text, path, KeyFileError)
     if not isinstance(table, dict):

@@ -7,6 +7,9 @@ means. Whoever reads says which error is raised, so that it names the file in th
 
 from __future__ import annotations
 
+import codecs
+import csv
+import io
 import json
 import os
 import re
@@ -35,6 +38,9 @@ MOST_DIGITS = 400
 """Digits of one whole number."""
 LONGEST_NAME = 100
 
+_MARKS = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+"""What a text in UTF-16 begins with, as some editors and shells of Windows write it."""
+_SEPARATORS = ",;\t"
 _NAME = re.compile(rf"(?!\.+$)[A-Za-z0-9_.-]{{1,{LONGEST_NAME}}}")
 _TOO_LARGE = 10**MOST_DIGITS
 _STARTS_FORMULA = frozenset({"=", "+", "-", "@", "\u2212", "\t"})
@@ -155,18 +161,50 @@ def _refuse_special(found: os.stat_result, path: Path, error: Failure) -> None:
 
 
 def read_text(path: Path, error: Failure, most: int = LARGEST_FILE) -> str:
-    """Read a regular file of UTF-8 text, with the line ends of any system.
+    """Read a regular file of text, UTF-8 unless it says it is UTF-16, with any line ends.
 
     Raises
     ------
     QuizgenError
         Of the kind asked for, naming the file.
     """
+    data = read_bytes(path, error, most)
     try:
-        text = read_bytes(path, error, most).decode("utf-8")
+        text = data.decode("utf-16" if data.startswith(_MARKS) else "utf-8-sig")
     except UnicodeDecodeError as found:
-        raise error(f"{path}: not UTF-8 text (byte {found.start})") from None
+        raise error(f"{path}: not UTF-8 text (byte {found.start}); save it as UTF-8") from None
+    if "\0" in text:
+        raise error(f"{path}: not UTF-8 text (a zero byte); save it as UTF-8")
     return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def parse_csv(text: str, where: object, error: Failure) -> list[tuple[int, list[str]]]:
+    """Read rows of cells, each with its line, as any spreadsheet saves them.
+
+    Cells are parted by the comma, semicolon or tab that the first row has most of; a line
+    ``sep=;`` before it says so. Cells may be quoted; rows of blanks are left out.
+
+    Raises
+    ------
+    QuizgenError
+        Of the kind asked for, naming the file and the line.
+    """
+    said = re.match(r"sep=(.)\n", text)
+    head = text.lstrip("\n").partition("\n")[0]
+    separator = said[1] if said else max(_SEPARATORS, key=head.count)
+    reader = csv.reader(io.StringIO(text, newline=""), delimiter=separator, strict=True)
+    rows: list[tuple[int, list[str]]] = []
+    count = 0
+    try:
+        for row in reader:
+            count += 1 + len(row)
+            if count > MOST_VALUES:
+                raise error(f"{where}: more than {MOST_VALUES} values")
+            if any(map(str.strip, row)):
+                rows.append((reader.line_num, row))
+    except csv.Error as found:
+        raise error(f"{where}: line {reader.line_num}: {_short(found)}") from None
+    return rows[1:] if said else rows
 
 
 def parse_toml(
