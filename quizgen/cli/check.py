@@ -30,6 +30,7 @@ class Marked(NamedTuple):
 
     file: str
     name: str
+    matriculation: str
     lang: str
     result: PaperResult
 
@@ -44,7 +45,7 @@ class Marked(NamedTuple):
 @click.option("--csv", "as_csv", is_flag=True, help="Print CSV (the default for several forms).")
 @click.option("--no-settle", is_flag=True, help="Never start SymPy for undecided formulas.")
 def check(key: Path, answers: tuple[Path, ...], lang: str | None, **flags: bool) -> None:
-    """Mark ANSWERS (answers.toml or answers.json, one or many) with KEY (key.json).
+    """Mark ANSWERS (answers.toml, .csv or .json, one or many) with KEY (key.json).
 
     One form prints a table with the mistake found in each part; several forms print CSV: marks and
     notes per part, one line per student. A form that cannot be read is named and the others are
@@ -97,7 +98,7 @@ def _print(marked: list[Marked], flags: dict[str, bool], *, many: bool) -> None:
     elif flags["as_csv"] or many:
         from quizgen.paper.report import class_csv
 
-        click.echo(class_csv([(one.file, one.name, one.result) for one in marked]), nl=False)
+        click.echo(class_csv([(*one[:3], one.result) for one in marked]), nl=False)
     else:
         _print_table(marked[0])
 
@@ -116,9 +117,9 @@ def _marked(key: Key, path: Path, lang: str | None, *, settle: bool) -> Marked:
             f"{path}: is for other questions than the key, though both are called {key.code}"
         )
     chosen = lang or _own(form, key)
-    decimal = form.student.decimal
-    result = mark_paper(key, form.typed(), chosen, decimal=decimal, settle=settle)
-    return Marked(str(path), form.student.name, chosen, result)
+    student = form.student
+    result = mark_paper(key, form.typed(), chosen, decimal=student.decimal, settle=settle)
+    return Marked(str(path), str(student.name), str(student.matriculation), chosen, result)
 
 
 def _own(form: Answers, key: Key) -> str:
@@ -130,7 +131,11 @@ def _own(form: Answers, key: Key) -> str:
 def _print_json(marked: list[Marked]) -> None:
     import json
 
-    tables = [{"file": one.file, "name": one.name, **one.result.as_json()} for one in marked]
+    tables = [
+        {"file": one.file, "name": one.name, "matriculation": one.matriculation,
+         **one.result.as_json()}
+        for one in marked
+    ]  # fmt: skip
     shown = tables[0] if len(tables) == 1 else tables
     click.echo(json.dumps(shown, ensure_ascii=False, indent=1))
 

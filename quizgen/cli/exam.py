@@ -12,18 +12,24 @@ import click
 from quizgen import render
 from quizgen.cli.command import command
 from quizgen.cli.options import SEED, BankOptions, bank_options, checked, open_bank, split
-from quizgen.cli.terminal import visible
+from quizgen.cli.terminal import Progress, visible
 from quizgen.errors import ChoiceError, CodeError, RenderError
 from quizgen.locale import FIRST, choices
+from quizgen.paper.form import FORMS
 
 if TYPE_CHECKING:
     from quizgen.bank.folder import Bank
     from quizgen.paper.blueprint import Blueprint
     from quizgen.paper.paper import Paper
 
-KEY, FORM = "key.json", "answers.toml"
+KEY = "key.json"
 HOME = Path("exam")
 """Holds a folder for each paper, named by its code."""
+SUFFIXES = (".toml", ".csv", ".json")
+NAMES = tuple(f"answers{suffix}" for suffix in SUFFIXES)
+"""Forms in a paper's folder."""
+TO_SPARE = 12
+"""Minutes that may be left over because no question is short enough."""
 USUAL = "mock"
 """The blueprint of who asks for none."""
 
@@ -38,6 +44,7 @@ class Options(BankOptions):
     minutes: int | None
     lang: str | None
     formats: str
+    form: str
     out: Path | None
     reference: bool
 
@@ -55,6 +62,8 @@ class Options(BankOptions):
     "--format", "formats", default="html,pdf", show_default=True,
     help=f"Outputs, by comma: {', '.join(render.RENDERERS)}.",
 )  # fmt: skip
+@click.option("--form", type=click.Choice(FORMS), default=FORMS[0], show_default=True,
+              help="The blank form: TOML for an editor, CSV for a spreadsheet.")  # fmt: skip
 @click.option("--out", type=click.Path(path_type=Path),
               help=f"Folder to write to. [default: {HOME}/CODE]")  # fmt: skip
 @click.option("--reference", is_flag=True, help="The questions with the numbers of the notes.")
@@ -66,37 +75,39 @@ def exam(**options: Unpack[Options]) -> None:
     from quizgen.paper.key import key_bytes
 
     formats = [checked("--format", name, render.RENDERERS) for name in split(options["formats"])]
-    paper = _paper(options)
-    folder = options["out"] or HOME / paper.code
-    kept = _filled_in(folder, paper)
-    contents = dict(_rendered(paper, formats))
+    with Progress("exam") as tell:
+        paper = _paper(options, tell)
+        folder = options["out"] or HOME / paper.code
+        form = folder / f"answers.{options['form']}"
+        kept = _filled_in(form, paper)
+        contents = dict(_rendered(paper, formats, tell))
     if not kept:
-        contents[FORM] = form_bytes(paper)
+        contents[form.name] = form_bytes(paper, options["form"])
     contents[KEY] = key_bytes(paper)
     write_all(folder, contents)
-    _report(folder, paper, contents, options, kept=kept)
+    _report(form, paper, contents, options, kept=kept)
 
 
-def _filled_in(folder: Path, paper: Paper) -> bool:
-    """Whether the folder has a form with answers to this very paper.
+def _filled_in(form: Path, paper: Paper) -> bool:
+    """Whether there is a form already, with answers to this very paper.
 
     Raises
     ------
     RenderError
-        If it has one with answers to another, which would be separated from its key.
+        If its folder has one with answers to another, which would be separated from its key.
     """
     from quizgen.paper.form import code_of_answers, holds_answers
 
-    for path in sorted(path for path in folder.glob("*") if path.suffix in {".toml", ".json"}):
+    for path in sorted(p for p in form.parent.glob("*") if p.suffix.lower() in SUFFIXES):
         code = code_of_answers(path)
-        unclear = path.name == FORM and not code and holds_answers(path)
+        unclear = path.name in NAMES and not code and holds_answers(path)
         if unclear or code not in {"", paper.code}:
             what = f"holds answers to {visible(code)}" if code else "may hold answers"
             raise RenderError(f"{path} {what}; nothing was written. Name another folder with --out")
-    return holds_answers(folder / FORM)
+    return holds_answers(form)
 
 
-def _paper(options: Options) -> Paper:
+def _paper(options: Options, tell: Progress) -> Paper:
     from quizgen.paper.paper import build, rebuild, reference_paper
 
     bank = open_bank(options)
@@ -106,13 +117,13 @@ def _paper(options: Options) -> Paper:
         if options["topic"] is not None or options["minutes"] is not None:
             raise CodeError("--code already fixes the questions; leave --topic and --minutes out")
         given = _blueprint(options, bank) if options["blueprint"] else None
-        return rebuild(bank, options["code"], given, progress=_tell)
+        return rebuild(bank, options["code"], given, progress=tell)
     blueprint = _blueprint(options, bank)
     lang = options["lang"] or FIRST
     if options["reference"]:
-        return reference_paper(bank, blueprint, lang)
+        return reference_paper(bank, blueprint, lang, progress=tell)
     seed = secrets.randbelow(10**6) if options["seed"] is None else options["seed"]
-    return build(bank, blueprint, seed, lang, progress=_tell)
+    return build(bank, blueprint, seed, lang, progress=tell)
 
 
 def _blueprint(options: Options, bank: Bank) -> Blueprint:
@@ -128,40 +139,46 @@ def _blueprint(options: Options, bank: Bank) -> Blueprint:
     return of_topic(bank, topic or EVERYTHING, minutes or 0)
 
 
-def _tell(name: str) -> None:
-    """Progress: one mark per question, on the error stream so that output stays clean."""
-    click.echo(f" {name}", nl=False, err=True)
-
-
-def _rendered(paper: Paper, formats: list[str]) -> Iterator[tuple[str, bytes]]:
-    click.echo("", err=True)
+def _rendered(paper: Paper, formats: list[str], tell: Progress) -> Iterator[tuple[str, bytes]]:
     for output in formats:
         for kind in render.KINDS:
             name = f"{kind}.{output}"
-            _tell(name)
+            tell(name)
             yield name, render.render_paper(paper, kind, output)
-    click.echo("", err=True)
 
 
 def _report(
-    folder: Path, paper: Paper, written: Collection[str], options: Options, *, kept: bool
+    form: Path, paper: Paper, written: Collection[str], options: Options, *, kept: bool
 ) -> None:
+    folder = form.parent
     for name in sorted(written):
         click.echo(f"  {folder / name}")
     if kept:
-        click.echo(f"  {folder / FORM} holds answers and was left as it is")
+        click.echo(f"  {form} has been written in and was left as it is")
     count = f"{len(paper.items)} question{'s' if len(paper.items) != 1 else ''}"
     click.echo(f"{count}, {float(paper.points):g} points, {paper.minutes} min")
-    if paper.variety:
-        click.echo(f"One of {paper.variety_text} papers that this blueprint can make")
+    _remark(paper)
     again = command("exam", "--code", paper.code, *_again(options))
-    check = command("check", folder / KEY, folder / FORM)
+    check = command("check", folder / KEY, form)
     click.echo(f"Code: {paper.code}")
     click.echo(f"The same paper again: {again}")
-    click.echo(f"Next: fill in {folder / FORM}, then: {check}")
+    click.echo(f"Next: fill in {form}, then: {check}")
     if "exam.html" in written:
         page = command("check", folder / KEY, folder / "answers.json")
         click.echo(f"  or fill in {folder / 'exam.html'}, save answers.json there, then: {page}")
+
+
+def _remark(paper: Paper) -> None:
+    """Say how many papers there are, and whether the time that was asked for is used."""
+    from quizgen.paper.blueprint import EVERYTHING
+
+    if paper.variety:
+        click.echo(f"One of {paper.variety_text} papers that this blueprint can make")
+    budget = paper.blueprint.budget
+    if budget > paper.minutes + TO_SPARE:
+        topic = paper.blueprint.topic
+        where = "this bank" if topic == EVERYTHING else f"topic {topic}"
+        click.echo(f"You asked for {budget} min: {where} has no more questions that go together")
 
 
 def _again(options: Options) -> list[str]:

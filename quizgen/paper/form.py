@@ -1,8 +1,16 @@
-"""``answers.toml``: the blank form that is printed, and the filled one that comes back."""
+"""The blank form that is printed, ``answers.toml`` or ``answers.csv``, and what comes back filled.
+
+A blank form bears a seal, a digest of what is printed in it. So a form in which someone has written
+anything, be it a note in a comment, is told from one that nobody has touched.
+"""
 
 from __future__ import annotations
 
+import csv
+import hashlib
+import io
 import json
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,17 +19,29 @@ import msgspec
 
 from quizgen.errors import KeyFileError
 from quizgen.files import read_table
+from quizgen.locale import word
 from quizgen.marking.options import DECIMALS
+from quizgen.outside import defused, parse_csv, read_text
 
 if TYPE_CHECKING:
     from quizgen.paper.paper import Item, Paper
+
+FORMS = ("toml", "csv")
+"""What a form can be printed as; the page ``exam.html`` saves JSON."""
+HEAD = ("part", "question", "hint", "answer")
+"""Columns of the form for spreadsheets; the answer comes last, so no comma in it can get lost."""
+SEALED = "tells quizgen whether anything was written here"
+
+_SEAL = re.compile(r'^"?seal\b.*\n?', re.MULTILINE)
+_LAYOUT = re.compile(r"[\s\",;]+")
+"""What an editor or a spreadsheet may change by itself."""
 
 
 class Student(msgspec.Struct):
     """Who filled in the form, and how they write."""
 
-    name: str = ""
-    matriculation: str = ""
+    name: str | int = ""
+    matriculation: str | int = ""
     lang: str = ""
     decimal: str = "auto"
 
@@ -33,11 +53,13 @@ class Answers(msgspec.Struct):
     student: Student = msgspec.field(default_factory=Student)
     code: str = ""
     paper: str = ""
+    seal: str = ""
 
     @property
     def blank(self) -> bool:
-        """Whether nobody has written anything into the form."""
-        return not self.student.name and not any(text.strip() for text in self.typed().values())
+        """Whether the form has neither an answer nor a name."""
+        known = self.student.name or self.student.matriculation
+        return not known and not any(text.strip() for text in self.typed().values())
 
     def typed(self) -> dict[str, str]:
         """Texts as typed; a number written without quotes counts as its text."""
@@ -47,12 +69,18 @@ class Answers(msgspec.Struct):
         }
 
 
-def form_bytes(paper: Paper) -> bytes:
-    """``answers.toml``: a blank form."""
-    lines = [
+def form_bytes(paper: Paper, form: str = "toml") -> bytes:
+    """A blank form, as TOML or as CSV for a spreadsheet."""
+    return _toml(paper).encode() if form == "toml" else _csv(paper).encode("utf-8-sig")
+
+
+def _toml(paper: Paper) -> str:
+    before = [
         f"# {paper.title(paper.langs[0])} - {paper.code}",
         f"code = {json.dumps(paper.code)}",
         f'paper = "{paper.digest}"',
+    ]
+    after = [
         "",
         "[student]",
         'name = ""',
@@ -63,7 +91,13 @@ def form_bytes(paper: Paper) -> bytes:
         "[answers]",
         *(line for item in paper.items for line in _question_lines(item)),
     ]
-    return ("\n".join(lines) + "\n").encode()
+    seal = _seal("\n".join([*before, *after]))
+    return "\n".join([*before, f'seal = "{seal}"   # {SEALED}', *after]) + "\n"
+
+
+def _seal(text: str) -> str:
+    """Digest of a form's text, whatever its layout."""
+    return hashlib.sha256(_LAYOUT.sub("", _SEAL.sub("", text)).encode()).hexdigest()[:12]
 
 
 def _question_lines(item: Item) -> Iterator[str]:
@@ -74,15 +108,42 @@ def _question_lines(item: Item) -> Iterator[str]:
         yield f'"{part.field.id}" = ""' + (f"   # {hint}" if hint else "")
 
 
+def _csv(paper: Paper) -> str:
+    rows = [HEAD, *_csv_rows(paper)]
+    return _cells([*rows, ("seal", "", SEALED, f"#{_seal(_cells(rows))}")])
+
+
+def _cells(rows: list[tuple[str, ...]]) -> str:
+    out = io.StringIO()
+    csv.writer(out).writerows([defused(cell) for cell in row] for row in rows)
+    return out.getvalue()
+
+
+def _csv_rows(paper: Paper) -> Iterator[tuple[str, ...]]:
+    """What the form asks; digests begin with a sign, or a spreadsheet takes some for numbers."""
+    lang = paper.langs[0]
+    yield "code", paper.title(lang), "", paper.code
+    yield "paper", "", "", f"#{paper.digest}"
+    for name in ("name", "matriculation"):
+        yield name, word(lang, f"paper.{name}"), "", ""
+    yield "lang", "", "", lang
+    yield "decimal", "", ", ".join(DECIMALS), DECIMALS[0]
+    for item in paper.items:
+        question = item.questions[0]
+        for part in question.parts:
+            title = f"{item.number}. {question.title}"
+            yield part.field.id, title, " ".join(part.field.hints), ""
+
+
 def read_answers(path: Path) -> Answers:
-    """Read ``answers.toml`` or ``answers.json``.
+    """Read a filled-in form: TOML, CSV (by its suffix) or JSON.
 
     Raises
     ------
     KeyFileError
         Naming file and field or line.
     """
-    table = read_table(path)
+    table = _read_csv(path) if path.suffix.lower() == ".csv" else read_table(path)
     if "answers" not in table:
         raise KeyFileError(f"{path}: has no table [answers]")
     try:
@@ -95,20 +156,59 @@ def read_answers(path: Path) -> Answers:
     return found
 
 
-def code_of_answers(path: Path) -> str:
-    """The code of a form that holds answers; empty for any other file."""
-    try:
-        form = read_answers(path)
-    except KeyFileError:
-        return ""
-    return "" if form.blank else form.code
+def _read_csv(path: Path) -> dict[str, object]:
+    """The table that the rows of a form stand for."""
+    rows = parse_csv(read_text(path, KeyFileError), path, KeyFileError)
+    head = [cell.strip().lower() for cell in rows[0][1]] if rows else []
+    while head and not head[-1]:
+        head.pop()
+    if "part" not in head or head[-1] != "answer":
+        raise KeyFileError(f"{path}: the first row must name the columns, 'part' among them and "
+                           "'answer' as the last")  # fmt: skip
+    found: dict[str, str] = {}
+    for line, row in rows[1:]:
+        part, answer = _part_and_answer(row, head, f"{path}: line {line}")
+        if part in found:
+            raise KeyFileError(f"{path}: line {line}: part {part!r} stands there twice")
+        if part:
+            found[part] = answer
+    student = {name: found.pop(name) for name in Student.__struct_fields__ if found.get(name)}
+    marks = {name: found.pop(name, "").removeprefix("#") for name in ("code", "paper", "seal")}
+    return {**marks, "student": student, "answers": found}
+
+
+def _part_and_answer(row: list[str], head: list[str], where: str) -> tuple[str, str]:
+    """Part and answer of a row.
+
+    Raises
+    ------
+    KeyFileError
+        If it has an answer without a part, or more cells than the first row.
+    """
+    if any(cell.strip() for cell in row[len(head) :]):
+        raise KeyFileError(f"{where}: more cells than columns (an answer with the separator in it "
+                           "needs double quotes)")  # fmt: skip
+    cells = dict(zip(head, row, strict=False))
+    part, answer = cells.get("part", "").strip(), cells.get("answer", "").strip()
+    if answer and not part:
+        raise KeyFileError(f"{where}: an answer without its part")
+    return part, answer
 
 
 def holds_answers(path: Path) -> bool:
-    """Whether a form holds anything that a student typed (or cannot be read, so might)."""
+    """Whether anyone has written anything into a form (or it cannot be read, so they might)."""
     if not path.exists():
         return False
     try:
-        return not read_answers(path).blank
+        form = read_answers(path)
+        return not form.blank or form.seal not in {"", _seal(read_text(path, KeyFileError))}
     except KeyFileError:
         return True
+
+
+def code_of_answers(path: Path) -> str:
+    """The code of a form in which someone has written; empty for any other file."""
+    try:
+        return read_answers(path).code if holds_answers(path) else ""
+    except KeyFileError:
+        return ""

@@ -72,7 +72,8 @@ def table_lines(result: PaperResult, lang: str, columns: int, paint: bool) -> It
             yield from _wrapped(cells[4], columns)
     yield f"{table['total']}: {points_text(result.marks)} / {points_text(result.points)}"
     if result.asked_back:
-        yield table["asked-back"].format(count=result.asked_back)
+        name = "asked-back-one" if result.asked_back == 1 else "asked-back"
+        yield table[name].format(count=result.asked_back)
     for part in result.unknown[:MOST_UNKNOWN]:
         yield table["unknown-part"].format(part=safe(part))
     if len(result.unknown) > MOST_UNKNOWN:
@@ -94,33 +95,33 @@ def _wrapped(text: str, columns: int) -> Iterable[str]:
     yield line
 
 
-def class_csv(results: list[tuple[str, str, PaperResult]]) -> str:
+def class_csv(results: list[tuple[str, str, str, PaperResult]]) -> str:
     """Write one row per student: marks, then notes, of every part.
 
     Parameters
     ----------
-    results : list of (file, name, result)
+    results : list of (file, name, matriculation number, result)
         All of one paper.
     """
-    ids = [part.id for part in results[0][2].parts] if results else []
+    ids = [part.id for part in results[0][3].parts] if results else []
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(
-        ["file", "name", "marks", "points", "asked_back", "to_decide"]
+        ["file", "name", "matriculation", "marks", "points", "asked_back", "to_decide"]
         + [_cell(f"{name} marks") for name in ids]
         + [_cell(f"{name} note") for name in ids]
     )
-    for file, name, result in results:
-        writer.writerow(_class_row(file, name, result))
+    for *student, result in results:
+        writer.writerow([*map(_cell, student), *_class_row(result)])
     return out.getvalue()
 
 
-def _class_row(file: str, name: str, result: PaperResult) -> list[str]:
+def _class_row(result: PaperResult) -> list[str]:
     totals = [points_text(result.marks), points_text(result.points)]
     counts = [str(result.asked_back), str(result.to_decide)]
     marks = ["" if part.marks is None else points_text(part.marks) for part in result.parts]
     notes = [_note(part) for part in result.parts]
-    return [_cell(file), _cell(name), *totals, *counts, *marks, *map(_cell, notes)]
+    return [*totals, *counts, *marks, *map(_cell, notes)]
 
 
 def _cell(text: str) -> str:

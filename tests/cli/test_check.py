@@ -59,6 +59,35 @@ def test_one_bad_form_stops_no_other(folder):
     assert "\x1b" not in done.stderr
 
 
+def test_the_table_of_a_class_knows_the_student_of_every_form(folder):
+    code = json.loads((folder / "key.json").read_text())["code"]
+    form = (folder / "answers.toml").read_text()
+    (folder / "ada.toml").write_text(
+        form.replace('name = ""', 'name = "Ada"').replace('lation = ""', "lation = 4711", 1)
+    )
+    page = {"code": code, "student": {"name": "Ben", "matriculation": "0815"}, "answers": {}}
+    (folder / "ben.json").write_text(json.dumps(page))
+    (folder / "cem.csv").write_text("part;answer\nname;Cem\nmatriculation;=1+1\n")
+    done = marked(folder, "ada.toml", "ben.json", "cem.csv")
+    rows = list(csv.DictReader(io.StringIO(done.stdout)))
+    found = [(row["name"], row["matriculation"]) for row in rows]
+    assert found == [("Ada", "4711"), ("Ben", "0815"), ("Cem", "'=1+1")]
+    (one, *_) = json.loads(marked(folder, "ben.json", "cem.csv", options=["--json"]).stdout)
+    assert one["matriculation"] == "0815"
+
+
+@pytest.mark.parametrize(
+    ("lang", "count", "said"),
+    [("en", 1, "1 answer could not be read as meant. Correct it"),
+     ("en", 2, "2 answers could not be read as meant. Correct them"),
+     ("bn", 1, "1টি উত্তর পড়া যায়নি"), ("bn", 2, "2টি উত্তর পড়া যায়নি")],
+)  # fmt: skip
+def test_answers_that_are_asked_back_are_counted_in_words(folder, lang, count, said):
+    form = {"answers": dict.fromkeys(["2", "5"][:count], "3 +* (")}
+    (folder / "form.json").write_text(json.dumps(form))
+    assert said in marked(folder, "form.json", options=["--lang", lang]).stdout
+
+
 def test_only_bad_forms_are_exit_code_two(folder):
     done = marked(folder, "missing.toml", "gone.toml")
     assert done.exit_code == 2

@@ -78,6 +78,46 @@ def test_a_filled_form_is_kept_beside_its_own_paper(tmp_path):
     assert (tmp_path / "o" / "answers.toml").read_bytes() == kept
 
 
+@pytest.mark.parametrize("other", ["4", "5"])
+def test_notes_in_a_form_are_kept_or_the_run_refused(tmp_path, other):
+    run(*TRIAL, "4", "--out", "o", cwd=tmp_path)
+    form = tmp_path / "o" / "answers.toml"
+    form.write_text(form.read_text() + "# 3 is the one with the lens: look it up\n")
+    kept = {path.name: path.read_bytes() for path in (tmp_path / "o").iterdir()}
+    result = run(*TRIAL, other, "--out", "o", cwd=tmp_path)
+    assert result.returncode == (0 if other == "4" else 2)
+    assert (
+        "left as it is" if other == "4" else "nothing was written"
+    ) in result.stdout + result.stderr
+    assert {path.name: path.read_bytes() for path in (tmp_path / "o").iterdir()} == kept
+
+
+def test_a_form_for_spreadsheets_is_written_kept_and_marked(tmp_path):
+    made = run(*TRIAL, "4", "--out", "o", "--form", "csv", cwd=tmp_path)
+    assert "o/answers.csv" in made.stdout
+    assert not (tmp_path / "o" / "answers.toml").exists()
+    form = tmp_path / "o" / "answers.csv"
+    text = form.read_text("utf-8-sig")
+    row = next(line for line in text.splitlines() if line.startswith("1"))
+    form.write_text(text.replace(row, f"{row}B"), "utf-8")
+    kept = form.read_bytes()
+    assert "left as it is" in run(*TRIAL, "4", "--out", "o", "--form", "csv", cwd=tmp_path).stdout
+    assert run(*TRIAL, "5", "--out", "o", cwd=tmp_path).returncode == 2
+    assert form.read_bytes() == kept
+    checked = run("check", "o/key.json", "o/answers.csv", "--json", cwd=tmp_path)
+    assert json.loads(checked.stdout)["parts"][0]["typed"] == "B"
+
+
+def test_a_time_that_the_bank_cannot_fill_is_told(tmp_path):
+    short = run("exam", "--topic", "optics", "--minutes", "20", "--seed", "1", "--format", "html",
+                cwd=tmp_path)  # fmt: skip
+    assert "You asked for" not in short.stdout
+    long = run("exam", "--topic", "optics", "--minutes", "500", "--seed", "1", "--format", "html",
+               cwd=tmp_path)  # fmt: skip
+    assert "You asked for 500 min: topic optics has no more questions" in long.stdout
+    assert long.stderr == short.stderr == ""
+
+
 @pytest.mark.parametrize("name", ["answers.toml", "answers.json", "rahim.toml"])
 def test_a_filled_form_is_never_separated_from_its_key(tmp_path, name):
     run(*TRIAL, "4", "--out", "o", cwd=tmp_path)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import json
 import random
 import tomllib
@@ -156,7 +158,7 @@ def use_answers(folder: Path, key: Path, form: Path) -> None:
     answers = read_answers(form)
     result = mark_paper(read_key(key), answers.typed(), decimal=answers.student.decimal)
     list(table_lines(result, "en", 80, paint=False))
-    class_csv([(str(form), answers.student.name, result)])
+    class_csv([(str(form), str(answers.student.name), "", result)])
     json.dumps(result.as_json()).encode()
 
 
@@ -180,16 +182,27 @@ def key(folder: Path, chance: Chance) -> None:
     use_answers(folder, folder / "key.json", folder / "answers.toml")
 
 
+def rows(form: dict) -> str:
+    """A form as a spreadsheet saves it."""
+    out = io.StringIO()
+    filled = form.get("answers")
+    pairs = filled.items() if isinstance(filled, dict) else [("1", filled)]
+    csv.writer(out, delimiter=";").writerows([("part", "answer"), *pairs])
+    return out.getvalue()
+
+
+FORMS = {"answers.toml": toml, "answers.json": as_json, "answers.csv": rows}
+
+
 def answers(folder: Path, chance: Chance) -> None:
     table = chance.choice(keys())
     question = chance.choice(table["questions"])
     form = form_of({**table, "questions": [question]})
     (folder / "key.json").write_text(as_json({**table, "questions": [question]}), "utf-8")
-    file = folder / chance.choice(("answers.toml", "answers.json"))
-    write = toml if file.suffix == ".toml" else as_json
+    file, write = chance.choice(tuple(FORMS.items()))
     data = write(mutated(form, chance)).encode("utf-8", "replace")
-    file.write_bytes(damaged(data, chance) if chance.random() < 0.2 else data)
-    use_answers(folder, folder / "key.json", file)
+    (folder / file).write_bytes(damaged(data, chance) if chance.random() < 0.2 else data)
+    use_answers(folder, folder / "key.json", folder / file)
 
 
 @cache

@@ -6,6 +6,8 @@ from the key: so a key that lost something on its way through a file is found ou
 
 from __future__ import annotations
 
+import csv
+import io
 import json
 import re
 from collections.abc import Iterator
@@ -85,6 +87,7 @@ class Desk:
         self.key = folder / "key.json"
         self.key.write_bytes(key_bytes(paper))
         self.blank = form_bytes(paper).decode()
+        self.sheet = form_bytes(paper, "csv").decode("utf-8-sig")
         self.forms: list[Path] = []
 
     def toml(self, answers: dict[str, str]) -> None:
@@ -96,6 +99,14 @@ class Desk:
             quoted = json.dumps(text, ensure_ascii=False)
             lines.append(line.replace('""', quoted, 1) if text else line)
         self._keep(f"{len(self.forms)}.toml", "\n".join(lines))
+
+    def csv(self, answers: dict[str, str]) -> None:
+        """Fill in the form with a spreadsheet, which writes semicolons where commas are decimal."""
+        rows = list(csv.reader(io.StringIO(self.sheet)))
+        cells = [[*row[:-1], answers.get(row[0], row[-1])] for row in rows]
+        out = io.StringIO()
+        csv.writer(out, delimiter=",;"[len(self.forms) % 2]).writerows(cells)
+        self._keep(f"{len(self.forms)}.csv", out.getvalue())
 
     def json(self, answers: dict[str, str]) -> None:
         """Fill in the page, which saves this."""

@@ -27,6 +27,8 @@ def test_printed_answers_typed_as_asked_get_full_marks(desk):
     assert len(printed) >= 230
     desk.toml({field.id: typed(field, field.answer) for field in printed})
     desk.json({field.id: typed(field, field.answer, side=1) for field in printed})
+    desk.csv({field.id: typed(field, field.answer) for field in printed})
+    desk.csv({field.id: typed(field, field.answer) for field in printed})
     for found in desk.marks():
         lost = [_told(field, found) for field in printed if found[field.id]["status"] != "correct"]
         assert not lost
