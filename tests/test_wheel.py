@@ -37,6 +37,8 @@ def test_wheel_and_sdist_hold_the_bank(built):
     names = zipfile.ZipFile(wheel).namelist()
     assert "quizgen/builtin/templates/projection/point-to-image-plane/template.toml" in names
     assert "quizgen/builtin/solvers/projection/perspective.py" in names
+    assert "quizgen/render/webfonts/stix-two-math.woff2" in names
+    assert [n for n in names if n.endswith("/licenses/quizgen/render/webfonts/OFL.txt")]
     assert not [n for n in names if n.startswith(("templates/", "solvers/", "tests/"))]
     assert not [n for n in names if n.endswith(".pyc")]
     assert next(built.glob("*.tar.gz")).stat().st_size > 0

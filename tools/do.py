@@ -1,4 +1,4 @@
-"""The five commands that people use: ``uv run python tools/do.py test|style|proof|speed|pins``."""
+"""The commands that people use: ``uv run python tools/do.py test|style|proof|speed|pins|fonts``."""
 
 from __future__ import annotations
 
@@ -19,8 +19,9 @@ COMMANDS: dict[str, tuple[list[str], ...]] = {
         [sys.executable, "benchmarks/marking.py"],
     ),
     "pins": ([sys.executable, "tools/pin.py"],),
+    "fonts": ([sys.executable, "tools/pack_fonts.py"],),
 }
-"""What to type, and what it runs: tests; style, types, lengths; every draw; ratios; versions."""
+"""What to type, and what it runs: tests; style and lengths; all draws; ratios; versions; fonts."""
 
 
 def main(names: list[str]) -> int:

@@ -82,11 +82,9 @@ def package(deck: Deck) -> bytes:
 
 
 def _font() -> bytes:
-    from base64 import b64decode
-
     from quizgen.render import fonts
 
-    return b64decode(fonts.bangla_uri().partition(",")[2])
+    return fonts.web_font(fonts.BANGLA["Regular"])
 
 
 def _add(archive: zipfile.ZipFile, name: str, data: bytes) -> None:

@@ -1,0 +1,82 @@
+"""Fonts of pages: packed as the command packs them, with every character that pages show."""
+
+from __future__ import annotations
+
+import re
+import sys
+from html import unescape
+from io import BytesIO
+from pathlib import Path
+
+import pytest
+from fontTools.ttLib import TTFont
+
+from quizgen.audit.doctor import bangla_text
+from quizgen.bank.folder import builtin
+from quizgen.errors import RenderError
+from quizgen.paper.paper import single
+from quizgen.render import fonts, render_paper
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "tools"))
+
+from pack_fonts import pack, sources
+
+NAMES = [fonts.MATHS, *fonts.BANGLA.values()]
+
+
+def characters(name: str) -> set[str]:
+    with TTFont(BytesIO(fonts.web_font(name))) as font:
+        return set(map(chr, font.getBestCmap()))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_packed_font_is_what_the_command_makes(name):
+    """Packing takes up to 3 CPU s; that is why the fonts are kept."""
+    source, wanted = sources()[fonts.packed(name)]
+    assert fonts.web_font(name) == pack(source, wanted)
+
+
+@pytest.mark.parametrize("name", fonts.BANGLA.values())
+def test_bangla_of_templates_and_locale_has_its_letters(name):
+    joiners = {"\u200c", "\u200d"}
+    used = {c for c in bangla_text() if "\u0980" <= c <= "\u09ff" or c in joiners or c in "।॥"}
+    assert len(used) > 50
+    assert used <= characters(name)
+
+
+def mathematics(page: str) -> set[str]:
+    """Characters of the formulas of a page."""
+    formulas = re.findall(r"<math.*?</math>", page, re.DOTALL)
+    return set(unescape(re.sub(r"<[^>]*>", "", "".join(formulas)))) - {"\n"}
+
+
+def test_formulas_of_all_templates_have_their_letters():
+    """Composes every template once, 7 CPU s: no smaller set holds all letters."""
+    pages = (render_paper(single(template, 1, template.languages[0], figures=False),
+                          "solutions", "html").decode() for template in builtin())  # fmt: skip
+    used = set().union(*map(mathematics, pages))
+    assert len(used) > 80
+    assert used <= characters(fonts.MATHS)
+
+
+@pytest.mark.parametrize(
+    "damage", [lambda d: d[:1000], lambda _: b"", lambda d: b"x" + d[1:], lambda d: d + b"x"]
+)
+def test_a_damaged_font_is_said_and_never_put_into_a_page(monkeypatch, tmp_path, damage):
+    data = fonts.web_font(fonts.MATHS)
+    monkeypatch.setattr(fonts, "WEB", tmp_path)
+    with pytest.raises(RenderError, match=r"stix-two-math\.woff2"):
+        fonts.web_font(fonts.MATHS)
+    fonts.packed(fonts.MATHS).write_bytes(damage(data))
+    with pytest.raises(RenderError, match="damaged font; reinstall quizgen"):
+        fonts.web_font(fonts.MATHS)
+
+
+def test_the_licence_stands_beside_the_fonts_and_no_font_has_a_reserved_name():
+    licence = (fonts.WEB / "OFL.txt").read_text("utf-8")
+    for name in NAMES:
+        assert f"{name}.woff2" in licence
+        with TTFont(BytesIO(fonts.web_font(name))) as font:
+            family = font["name"].getBestFamilyName()
+        assert "TM Math" not in family
+        assert family.removesuffix(" SemiBold").removesuffix(" Bold") in licence
