@@ -129,8 +129,8 @@ def _language_problems(template: Template, langs: tuple[str, ...]) -> list[str]:
 
 def _missing(template: Template, lang: str) -> Iterator[str]:
     text, chain = template.texts[lang], template.chain
-    for label in template.labels:
-        if label and label not in text.sections:
+    for label, part in zip(template.labels, template.rules.part, strict=True):
+        if label and label not in text.sections and "from" not in part.answer:
             yield f"section {label!r} is missing"
     if chain.steps and "check" not in text.sections:
         yield "section 'check' is missing"
@@ -141,12 +141,23 @@ def _missing(template: Template, lang: str) -> Iterator[str]:
     }
     listed = {trap for part in template.rules.part for trap in part.answer.get("traps", ())}
     wanted["traps"] |= listed
-    known = {"steps": set(chain.by_name), "traps": set(chain.traps) | listed}
+    wanted["claims"] = set(template.rules.claims)
+    known = {
+        "claims": wanted["claims"],
+        "steps": set(chain.by_name),
+        "traps": set(chain.traps) | listed,
+    }
     for section, names in wanted.items():
         said = set(text.named.get(section, {}))
         yield from (f"section {section!r} lacks {name!r}" for name in sorted(names - said))
         strangers = sorted(said - known[section])
-        yield from (f"section {section!r} explains {n!r}, unknown to the solver" for n in strangers)
+        yield from (
+            f"section {section!r} explains {n!r}, unknown to the {_KNOWS.get(section, 'solver')}"
+            for n in strangers
+        )
+
+
+_KNOWS = {"claims": "pool [claims]"}
 
 
 def _unequal_slots(template: Template) -> Iterator[str]:
@@ -157,7 +168,7 @@ def _unequal_slots(template: Template) -> Iterator[str]:
         if shown[first] != shown[lang]:
             odd = sorted(shown[first] ^ shown[lang])
             yield f"{first}.md and {lang}.md do not show the same values: {odd}"
-    for section in ("options", "words", "gaps"):
+    for section in ("options", "words", "gaps", "points", "claims", "reasons", "why"):
         keys = {lang: set(text.named.get(section, {})) for lang, text in template.texts.items()}
         for lang in others:
             if keys[first] != keys[lang]:

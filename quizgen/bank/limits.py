@@ -24,6 +24,8 @@ LARGEST = 10**100
 MOST_CHOICES = 10_000
 """Values of a range, and entries of a list."""
 MOST_POINTS, MOST_MINUTES, MOST_PARTS, MOST_OPTIONS = 1000, 9999, 10, 12
+MOST_IN_POOL = 60
+"""Options, pairs, steps or gaps of which every draw takes some."""
 MOST_FORMULAS = 500
 
 Problems = Iterator[tuple[str, str]]
@@ -44,6 +46,11 @@ class Answer(msgspec.Struct, frozen=True):
     points: tuple[str, ...] = ()
     true: bool | str = True
     claim: str = ""
+    source: str = msgspec.field(name="from", default="")
+    take: int = 0
+    right: tuple[int, int] | None = None
+    extra: int | None = None
+    in_order: bool = False
     cells: dict[str, dict[str, bool | Scalar]] = {}
     accept: tuple[Scalar, Scalar] | None = None
     traps: dict[str, Any] = {}
@@ -75,6 +82,7 @@ def problems(rules: Rules) -> Problems:
     """Every field of the rules that holds what it cannot."""
     yield from _names(rules)
     yield from _sizes(rules)
+    yield from _claims(rules)
     for name, rule in rules.draw.items():
         yield from ((f"draw.{name}.{field}", what) for field, what in _draw(rule))
     for name, keep in rules.keep.items():
@@ -178,11 +186,45 @@ def _answer(table: Mapping[str, object]) -> Problems:
     listed: dict[str, Collection[str]] = {"options": answer.options, "pairs": answer.pairs,
               "steps": (*answer.steps, *answer.distractors), "gaps": answer.gaps,
               "points": answer.points}  # fmt: skip
+    most = MOST_IN_POOL if answer.take else MOST_OPTIONS
     for field, names in listed.items():
-        if len(names) > MOST_OPTIONS or (field in table and not names):
-            yield f"answer.{field}", f"1 to {MOST_OPTIONS} are needed"
+        if len(names) > most or (field in table and not names):
+            yield f"answer.{field}", f"1 to {most} are needed"
         if len(set(names)) < len(names):
             yield f"answer.{field}", "a name stands twice"
     strangers = {name for pair in answer.before for name in pair} - set(answer.steps)
     if strangers:
         yield "answer.before", f"names {sorted(strangers)}, which are not steps"
+    yield from _pooled(answer)
+
+
+POOLED = {"choice": "options", "multi": "options", "match": "pairs", "order": "steps",
+          "gap": "gaps"}  # fmt: skip
+"""Kind to what every draw may take some of."""
+
+
+def _pooled(answer: Answer) -> Problems:
+    field = POOLED.get(answer.kind, "")
+    if answer.take and not field:
+        yield "answer.take", f"only {', '.join(POOLED)} have a pool"
+    elif answer.take and not 1 <= answer.take <= min(MOST_OPTIONS, len(getattr(answer, field))):
+        yield "answer.take", f"must be 1 to {MOST_OPTIONS} and at most the number of {field}"
+    if answer.take and answer.before:
+        yield "answer.take", "some of the steps can be taken only of one order, without before"
+    if answer.right and not (answer.take and 1 <= answer.right[0] <= answer.right[1]):
+        yield "answer.right", "is [least, most] right options among those that take names"
+    spare = len(answer.distractors) + bool(answer.take) * len({*answer.pairs.values()})
+    if answer.extra is not None and not 0 <= answer.extra <= spare:
+        yield "answer.extra", f"must be 0 to {spare}, the number of distractors"
+
+
+def _claims(rules: Rules) -> Problems:
+    taking = [part.answer for part in rules.part if "from" in part.answer]
+    if any((a.get("kind"), a["from"]) != ("tf", "claims") for a in taking):
+        yield "part", 'from = "claims" belongs to kind "tf"; there is no other pool'
+    if len(taking) > len(rules.claims):
+        yield "claims", f"{len(rules.claims)} are too few for {len(taking)} parts"
+    if rules.claims and not taking:
+        yield "claims", 'no part has from = "claims"'
+    if len(rules.claims) > MOST_FORMULAS:
+        yield "claims", f"more than {MOST_FORMULAS} entries"

@@ -12,12 +12,16 @@ A language file has a title, a stem, one section per part and lists of named sen
     ## check          how to see that the result makes sense
     ## traps          what went wrong, by mistake
     ## options        wording of choices, pairs, ordered steps
-    ## reasons        why an option is wrong (or right), a pair does not fit, a step comes later
+    ## claims         statements that are true or false, by name
+    ## reasons        why an option or a claim is wrong (or right), a pair does not fit, a step
+                      comes later, a gap takes its word
     ## words          wording of drawn phrases
     ## note           a remark shown with the solution (where the notes differ, and why)
 
 ``{{ name }}`` fills in a drawn value with its unit and nothing else; ``$...$`` is mathematics in
-the grammar that students type. Loops, calls, attributes and arithmetic do not exist here.
+the grammar that students type. Loops, calls, attributes and arithmetic do not exist here. A named
+sentence may be told by a condition, ``- name [h < 60]: ...``; the first that holds is said, else
+the one without. In ``why``, sentences named by a part's label belong to that part.
 """
 
 from __future__ import annotations
@@ -34,7 +38,9 @@ from quizgen.errors import BankError, FormulaError
 from quizgen.maths.notation import parse
 from quizgen.maths.tree import Expr
 
-NAMED_SECTIONS = frozenset({"steps", "traps", "options", "words", "gaps", "points", "reasons"})
+NAMED_SECTIONS = frozenset(
+    {"steps", "traps", "options", "words", "gaps", "points", "reasons", "claims"}
+)
 PROSE_SECTIONS = frozenset({"why", "check", "note"})
 
 
@@ -121,6 +127,10 @@ class Table:
 Block = Paragraph | Items | CodeBlock | Table
 
 
+Case = tuple[str, tuple[Inline, ...]]
+"""A condition (empty: always) and the sentence that is said where it holds."""
+
+
 @dataclass(frozen=True)
 class Text:
     """The parsed prose of one language."""
@@ -129,6 +139,7 @@ class Text:
     stem: tuple[Block, ...]
     sections: Mapping[str, tuple[Block, ...]] = field(default_factory=dict)
     named: Mapping[str, Mapping[str, tuple[Inline, ...]]] = field(default_factory=dict)
+    cases: Mapping[tuple[str, str], tuple[Case, ...]] = field(default_factory=dict)
 
     def sentence(self, section: str, name: str) -> tuple[Inline, ...] | None:
         """A named sentence, or None."""
@@ -282,17 +293,36 @@ def parse_text(source: str) -> Text:
     title, body = _title(source)
     pieces = re.split(r"^## +(\S.*)$", body, flags=re.MULTILINE)
     sections: dict[str, tuple[Block, ...]] = {}
-    named: dict[str, dict[str, tuple[Inline, ...]]] = {}
-    for heading, content in zip(pieces[1::2], pieces[2::2], strict=True):
+    listed: dict[str, list[tuple[str, Case]]] = {}
+    for heading, whole in zip(pieces[1::2], pieces[2::2], strict=True):
         name = heading.strip()
+        content, labelled = _by_label(whole) if name == "why" else (whole, "")
+        if labelled:
+            listed[name] = list(_named(name, labelled))
         if name in NAMED_SECTIONS:
-            named[name] = _named(name, content)
+            listed[name] = list(_named(name, content))
         elif name in PROSE_SECTIONS or re.fullmatch(r"[a-j]", name):
             sections[name] = blocks(content)
         else:
             allowed = sorted(NAMED_SECTIONS | PROSE_SECTIONS)
             raise BankError(f"section {name!r} is unknown (allowed: a, b, ..., {allowed})")
-    return Text(title, blocks(pieces[0]), sections, named)
+    named = {section: {n: said for n, (_, said) in found} for section, found in listed.items()}
+    return Text(title, blocks(pieces[0]), sections, named, _cases(listed))
+
+
+def _by_label(content: str) -> tuple[str, str]:
+    """The paragraphs of an explanation, and its list of sentences by part if it ends in one."""
+    found = re.search(r"^- [a-j](?: \[[^\]\n]*\])?:", content, flags=re.MULTILINE)
+    return (content[: found.start()], content[found.start() :]) if found else (content, "")
+
+
+def _cases(listed: Mapping[str, list[tuple[str, Case]]]) -> dict[tuple[str, str], tuple[Case, ...]]:
+    """Section and name of the sentences of which some are told by a condition."""
+    found: dict[tuple[str, str], list[Case]] = {}
+    for section, entries in listed.items():
+        for name, case in entries:
+            found.setdefault((section, name), []).append(case)
+    return {place: tuple(cases) for place, cases in found.items() if any(c for c, _ in cases)}
 
 
 def _title(source: str) -> tuple[str, str]:
@@ -302,16 +332,20 @@ def _title(source: str) -> tuple[str, str]:
     return head[2:].strip(), body
 
 
-def _named(section: str, content: str) -> dict[str, tuple[Inline, ...]]:
-    sentences: dict[str, tuple[Inline, ...]] = {}
+_CASE = re.compile(r"(?P<name>[^\[]*?)(?:\s*\[(?P<condition>[^\]]*)\])?\s*")
+
+
+def _named(section: str, content: str) -> Iterator[tuple[str, Case]]:
     for entry in re.split(r"^- ", content, flags=re.MULTILINE):
         if not entry.strip():
             continue
         name, colon, sentence = entry.partition(":")
         if not colon:
             raise BankError(f"section {section!r}: {entry.strip()!r} lacks 'name: sentence'")
-        sentences[name.strip()] = inlines(" ".join(sentence.split()))
-    return sentences
+        found = _CASE.fullmatch(name)
+        if found is None:
+            raise BankError(f"section {section!r}: {name.strip()!r} is not 'name [condition]'")
+        yield found["name"].strip(), (found["condition"] or "", inlines(" ".join(sentence.split())))
 
 
 def slots(parts: Iterable[Block | Inline]) -> Iterator[str]:

@@ -53,6 +53,13 @@ class PartRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     show: tuple[str, ...] | None = None
 
 
+class ClaimRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """A statement of a pool: what makes it true, and where that is to be found."""
+
+    true: bool | str
+    source: str = ""
+
+
 class Rules(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     """The whole of ``template.toml``."""
 
@@ -65,6 +72,7 @@ class Rules(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     solver: str = ""
     covers: tuple[str, ...] = ()
     draw: dict[str, DrawRule] = {}
+    claims: dict[str, bool | str | ClaimRule] = {}
     keep: dict[str, KeepRule] = {}
     where: tuple[str, ...] = ()
     may_vanish: tuple[str, ...] = ()
@@ -74,6 +82,12 @@ class Rules(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     pool: int | None = None
     apart: tuple[str, ...] = ()
     precision: tuple[str, ...] = ()
+
+
+def claim_of(rules: Rules, name: str) -> ClaimRule:
+    """A claim of the pool; a truth or a condition alone is one without a source."""
+    claim = rules.claims[name]
+    return claim if isinstance(claim, ClaimRule) else ClaimRule(claim)
 
 
 TIER_MINUTES = {"A": 3, "B": 5, "C": 10, "D": 12}

@@ -218,3 +218,6 @@ class Conversation:
             say(line.maths.typed, "   ", "      ")
             say(inline(line.why), "      ", "      ")
         say(self.words["answer"].format(answer=task.solved.answer), bold=True)
+        solved = task.solved
+        for sentence in (*solved.options, *filter(None, [solved.why])):
+            say(inline(sentence), "   ", "   ")

@@ -13,7 +13,8 @@ from typing import Any
 from markupsafe import Markup
 
 from quizgen.bank.draw import Draw, draw, reference
-from quizgen.bank.prose import Block, Inline
+from quizgen.bank.pools import named
+from quizgen.bank.prose import Block, Inline, Items, Paragraph, Styled, slots
 from quizgen.bank.rules import Scalar
 from quizgen.bank.template import Template
 from quizgen.errors import BankError
@@ -217,13 +218,13 @@ def identity(drawn: Draw) -> str:
     """Name of the variant: two questions are the same if and only if this is the same."""
     numbers = [f"{name}={key_text(value)}" for name, value in sorted(drawn.shown.items())]
     words = [f"{name}={value}" for name, value in sorted(drawn.words.items())]
-    return f"{drawn.template.id}({', '.join(numbers + words)})"
+    return f"{drawn.template.id}({', '.join(numbers + words + named(drawn))})"
 
 
 def _part(filler: Filler, index: int, number: str, built: Built[Any]) -> Part:
     template = filler.drawn.template
     label = template.labels[index]
-    body = filler.section(label) if label else ()
+    body = _body(filler, label, built.statements)
     if label and not body:
         raise BankError(f"{template.path / filler.lang}.md: section {label!r} is missing")
     field = Field(
@@ -234,6 +235,22 @@ def _part(filler: Filler, index: int, number: str, built: Built[Any]) -> Part:
         targets=_choices(filler, built.targets),
     )
     return Part(label, written(template.rules.part[index].points), body, field)
+
+
+STATEMENT = "claim"
+"""The blank in a part's section that its statement fills."""
+
+
+def _body(filler: Filler, label: str, statements: tuple[Named, ...]) -> tuple[Block, ...]:
+    """The section of a part, and what it asks: its statement, or several in a numbered list."""
+    section = filler.text.sections.get(label, ()) if label else ()
+    if len(statements) == 1 and statements[0][0] == "claims":
+        if STATEMENT in slots(section):
+            return filler.saying(STATEMENT, *statements[0]).blocks(section)
+        asked = Styled("strong", filler.sentence(*statements[0]))
+        return (*filler.blocks(section), Paragraph((asked,)))
+    listed = tuple((Paragraph(filler.sentence(*place)),) for place in statements)
+    return (*filler.blocks(section), *((Items(listed, ordered=True),) if listed else ()))
 
 
 def _choices(filler: Filler, names: tuple[Named, ...]) -> tuple[Choice, ...]:

@@ -64,6 +64,10 @@ class Built(Generic[S]):
     reasons : tuple of (str, str)
         What a learner may choose wrongly (an option's mark, a pair of marks) and the name of the
         sentence in section ``reasons`` that says why it is wrong.
+    statements : tuple of (str, str)
+        Section and name of the sentences that are asked: a claim, or sentences with a gap each.
+    source : str
+        Where the reason that tells the right answer is to be found.
     mistakes : mapping of str to Spec
         Each known mistake and the spec of which its answer would be the key.
     """
@@ -74,6 +78,8 @@ class Built(Generic[S]):
     targets: tuple[Named, ...] = ()
     right: tuple[Named, ...] = ()
     reasons: tuple[Named, ...] = ()
+    statements: tuple[Named, ...] = ()
+    source: str = ""
     mistakes: Mapping[str, S] = field(default_factory=dict)
 
 

@@ -12,6 +12,7 @@ from quizgen import typeset
 from quizgen.bank.draw import Draw
 from quizgen.bank.prose import (
     Block,
+    Case,
     Code,
     Formula,
     Inline,
@@ -29,6 +30,7 @@ from quizgen.maths.superscripts import RAISED
 from quizgen.maths.tree import Expr
 from quizgen.maths.units import shown as unit_shown
 from quizgen.maths.values import Values
+from quizgen.question.contract import Named
 
 NBSP = "\u00a0"
 SHORT = 16
@@ -57,7 +59,8 @@ class Filler:
     """
 
     def __init__(self, drawn: Draw, lang: str, *, hidden: bool = False) -> None:
-        self.drawn, self.lang = drawn, lang
+        self.drawn, self.lang, self.hidden = drawn, lang, hidden
+        self.own: dict[str, Named] = {}
         self.known: Values = drawn.shown if hidden else drawn.shown_values
         self.text = drawn.template.texts[lang]
 
@@ -86,25 +89,44 @@ class Filler:
         return fill(self.unfilled(section, name), self._value)
 
     def unfilled(self, section: str, name: str) -> tuple[Inline, ...]:
-        """A named sentence as it is written.
+        """A named sentence as it is written; of several cases the one that fits the draw.
 
         Raises
         ------
         BankError
             If the language file lacks it.
         """
-        found = self.text.sentence(section, name)
+        cases = self.text.cases.get((section, name))
+        found = self._fitting(cases) if cases else self.text.sentence(section, name)
         if found is None:
-            raise BankError(self._complaint(f"section {section!r} lacks {name!r}"))
+            lacks = "has no case of" if cases else "lacks"
+            raise BankError(self._complaint(f"section {section!r} {lacks} {name!r}"))
         return found
+
+    def _fitting(self, cases: tuple[Case, ...]) -> tuple[Inline, ...] | None:
+        """The first sentence whose condition holds, else the one without a condition."""
+        for condition, sentence in sorted(cases, key=lambda case: not case[0]):
+            if not condition or self.drawn.computed(condition):
+                return sentence
+        return None
+
+    def saying(self, name: str, section: str, sentence: str) -> Filler:
+        """The same with a blank that a named sentence fills."""
+        filler = Filler(self.drawn, self.lang, hidden=self.hidden)
+        filler.own[name] = (section, sentence)
+        return filler
 
     def _value(self, part: Slot | Formula) -> tuple[Inline, ...]:
         return self._slot(part.name) if isinstance(part, Slot) else (_inline_maths(part.expr),)
 
     def _slot(self, name: str) -> tuple[Inline, ...]:
         drawn = self.drawn
+        if name in self.own:
+            return self.sentence(*self.own[name])
         if name in drawn.words:
             return self.sentence("words", drawn.words[name])
+        if not self.hidden and ("words", name) in self.text.cases:
+            return self.sentence("words", name)
         if name not in self.known:
             raise BankError(self._complaint(f"{{{{ {name} }}}} is not a drawn quantity"))
         return (Words(quantity_text(drawn, name)),)

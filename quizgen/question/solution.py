@@ -38,13 +38,19 @@ class Mistake:
 
 @dataclass(frozen=True, slots=True)
 class PartSolution:
-    """The worked solution of one part."""
+    """The worked solution of one part.
+
+    ``options`` tells the right answer in words, ``reasons`` why each other choice is wrong,
+    ``why`` what else explains the answer.
+    """
 
     label: str
     lines: tuple[Line, ...]
     answer: str
     mistakes: tuple[Mistake, ...]
     options: tuple[tuple[Inline, ...], ...] = ()
+    reasons: tuple[Mistake, ...] = ()
+    why: tuple[Inline, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,15 +90,21 @@ def solve(drawn: Draw, lang: str, built: tuple[Built[Any], ...]) -> Solution:
 
 def _part(filler: Filler, index: int, built: Built[Any]) -> PartSolution:
     drawn, spec = filler.drawn, built.spec
+    label = drawn.template.labels[index]
+    explained = filler.text.sentence("why", label or "a") is not None
     return PartSolution(
-        label=drawn.template.labels[index],
+        label=label,
         lines=tuple(
             Line(worked(drawn, step), filler.sentence("steps", step.name))
             for step in drawn.steps(index)
         ),
         answer=KINDS[spec.kind].printed(spec, filler.lang),
-        mistakes=(*_mistakes(filler, built), *_reasons(filler, built)),
-        options=tuple(_right(filler, section, name) for section, name in built.right),
+        mistakes=tuple(_mistakes(filler, built)),
+        options=tuple(
+            (*_right(filler, section, name), *_cited(built.source)) for section, name in built.right
+        ),
+        reasons=tuple(_reasons(filler, built)),
+        why=filler.sentence("why", label or "a") if explained else (),
     )
 
 
@@ -108,6 +120,10 @@ def _reasons(filler: Filler, built: Built[Any]) -> Iterator[Mistake]:
     for mark, name in built.reasons:
         if name not in right:
             yield Mistake(name, filler.sentence("reasons", name), mark)
+
+
+def _cited(source: str) -> tuple[Inline, ...]:
+    return (Words(f" [{source}]"),) if source else ()
 
 
 def _right(filler: Filler, section: str, name: str) -> tuple[Inline, ...]:

@@ -23,6 +23,7 @@ from quizgen.question.filling import Filler, plain
 LETTERS = "ABCDEFGHIJKL"
 OWN_KEYS = frozenset(
     {"of", "options", "pairs", "steps", "before", "distractors", "gaps", "true", "claim"}
+    | {"from", "take", "right", "extra", "in_order"}
 )
 """Keys of an authored answer that a builder replaces; all others are handed on as they are."""
 ROUNDED_MISTAKE = 4
@@ -128,17 +129,21 @@ def why(drawn: Draw, names: Iterable[Named]) -> dict[str, dict[str, str]]:
     }
 
 
+def cited(said: Mapping[str, Mapping[str, str]], source: str) -> dict[str, dict[str, str]]:
+    """Reasons with their source behind them, if one is known."""
+    behind = f" [{source}]" if source else ""
+    return {
+        lang: {mark: f"{sentence}{behind}" for mark, sentence in reasons.items()}
+        for lang, reasons in said.items()
+    }
+
+
 def mistaken(spec: S, key: str) -> dict[str, S]:
     """Each mistake of a spec with the spec of which its answer would be the key."""
     return {
         trap: msgspec.structs.replace(spec, traps={}, notes={}, **{key: wrong})
         for trap, wrong in spec.traps.items()
     }
-
-
-def holds(drawn: Draw, condition: object) -> bool:
-    """Whether an authored condition, a truth or a formula, holds in this draw."""
-    return condition if isinstance(condition, bool) else bool(drawn.computed(str(condition)))
 
 
 def order_key(drawn: Draw, index: int) -> str:
@@ -148,7 +153,9 @@ def order_key(drawn: Draw, index: int) -> str:
 
 
 def mixed(drawn: Draw, index: int, names: Iterable[str], side: str = "") -> list[str]:
-    """Names in the order in which they are shown."""
+    """Names in the order in which they are shown: a drawn one, unless the listed one is asked."""
+    if answer_of(drawn, index).get("in_order"):
+        return list(names)
     return shuffled(order_key(drawn, index) + side, list(names))
 
 

@@ -278,7 +278,17 @@ class _Sheet:
         parts = [key.solution.parts[index] for key in item.keys]
         steps = [self._step([p.lines[i] for p in parts]) for i in range(len(parts[0].lines))]
         answer = _joined(self.langs, [self._answer(p, lang) for p, lang in self._with_lang(parts)])
-        return "\n".join([*steps, f"#result[{answer}]"])
+        reasons = [self._reasons(p, lang) for p, lang in self._with_lang(parts)]
+        return "\n".join([*steps, f"#result[{answer}]", *filter(None, reasons)])
+
+    def _reasons(self, part: PartSolution, lang: str) -> str:
+        """Why the answer is right, and why each other choice is wrong."""
+        why = [f"#block[{inline(part.why, lang)}]"] if part.why else []
+        wrong = [
+            f"#mistake({string('')}, {string(m.value)}, [{inline(m.sentence, lang)}])"
+            for m in part.reasons
+        ]
+        return _in(lang, "\n".join([*why, *wrong])) if why or wrong else ""
 
     def _with_lang(self, parts: list[PartSolution]) -> list[tuple[PartSolution, str]]:
         return list(zip(parts, self.langs, strict=True))

@@ -104,5 +104,7 @@ def _solution(part: PartSolution, lang: str) -> Iterator[str]:
         yield f"      {inline(line.why)}"
     yield f"{word(lang, 'solution.answer')}: {part.answer}".rstrip()
     yield from (f"   - {inline(option)}" for option in part.options)
-    for mistake in part.mistakes:
+    if part.why:
+        yield f"   {inline(part.why)}"
+    for mistake in (*part.reasons, *part.mistakes):
         yield f"   ! {mistake.value}  {mistake.name}: {inline(mistake.sentence)}"

@@ -131,11 +131,12 @@ def test_a_wrong_truth_gets_the_reason_of_the_claim(parts):
 
 def test_the_solution_prints_them(parts):
     _, marks, solved = parts
-    printed = [{m.name: m.value for m in part.mistakes} for part in solved]
+    printed = [{m.name: m.value for m in part.reasons} for part in solved]
     assert printed[0] == {"rod": marks[0]["rods"]}, "not the right option's"
     assert set(printed[1]) == {"red = short"}
-    assert set(printed[2]) == {"backwards", "file"}
-    assert set(printed[3]) == {"inverted"}
+    assert set(printed[2]) == {"file"}
+    named = [[mistake.name for mistake in part.mistakes] for part in solved]
+    assert named == [[], [], ["backwards"], ["inverted"], [], []]
     said = "".join(getattr(part, "text", "") for part in solved[4].options[0])
     assert said == "cones: [en] Three pigments."
     assert [part.text for part in solved[5].options[0]] == ["[en] Rods have ", "1", ", no: one."]

@@ -154,11 +154,14 @@ def _more(key: Key, index: int) -> Blocks:
     """What is worth a look after the answer: how to check it, and the known mistakes."""
     lang, solution = key.solution.lang, key.solution
     found: list[Any] = []
+    part = solution.parts[index]
+    if part.why:
+        found.append(Fold(word(lang, "solution.why"), (Paragraph(part.why),)))
     if solution.check:
         found.append(Fold(word(lang, "solution.check"), solution.check))
     mistakes = tuple(
         (Paragraph((Words(f"{mistake.value} – "), *mistake.sentence)),)
-        for mistake in solution.parts[index].mistakes
+        for mistake in (*part.reasons, *part.mistakes)
     )
     if mistakes:
         found.append(Fold(word(lang, "solution.mistakes"), (Items(mistakes),)))

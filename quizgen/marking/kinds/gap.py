@@ -6,6 +6,7 @@ import re
 from fractions import Fraction
 
 import msgspec
+from msgspec import structs
 
 from quizgen.locale import FIRST, in_letters_of, known
 from quizgen.marking.echo import safe
@@ -49,9 +50,19 @@ class Spec(Worded, kw_only=True, frozen=True):
         stopped = next((cell for cell in cells if cell.verdict == "ambiguous"), None)
         if stopped is not None:
             return ambiguous(stopped.note, read_as, **stopped.fields)
-        if len(cells) == 1:
-            return cells[0]
-        return _together(cells, read_as)
+        because = tuple(
+            self.reason(place, cell.read_as)
+            for place, cell in enumerate(cells, 1)
+            if cell.credit < 1
+        )
+        if len(cells) == 1 and because and cells[0].graded:
+            return structs.replace(cells[0], fields={**cells[0].fields, "because": because})
+        return cells[0] if len(cells) == 1 else _together(cells, read_as, because)
+
+    def reason(self, place: int, word: str) -> str:
+        """What a reason can be given for: this word in this gap, else any wrong one in it."""
+        label = f"{place}={fold(word)}"
+        return label if any(label in reasons for reasons in self.why.values()) else str(place)
 
     def show(self) -> str:
         """Return the words as printed in the first language."""
@@ -187,10 +198,10 @@ def _holds_a_term(word: str, terms: list[str]) -> bool:
     return len(words) > 1 and any(fold(term) in words for term in terms)
 
 
-def _together(cells: list[Verdict], read_as: str) -> Verdict:
+def _together(cells: list[Verdict], read_as: str, because: tuple[str, ...]) -> Verdict:
     credit = sum((cell.credit for cell in cells), Fraction(0)) / len(cells)
     missed = tuple(str(i + 1) for i, cell in enumerate(cells) if cell.credit < 1)
-    verdict = shared(credit, read_as, "gaps", names=missed)
+    verdict = shared(credit, read_as, "gaps", names=missed, because=because)
     if credit == 1 and any(cell.note == "spelling" for cell in cells):
         return correct(read_as, "spelling", typed="")
     return verdict

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from quizgen.bank.draw import Draw
+from quizgen.bank.pools import holds, taken
 from quizgen.locale import word
 from quizgen.marking.kinds.choice import Spec
 from quizgen.marking.mark import show as printed
@@ -11,7 +12,6 @@ from quizgen.question.filling import Filler, plain
 from quizgen.question.specs import (
     answer_of,
     complaint,
-    holds,
     lettered,
     mixed,
     reasoned,
@@ -31,7 +31,7 @@ def build(drawn: Draw, index: int) -> Built[Spec]:
 def offered(drawn: Draw, index: int, control: Control) -> Built[Spec]:
     """The options in a drawn order, with those that are right in this draw."""
     conditions = answer_of(drawn, index)["options"]
-    order = mixed(drawn, index, conditions)
+    order = mixed(drawn, index, taken(drawn, index).names)
     right = [place for place, name in enumerate(order, 1) if holds(drawn, conditions[name])]
     filler = Filler(drawn, drawn.template.languages[0])
     wordings = [plain(filler.sentence("options", name)) for name in order]

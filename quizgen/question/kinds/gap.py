@@ -2,19 +2,65 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+
 from quizgen.bank.draw import Draw
+from quizgen.bank.pools import taken
 from quizgen.locale import word
+from quizgen.marking.judging.wording import fold
 from quizgen.marking.kinds.gap import Spec
 from quizgen.marking.mark import show as printed
 from quizgen.question.contract import Built, Control
-from quizgen.question.specs import answer_of, specification, synonyms
+from quizgen.question.specs import answer_of, reasoned, specification, synonyms, why
 
 
 def build(drawn: Draw, index: int) -> Built[Spec]:
-    """The words of every gap, of all languages."""
-    gaps = answer_of(drawn, index)["gaps"]
-    accept = [synonyms(drawn, drawn.words.get(name, name)) for name in gaps]
-    return Built(specification(Spec, drawn, index, accept=accept), Control("gaps"))
+    """The words of every gap, of all languages; of a pool also the sentences around them."""
+    answer = answer_of(drawn, index)
+    gaps = taken(drawn, index).names
+    words = [drawn.words.get(name, name) for name in gaps]
+    known = _reasons(drawn)
+    told = [gap if gap in known else term for gap, term in zip(gaps, words, strict=True)]
+    wrong = list(_wrong_words(drawn, gaps, words))
+    among = [*answer.get("among", ()), *(term for _, _, terms in wrong for term in terms)]
+    named = [(str(place), name) for place, name in enumerate(told, 1)]
+    slips = [(f"{mark}={fold(term)}", name) for mark, name, terms in wrong for term in terms]
+    return Built(
+        specification(
+            Spec,
+            drawn,
+            index,
+            accept=[synonyms(drawn, name) for name in words],
+            among=list(dict.fromkeys(among)),
+            why=why(drawn, [*named, *slips]),
+        ),
+        Control("gaps"),
+        statements=tuple(("options", name) for name in gaps) if "take" in answer else (),
+        right=tuple(("reasons", name) for _, name in reasoned(drawn, named)),
+        reasons=tuple((f"({mark}) {terms[0]}", name) for mark, name, terms in wrong),
+    )
+
+
+def _wrong_words(
+    drawn: Draw, gaps: Sequence[str], words: Sequence[str]
+) -> Iterator[tuple[str, str, list[str]]]:
+    """Number of a gap, ``gap = word`` as the reasons name it, and how the word may be typed."""
+    for place, (gap, right) in enumerate(zip(gaps, words, strict=True), 1):
+        for name in _reasons(drawn):
+            first, equals, term = name.partition(" = ")
+            if equals and first in {gap, right} and term != right:
+                yield str(place), name, _typed(drawn, term)
+
+
+def _reasons(drawn: Draw) -> list[str]:
+    texts = drawn.template.texts.values()
+    return list(dict.fromkeys(name for text in texts for name in text.named.get("reasons", ())))
+
+
+def _typed(drawn: Draw, term: str) -> list[str]:
+    """The synonyms of another gap's word, else the word itself."""
+    known = any(text.sentence("gaps", term) for text in drawn.template.texts.values())
+    return synonyms(drawn, term) if known else [term]
 
 
 def hints(_spec: Spec, lang: str) -> tuple[str, ...]:

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 from quizgen.bank.draw import Draw
+from quizgen.bank.plan import shuffled
+from quizgen.bank.pools import pairs_of, taken
 from quizgen.locale import word
 from quizgen.marking.kinds.match import Spec
 from quizgen.marking.mark import show as printed
 from quizgen.question.contract import Built, Control
-from quizgen.question.specs import answer_of, lettered, mixed, reasoned, specification, why
+from quizgen.question.specs import lettered, mixed, order_key, reasoned, specification, why
 
 
 def build(drawn: Draw, index: int) -> Built[Spec]:
     """Both sides in a drawn order of their own."""
-    answer = answer_of(drawn, index)
-    pairs = answer["pairs"]
-    left = lettered(mixed(drawn, index, pairs, "/left"))
-    targets = sorted({*pairs.values(), *answer.get("distractors", ())})
-    right = mixed(drawn, index, targets, "/right")
+    shown, pairs = taken(drawn, index), pairs_of(drawn, index)
+    left = lettered(mixed(drawn, index, shown.names, "/left"))
+    targets = sorted({*(pairs[name] for name in shown.names), *shown.extra})
+    right = shuffled(order_key(drawn, index) + "/right", targets)
     places = {name: str(place) for place, name in enumerate(right, 1)}
     named = [
         *left,

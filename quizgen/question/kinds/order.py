@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+
 import msgspec
 
 from quizgen.bank.draw import Draw
+from quizgen.bank.pools import taken
 from quizgen.locale import word
 from quizgen.marking.kinds.order import Spec
 from quizgen.marking.mark import show as printed
@@ -15,12 +18,10 @@ from quizgen.question.specs import answer_of, lettered, mixed, notes, reasoned, 
 def build(drawn: Draw, index: int) -> Built[Spec]:
     """The steps and those that do not belong to them, in a drawn order."""
     answer = answer_of(drawn, index)
-    steps, strangers = answer["steps"], answer.get("distractors", ())
-    options = lettered(mixed(drawn, index, [*steps, *strangers]))
+    shown = taken(drawn, index)
+    options = lettered(mixed(drawn, index, [*shown.names, *shown.extra]))
     marks = {name: mark for mark, name in options}
-    traps = {
-        name: [marks[step] for step in wrong] for name, wrong in answer.get("traps", {}).items()
-    }
+    traps = _wrong_orders(answer.get("traps", {}), shown.names, marks)
     spec = specification(
         Spec,
         drawn,
@@ -28,9 +29,9 @@ def build(drawn: Draw, index: int) -> Built[Spec]:
         traps=traps,
         notes=notes(drawn, traps) if traps else {},
         why=why(drawn, options),
-        steps=[marks[name] for name in steps],
+        steps=[marks[name] for name in shown.names],
         before=[(marks[first], marks[second]) for first, second in answer.get("before", ())],
-        distractors=[marks[name] for name in strangers],
+        distractors=[marks[name] for name in shown.extra],
     )
     return Built(
         spec,
@@ -44,6 +45,18 @@ def build(drawn: Draw, index: int) -> Built[Spec]:
             for trap, wrong in traps.items()
         },
     )
+
+
+def _wrong_orders(
+    traps: Mapping[str, Sequence[str]], steps: Sequence[str], marks: Mapping[str, str]
+) -> dict[str, list[str]]:
+    """The known wrong orders of what is shown; one that is right or known already is left out."""
+    found: dict[str, list[str]] = {}
+    for name, wrong in traps.items():
+        order = [marks[step] for step in wrong if step in marks]
+        if order != [marks[step] for step in steps] and order not in found.values():
+            found[name] = order
+    return found
 
 
 def hints(spec: Spec, lang: str) -> tuple[str, ...]:

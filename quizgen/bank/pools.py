@@ -1,0 +1,211 @@
+"""What a draw takes of the pools of its parts: claims, options, pairs, steps, gaps.
+
+Like every value of a draw it is a function of (origin, version, seed, slot, part, name) through
+SHA-256: names are ranked by their own hash, so an entry that is added or taken away leaves the
+order of all others as it was.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import dataclass
+from itertools import combinations
+from math import comb, prod
+from typing import Any
+
+from quizgen.bank.draw import Draw
+from quizgen.bank.plan import pick
+from quizgen.bank.rules import claim_of
+from quizgen.errors import BankError
+
+MIXED = 3
+"""Claims of one draw from which on they are neither all true nor all false."""
+
+
+@dataclass(frozen=True, slots=True)
+class Taken:
+    """What one part shows in a draw.
+
+    Parameters
+    ----------
+    names : tuple of str
+        Options, left sides, steps or gaps; in the listed order unless some are left out.
+    extra : tuple of str
+        Right sides or steps that fit nowhere.
+    """
+
+    names: tuple[str, ...]
+    extra: tuple[str, ...] = ()
+
+
+def holds(drawn: Draw, condition: object) -> bool:
+    """Whether an authored condition, a truth or a formula, holds in this draw."""
+    return condition if isinstance(condition, bool) else bool(drawn.computed(str(condition)))
+
+
+def taken(drawn: Draw, index: int) -> Taken:
+    """What a part shows in this draw; all that is listed where it has no pool.
+
+    Raises
+    ------
+    BankError
+        If the pool cannot give what is asked of it.
+    """
+    answer = drawn.template.rules.part[index].answer
+    if "options" in answer:
+        return Taken(_options(drawn, index, answer["options"]))
+    if "pairs" in answer:
+        return _pairs(drawn, index)
+    listed = tuple(answer.get("steps", answer.get("gaps", ())))
+    names = _some(drawn, index, listed, answer.get("take"))
+    if "steps" in answer:
+        names = tuple(name for name in listed if name in names)
+    strangers = tuple(answer.get("distractors", ()))
+    return Taken(names, _some(drawn, index, strangers, answer.get("extra")))
+
+
+def claims(drawn: Draw) -> dict[int, str]:
+    """Each part that asks a claim of the pool, and the claim; no claim comes twice.
+
+    Whether a claim is true is drawn first, as a fair coin, then which one it is.
+    """
+    rules = drawn.template.rules
+    parts = [index for index, part in enumerate(rules.part) if "from" in part.answer]
+    if not parts:
+        return {}
+    key = _key(drawn, "claims")
+    sides: dict[bool, list[str]] = {True: [], False: []}
+    for name in _ranked(key, rules.claims):
+        sides[holds(drawn, claim_of(rules, name).true)].append(name)
+    wanted = [bool(pick(f"{key}/true/{place}", 2)) for place in range(len(parts))]
+    if len(parts) >= MIXED and len(set(wanted)) == 1:
+        wanted[pick(f"{key}/other", len(parts))] ^= True
+    return {
+        index: (sides[truth] or sides[not truth]).pop(0)
+        for index, truth in zip(parts, wanted, strict=True)
+    }
+
+
+def variants(drawn: Draw) -> int:
+    """How many different questions its pools can make of the numbers of a draw."""
+    parts = range(len(drawn.template.rules.part))
+    return _claim_sets(drawn) * prod(_variants(drawn, index) for index in parts)
+
+
+def named(drawn: Draw) -> list[str]:
+    """What its pools gave, as part of the name of the variant."""
+    asked = sorted(claims(drawn).values())
+    found = [f"claims={'+'.join(asked)}"] if asked else []
+    for index, part in enumerate(drawn.template.rules.part):
+        if "take" in part.answer or "extra" in part.answer:
+            shown = taken(drawn, index)
+            label = drawn.template.labels[index] or "part"
+            found.append(f"{label}={'+'.join(sorted((*shown.names, *shown.extra)))}")
+    return found
+
+
+def _key(drawn: Draw, place: object) -> str:
+    template = drawn.template
+    return f"{template.origin}/{template.rules.version}/{drawn.seed}/{drawn.slot}/take/{place}"
+
+
+def _ranked(key: str, names: Iterable[str]) -> list[str]:
+    return sorted(names, key=lambda name: hashlib.sha256(f"{key}/{name}".encode()).digest())
+
+
+def _some(drawn: Draw, index: int, names: Collection[str], count: int | None) -> tuple[str, ...]:
+    """So many of the names, or all of them in their order."""
+    if count is None:
+        return tuple(names)
+    return tuple(_ranked(_key(drawn, index), names)[:count])
+
+
+def _options(drawn: Draw, index: int, options: Mapping[str, object]) -> tuple[str, ...]:
+    take = drawn.template.rules.part[index].answer.get("take")
+    if take is None:
+        return tuple(options)
+    right, wrong = _sides(drawn, options)
+    counts = _right_counts(drawn, index, len(right), len(wrong))
+    key = _key(drawn, index)
+    count = counts[pick(f"{key}/right", len(counts))]
+    chosen = {*_ranked(key, right)[:count], *_ranked(key, wrong)[: take - count]}
+    return tuple(name for name in options if name in chosen)
+
+
+def _sides(drawn: Draw, options: Mapping[str, object]) -> tuple[list[str], list[str]]:
+    right = [name for name, condition in options.items() if holds(drawn, condition)]
+    return right, [name for name in options if name not in right]
+
+
+def _right_counts(drawn: Draw, index: int, right: int, wrong: int) -> list[int]:
+    """The numbers of right options that a draw can have."""
+    answer = drawn.template.rules.part[index].answer
+    take = answer["take"]
+    least, most = answer.get("right", (1, take)) if answer["kind"] == "multi" else (1, 1)
+    found = [n for n in range(least, most + 1) if n <= right and take - n <= wrong and n <= take]
+    if not found:
+        place = f"{drawn.template.path / 'template.toml'}: part {index + 1}"
+        raise BankError(f"{place}: take: {right} right and {wrong} wrong options are too few")
+    return found
+
+
+def pairs_of(drawn: Draw, index: int) -> dict[str, str]:
+    """Left side to right side of a matching, whatever is taken; a drawn phrase names what it is."""
+    pairs = drawn.template.rules.part[index].answer["pairs"]
+    return {name: drawn.words.get(target, target) for name, target in pairs.items()}
+
+
+def _pairs(drawn: Draw, index: int) -> Taken:
+    answer, pairs = drawn.template.rules.part[index].answer, pairs_of(drawn, index)
+    ranked = _ranked(_key(drawn, index), pairs)
+    take = answer.get("take", len(pairs))
+    once = {pairs[name]: name for name in reversed(ranked)}
+    if len(once) < len(pairs) and len(once) <= take:
+        ranked.sort(key=lambda name: once[pairs[name]] != name)
+    names = ranked[:take]
+    used = {pairs[name] for name in names}
+    strangers = [*answer.get("distractors", ())]
+    if "extra" in answer:
+        strangers = [*dict.fromkeys((*strangers, *pairs.values()))]
+    spare = _some(drawn, index, [s for s in strangers if s not in used], answer.get("extra"))
+    return Taken(tuple(name for name in pairs if name in names), spare)
+
+
+def _claim_sets(drawn: Draw) -> int:
+    rules = drawn.template.rules
+    count = sum("from" in part.answer for part in rules.part)
+    true = sum(holds(drawn, claim_of(rules, name).true) for name in rules.claims)
+    false = len(rules.claims) - true
+    alike = comb(true, count) + comb(false, count) if count >= MIXED and true and false else 0
+    return comb(true + false, count) - alike
+
+
+def _variants(drawn: Draw, index: int) -> int:
+    answer: Mapping[str, Any] = drawn.template.rules.part[index].answer
+    if "options" in answer and "take" in answer:
+        right, wrong = map(len, _sides(drawn, answer["options"]))
+        counts = _right_counts(drawn, index, right, wrong)
+        return sum(comb(right, n) * comb(wrong, answer["take"] - n) for n in counts)
+    if "pairs" in answer:
+        return _pair_sets(answer, pairs_of(drawn, index))
+    listed = answer.get("steps", answer.get("gaps", ()))
+    strangers = len(answer.get("distractors", ()))
+    return comb(len(listed), answer.get("take", len(listed))) * comb(
+        strangers, answer.get("extra", strangers)
+    )
+
+
+def _pair_sets(answer: Mapping[str, Any], pairs: Mapping[str, str]) -> int:
+    """Sets of pairs, counted with those of the right sides that fit nowhere."""
+    strangers, targets = {*answer.get("distractors", ())}, {*pairs.values()}
+    take = answer.get("take", len(pairs))
+    if len(targets) == len(pairs):
+        return comb(len(pairs), take) * _spare(answer, len(strangers | targets) - take)
+    sets = [{pairs[name] for name in chosen} for chosen in combinations(pairs, take)]
+    whole = [used for used in sets if used == targets or len(targets) > take]
+    return sum(_spare(answer, len((strangers | targets) - used)) for used in whole)
+
+
+def _spare(answer: Mapping[str, Any], left: int) -> int:
+    return comb(left, answer["extra"]) if "extra" in answer else 1
