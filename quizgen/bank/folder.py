@@ -21,7 +21,8 @@ from pathlib import Path
 from types import ModuleType
 
 from quizgen.bank.about import About, Curriculum, in_language, read_struct
-from quizgen.bank.prose import Text, read_text
+from quizgen.bank.pages import read_text
+from quizgen.bank.prose import Text
 from quizgen.bank.rules import Rules
 from quizgen.bank.template import Template, check_against_chain, digest_of, read_rules
 from quizgen.errors import BankError, QuizgenError

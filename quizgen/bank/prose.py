@@ -1,27 +1,7 @@
 """The prose of a template: a small Markdown subset with slots and mathematics.
 
-A language file has a title, a stem, one section per part and lists of named sentences::
-
-    # Perspective projection
-    A pinhole camera has focal length {{ f }} ...
-    ## a
-    **Where does $p$ appear?**
-    ## steps          why each step is taken, by quantity
-    - x: Similar triangles ...
-    ## why            what makes the answer right, where nothing is computed
-    ## check          how to see that the result makes sense
-    ## traps          what went wrong, by mistake
-    ## options        wording of choices, pairs, ordered steps
-    ## claims         statements that are true or false, by name
-    ## reasons        why an option or a claim is wrong (or right), a pair does not fit, a step
-                      comes later, a gap takes its word
-    ## words          wording of drawn phrases
-    ## note           a remark shown with the solution (where the notes differ, and why)
-
 ``{{ name }}`` fills in a drawn value with its unit and nothing else; ``$...$`` is mathematics in
-the grammar that students type. Loops, calls, attributes and arithmetic do not exist here. A named
-sentence may be told by a condition, ``- name [h < 60]: ...``; the first that holds is said, else
-the one without. In ``why``, sentences named by a part's label belong to that part.
+the grammar that students type. Loops, calls, attributes and arithmetic do not exist here.
 """
 
 from __future__ import annotations
@@ -30,18 +10,11 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cache
-from pathlib import Path
 from typing import Any, Protocol
 
-from quizgen import outside
 from quizgen.errors import BankError, FormulaError
 from quizgen.maths.notation import parse
 from quizgen.maths.tree import Expr
-
-NAMED_SECTIONS = frozenset(
-    {"steps", "traps", "options", "words", "gaps", "points", "reasons", "claims"}
-)
-PROSE_SECTIONS = frozenset({"why", "check", "note"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -271,81 +244,6 @@ def _formula(text: str) -> Formula:
         return Formula(parse(text))
     except FormulaError as error:
         raise BankError(f"mathematics ${text}$: {error}") from error
-
-
-def read_text(path: Path) -> Text:
-    """Read a language file.
-
-    Raises
-    ------
-    BankError
-        Naming the file and what is wrong in it.
-    """
-    source = outside.read_text(path, BankError)
-    try:
-        return parse_text(source)
-    except BankError as error:
-        raise BankError(f"{path}: {error}") from error
-
-
-def parse_text(source: str) -> Text:
-    """Parse the content of a language file."""
-    title, body = _title(source)
-    pieces = re.split(r"^## +(\S.*)$", body, flags=re.MULTILINE)
-    sections: dict[str, tuple[Block, ...]] = {}
-    listed: dict[str, list[tuple[str, Case]]] = {}
-    for heading, whole in zip(pieces[1::2], pieces[2::2], strict=True):
-        name = heading.strip()
-        content, labelled = _by_label(whole) if name == "why" else (whole, "")
-        if labelled:
-            listed[name] = list(_named(name, labelled))
-        if name in NAMED_SECTIONS:
-            listed[name] = list(_named(name, content))
-        elif name in PROSE_SECTIONS or re.fullmatch(r"[a-j]", name):
-            sections[name] = blocks(content)
-        else:
-            allowed = sorted(NAMED_SECTIONS | PROSE_SECTIONS)
-            raise BankError(f"section {name!r} is unknown (allowed: a, b, ..., {allowed})")
-    named = {section: {n: said for n, (_, said) in found} for section, found in listed.items()}
-    return Text(title, blocks(pieces[0]), sections, named, _cases(listed))
-
-
-def _by_label(content: str) -> tuple[str, str]:
-    """The paragraphs of an explanation, and its list of sentences by part if it ends in one."""
-    found = re.search(r"^- [a-j](?: \[[^\]\n]*\])?:", content, flags=re.MULTILINE)
-    return (content[: found.start()], content[found.start() :]) if found else (content, "")
-
-
-def _cases(listed: Mapping[str, list[tuple[str, Case]]]) -> dict[tuple[str, str], tuple[Case, ...]]:
-    """Section and name of the sentences of which some are told by a condition."""
-    found: dict[tuple[str, str], list[Case]] = {}
-    for section, entries in listed.items():
-        for name, case in entries:
-            found.setdefault((section, name), []).append(case)
-    return {place: tuple(cases) for place, cases in found.items() if any(c for c, _ in cases)}
-
-
-def _title(source: str) -> tuple[str, str]:
-    head, _, body = source.lstrip("\ufeff\n").partition("\n")
-    if not head.startswith("# "):
-        raise BankError("the first line must be the title: '# ...'")
-    return head[2:].strip(), body
-
-
-_CASE = re.compile(r"(?P<name>[^\[]*?)(?:\s*\[(?P<condition>[^\]]*)\])?\s*")
-
-
-def _named(section: str, content: str) -> Iterator[tuple[str, Case]]:
-    for entry in re.split(r"^- ", content, flags=re.MULTILINE):
-        if not entry.strip():
-            continue
-        name, colon, sentence = entry.partition(":")
-        if not colon:
-            raise BankError(f"section {section!r}: {entry.strip()!r} lacks 'name: sentence'")
-        found = _CASE.fullmatch(name)
-        if found is None:
-            raise BankError(f"section {section!r}: {name.strip()!r} is not 'name [condition]'")
-        yield found["name"].strip(), (found["condition"] or "", inlines(" ".join(sentence.split())))
 
 
 def slots(parts: Iterable[Block | Inline]) -> Iterator[str]:

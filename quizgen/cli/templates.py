@@ -100,7 +100,7 @@ def _languages(bank: Bank, name: str) -> list[str]:
 
 
 def _title(bank: Bank, name: str, lang: str) -> str:
-    from quizgen.bank.prose import read_text
+    from quizgen.bank.pages import read_text
 
     return read_text(bank.paths[name] / f"{lang}.md").title
 

@@ -278,17 +278,8 @@ class _Sheet:
         parts = [key.solution.parts[index] for key in item.keys]
         steps = [self._step([p.lines[i] for p in parts]) for i in range(len(parts[0].lines))]
         answer = _joined(self.langs, [self._answer(p, lang) for p, lang in self._with_lang(parts)])
-        reasons = [self._reasons(p, lang) for p, lang in self._with_lang(parts)]
-        return "\n".join([*steps, f"#result[{answer}]", *filter(None, reasons)])
-
-    def _reasons(self, part: PartSolution, lang: str) -> str:
-        """Why the answer is right, and why each other choice is wrong."""
-        why = [f"#block[{inline(part.why, lang)}]"] if part.why else []
-        wrong = [
-            f"#mistake({string('')}, {string(m.value)}, [{inline(m.sentence, lang)}])"
-            for m in part.reasons
-        ]
-        return _in(lang, "\n".join([*why, *wrong])) if why or wrong else ""
+        reasons = [_reasons(part, lang) for part, lang in self._with_lang(parts)]
+        return "\n".join([*steps, f"#result[{answer}]", _each(self.langs, reasons)])
 
     def _with_lang(self, parts: list[PartSolution]) -> list[tuple[PartSolution, str]]:
         return list(zip(parts, self.langs, strict=True))
@@ -332,6 +323,16 @@ class _Sheet:
         if not rows:
             return ""
         return _in(solution.lang, "\n".join([_heading("mistakes", solution.lang), *rows]))
+
+
+def _reasons(part: PartSolution, lang: str) -> str:
+    """Why the answer of a part is right, and why each other choice is wrong."""
+    why = [f"#block(inset: (left: 0.7em))[{inline(part.why, lang)}]"] if part.why else []
+    wrong = [
+        f"#mistake({string('')}, {string(m.value)}, [{inline(m.sentence, lang)}])"
+        for m in part.reasons
+    ]
+    return "\n".join([*why, *wrong])
 
 
 def _heading(section: str, lang: str) -> str:

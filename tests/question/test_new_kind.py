@@ -15,7 +15,7 @@ from msgspec import to_builtins
 import quizgen.marking.kinds
 import quizgen.question.kinds
 from quizgen.bank.draw import draw
-from quizgen.bank.prose import parse_text
+from quizgen.bank.pages import parse_text
 from quizgen.bank.rules import DrawRule, PartRule, Rules
 from quizgen.bank.template import Template
 from quizgen.maths.chain import Chain

@@ -8,8 +8,8 @@ import pytest
 
 from quizgen import typeset
 from quizgen.bank.draw import Draw
+from quizgen.bank.pages import parse_text
 from quizgen.bank.plan import plan_of
-from quizgen.bank.prose import parse_text
 from quizgen.bank.rules import DrawRule, PartRule, Rules
 from quizgen.bank.template import Template
 from quizgen.errors import BankError
