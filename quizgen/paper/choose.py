@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import math
+from collections import Counter
 from collections.abc import Iterator
 from itertools import repeat
 
@@ -12,6 +13,9 @@ from quizgen.bank.rules import Rules, minutes_of
 from quizgen.errors import BankError, BlueprintError
 from quizgen.outside import located
 from quizgen.paper.blueprint import EVERYTHING, Blueprint, SlotRule
+
+TRIES = 20
+"""Choices of templates until none is used more often than it has numbers."""
 
 
 def choose(bank: Bank, blueprint: Blueprint, seed: int) -> list[str]:
@@ -22,7 +26,18 @@ def choose(bank: Bank, blueprint: Blueprint, seed: int) -> list[str]:
     BlueprintError
         If no template fits a slot, or the time.
     """
-    return _timed(bank, blueprint, seed) if blueprint.topic else _slotted(bank, blueprint, seed)
+    if blueprint.topic:
+        return _timed(bank, blueprint, seed)
+    tries = (_slotted(bank, blueprint, f"{seed}/{n}" if n else str(seed)) for n in range(TRIES))
+    first = next(tries)
+    if not _exhausted(bank, first):
+        return first
+    return next((chosen for chosen in tries if not _exhausted(bank, chosen)), first)
+
+
+def _exhausted(bank: Bank, chosen: list[str]) -> bool:
+    """Whether a template is to stand in the paper more often than it has numbers."""
+    return any(count > (bank.rules(name).pool or count) for name, count in Counter(chosen).items())
 
 
 def weights(blueprint: Blueprint) -> Iterator[float | None]:
@@ -32,7 +47,7 @@ def weights(blueprint: Blueprint) -> Iterator[float | None]:
     yield from repeat(None)
 
 
-def _slotted(bank: Bank, blueprint: Blueprint, seed: int) -> list[str]:
+def _slotted(bank: Bank, blueprint: Blueprint, seed: str) -> list[str]:
     """Fill the slots: each template is used once before any is used again."""
     uses: dict[str, int] = {}
     chosen: list[str] = []
@@ -106,7 +121,7 @@ def variety(bank: Bank, blueprint: Blueprint) -> int:
     return total
 
 
-def _rank(seed: int, index: int, place: int, origin: str) -> bytes:
+def _rank(seed: str | int, index: int, place: int, origin: str) -> bytes:
     return hashlib.sha256(f"choose/{seed}/{index}/{place}/{origin}".encode()).digest()
 
 

@@ -244,7 +244,10 @@ def _draws(bank: Bank, blueprint: Blueprint, seed: int) -> Iterator[Draw]:
             if identity(one) not in seen:
                 break
         else:
-            raise DrawError(f"{template.file}: no further distinct instance")
+            raise DrawError(
+                f"{template.file}: would stand in the paper again, and has no other numbers: "
+                "ask for fewer questions, or let other templates take the place"
+            )
         seen.add(identity(one))
         yield one
 

@@ -128,3 +128,18 @@ def test_a_slot_that_cannot_be_filled_is_located(tmp_path, slot, said):
     with pytest.raises(BlueprintError) as caught:
         choose(builtin(), load_blueprint(str(file)), 1)
     assert str(caught.value).startswith(f"{file}: slot 2: {said}")
+
+
+@pytest.mark.parametrize(
+    "slots",
+    [(SlotRule(count=2, tier="D", topic="optics"),
+      SlotRule(templates=("thin-lens-image-distance", "thin-lens-limits"))),
+     (SlotRule(count=2, tier="C", topic="optics"),)],
+    ids=["used before", "the other gives it away"],
+)  # fmt: skip
+def test_a_question_without_numbers_stands_in_a_paper_once(bank, slots):
+    blueprint = Blueprint({"en": "Lenses"}, slots)
+    for seed in range(60):
+        chosen = choose(bank, blueprint, seed)
+        assert chosen.count("thin-lens-limits") <= 1
+        assert chosen.count("blur-disc-derivation-order") <= 1
