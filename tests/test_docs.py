@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import doctest
+import re
 from pathlib import Path
 
 import click
+import consoles
 import msgspec
 import pytest
 
@@ -116,7 +118,65 @@ def test_every_option_is_documented_and_explained(name):
 
 
 def test_links_of_the_readme_lead_somewhere():
-    import re
-
     for target in re.findall(r"\]\(([^)#]+)\)", (ROOT / "README.md").read_text(encoding="utf-8")):
         assert (ROOT / target).exists(), target
+
+
+NOT_RUN = {"uv run pytest": "these very tests"}
+LONG = (
+    "uv run quizgen cards --lang both",
+    "uv run quizgen cards --seed 2",
+    "uv run quizgen cards --format apkg,tsv,csv",
+    "uv run quizgen exam --topic noise --minutes 9 --format html --out noise",
+    "uv run quizgen check noise/key.json noise/answers.toml --json > marks.json",
+    "uv run quizgen cards --from-marks marks.json",
+    "uv run python -m quizgen.cards.renew",
+    "uv run quizgen tradeoff --out precision",
+    "uv run quizgen tradeoff --out precision --quick",
+    "uv run quizgen tradeoff thin-lens",
+)
+"""Commands that take long and prepare nothing for the others: run with the slow tests."""
+FOLLOWED = [page for page in consoles.PAGES if consoles.steps(page)]
+
+
+@pytest.mark.parametrize("long", [False, pytest.param(True, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("page", FOLLOWED, ids=lambda page: page.stem)
+def test_a_page_can_be_followed_from_top_to_bottom(page, long, tmp_path):
+    folder = consoles.checkout(tmp_path)
+    for step in consoles.steps(page):
+        if step.file:
+            (folder / step.file).write_text(step.text, "utf-8")
+            continue
+        command = consoles.typed(step)
+        if command in NOT_RUN or (command in LONG and not long):
+            continue
+        done = consoles.run(step.text, folder)
+        place = f"{page.name}:{step.line}: {command}"
+        assert done.returncode == 0, f"{place}\n{done.stderr}"
+        assert not step.shown or consoles.agrees(step.shown, done.stdout), f"{place}\n{done.stdout}"
+
+
+def test_commands_of_the_documents_begin_as_they_are_typed():
+    found = [consoles.typed(step) for page in FOLLOWED for step in consoles.steps(page)
+             if not step.file]  # fmt: skip
+    assert len(found) >= 20
+    assert not [command for command in found if not command.startswith("uv run ")]
+    assert not {*NOT_RUN, *LONG} - {*found}
+    assert not [p.name for p in consoles.PAGES if {"sh", "bash", "shell"} & consoles.languages(p)]
+
+
+INLINE = re.compile(r"`((?:uv run )?(?:quizgen|python|pytest)(?: [^`]*)?)`")
+
+
+def test_commands_in_sentences_exist_with_their_options():
+    count = 0
+    for page in consoles.PAGES:
+        for text in INLINE.findall(page.read_text("utf-8")):
+            words = text.removeprefix("uv run ").split()
+            assert words[0] == "quizgen" or text.startswith("uv run "), f"{page.name}: {text}"
+            if words[0] == "quizgen" and len(words) > 1 and words[1] in COMMANDS:
+                options = group.get_command(None, words[1]).params
+                known = {name for option in options for name in option.opts} | {"--help"}
+                assert {w for w in words if w.startswith("--")} <= known, f"{page.name}: {text}"
+                count += 1
+    assert count >= 15

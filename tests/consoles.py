@@ -1,0 +1,103 @@
+"""The console blocks of the documents: what is typed, what is shown, and a place to type it.
+
+A line of a block is a command. A block ``text`` that follows a block is what its last command
+prints, where ``...`` stands for what differs from run to run. A comment ``<!-- file: NAME -->``
+before a block says that the reader saves it under that name.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+ROOT = Path(__file__).parent.parent
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
+CHECKOUT = ("quizgen", "solvers", "templates", "pyproject.toml", "uv.lock", "README.md")
+
+_BLOCK = re.compile(
+    r"^(?:<!-- file: (?P<file>\S+) -->\n)?```(?P<language>\w*)\n(?P<body>.*?)^```$",
+    re.DOTALL | re.MULTILINE,
+)
+
+
+class Step(NamedTuple):
+    """A command of a page, or (with a name) a file that is saved before the next one."""
+
+    line: int
+    text: str
+    shown: str = ""
+    file: str = ""
+
+
+def languages(page: Path) -> set[str]:
+    """What the blocks of a page say they are."""
+    return {block["language"] for block in _BLOCK.finditer(page.read_text("utf-8"))}
+
+
+def steps(page: Path) -> list[Step]:
+    """What a reader does who follows a page from top to bottom."""
+    text, found, end = page.read_text("utf-8"), list[Step](), 0
+    for block in _BLOCK.finditer(text):
+        line = text.count("\n", 0, block.start()) + 2
+        follows = not text[end : block.start()].strip()
+        if block["file"]:
+            found.append(Step(line, block["body"], file=block["file"]))
+        elif block["language"] == "console":
+            found += _commands(block["body"], line)
+            end = block.end()
+        elif block["language"] == "text" and found and follows:
+            found[-1] = found[-1]._replace(shown=block["body"])
+    return found
+
+
+def _commands(body: str, line: int) -> Iterator[Step]:
+    for number, text in enumerate(body.splitlines(), line):
+        if text.strip() and not text.startswith("#"):
+            yield Step(number, text)
+
+
+def typed(step: Step) -> str:
+    """A command without the remark behind it."""
+    return re.sub(r"\s+#\s.*", "", step.text)
+
+
+def checkout(folder: Path) -> Path:
+    """A copy of the project, so that a command may change it."""
+    for name in CHECKOUT:
+        source = ROOT / name
+        (shutil.copytree if source.is_dir() else shutil.copy2)(source, folder / name)
+    return folder
+
+
+def run(text: str, folder: Path) -> subprocess.CompletedProcess[str]:
+    """Type a line in a checkout; ``uv`` takes this environment as it is, without the network."""
+    environment = {
+        name: value
+        for name, value in os.environ.items()
+        if not name.startswith(("UV", "PYTHON", "VIRTUAL_ENV", "COLUMNS"))
+    }
+    environment |= {
+        "PYTHONPATH": str(folder),
+        "UV_PROJECT_ENVIRONMENT": sys.prefix,
+        "UV_NO_SYNC": "1",
+        "UV_OFFLINE": "1",
+        "XDG_CONFIG_HOME": str(folder / "settings"),
+    }
+    return subprocess.run(text, shell=True, cwd=folder, env=environment, capture_output=True,
+                          text=True, stdin=subprocess.DEVNULL, check=False)  # fmt: skip
+
+
+def agrees(shown: str, printed: str) -> bool:
+    """Whether a page shows what was printed.
+
+    The environment lies outside the copy, which is why uv must be told the project.
+    """
+    printed = re.sub(r" --project (?:'[^']*'|\S+)", "", printed)
+    pattern = re.escape(shown.strip()).replace(re.escape("..."), ".*")
+    return re.fullmatch(pattern, printed.strip()) is not None
