@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -70,6 +72,32 @@ def test_an_own_bank_is_named_with_its_trust(tmp_path):
     again, _ = printed(made)
     assert "--bank 'my bank' --trust" in again
     assert shell(f"{again} --format html", tmp_path).returncode == 0
+
+
+def with_uv(line: str, cwd: Path) -> subprocess.CompletedProcess:
+    """Type a line that begins with uv, which takes this environment as it is."""
+    return shell(line, cwd, UV_PROJECT_ENVIRONMENT=sys.prefix, UV_NO_SYNC="1", UV_OFFLINE="1")
+
+
+@pytest.mark.skipif(not shutil.which("uv"), reason="uv is not installed")
+@pytest.mark.parametrize("form", ["toml", "csv"])
+def test_after_uv_run_the_commands_work_as_printed(tmp_path, form):
+    made = with_uv(f"uv run --project {shlex.quote(str(ROOT))} quizgen exam --topic eye "
+                   f"--minutes 4 --format html --form {form}", tmp_path)  # fmt: skip
+    again, check = printed(made)
+    assert again.startswith("uv run ")
+    assert f"answers.{form}" in check
+    for line in (check, f"{again} --format html"):
+        done = with_uv(line, tmp_path)
+        assert done.returncode == 0, f"{line}\n{done.stderr}"
+
+
+def test_the_page_of_a_paper_is_checked_as_printed(tmp_path):
+    made = shell("quizgen exam --topic eye --minutes 4 --format html --out o", tmp_path)
+    code = re.search(r"Code: (\S+)", made.stdout)[1]
+    line = re.search(r"save answers.json there, then: (.*)", made.stdout)[1]
+    (tmp_path / "o" / "answers.json").write_text(json.dumps({"code": code, "answers": {}}))
+    assert shell(line, tmp_path).returncode == 0
 
 
 def test_after_uv_run_the_commands_begin_with_it(tmp_path, monkeypatch):
