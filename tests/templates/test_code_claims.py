@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from quizgen.bank.prose import CodeBlock
+from quizgen.maths.numbers import to_float
 from quizgen.question.compose import compose
 from quizgen.question.kinds import build
 
@@ -70,12 +71,50 @@ def test_k12_both_repairs_exchange_red_and_blue(bank):
         assert (got.shape == wanted.shape and bool(np.all(got == wanted))) == right
 
 
-def test_k14_a_missing_file_is_none(bank, tmp_path, monkeypatch):
+HAPPENED = {AttributeError: "attribute-error", TypeError: "type-error", cv2.error: "cv-error"}
+
+
+@pytest.mark.parametrize("seed", range(24))
+def test_k14_a_missing_file_is_none(bank, tmp_path, monkeypatch, seed):
     monkeypatch.chdir(tmp_path)
-    source, truth, _, _ = asked(bank, "imread-missing-file")
-    with pytest.raises(AttributeError):
-        run(source)
-    assert truth["attribute-error"]
+    source, truth, key, _ = asked(bank, "imread-missing-file", seed)
+    said = bank.template("imread-missing-file").texts["en"].named["words"]
+    scope = run(source)
+    assert scope["image"] is None
+    happened = "runs"
+    try:
+        exec(said[key.draw.words["line"]][0].text, scope)
+    except tuple(HAPPENED) as error:
+        happened = HAPPENED[type(error)]
+    assert [name for name, right in truth.items() if right] == [happened]
+
+
+@pytest.mark.parametrize("seed", range(24))
+def test_k09_the_colour_is_where_opencv_puts_it(bank, tmp_path, seed):
+    _, truth, key, _ = asked(bank, "red-of-bgr-pixel", seed)
+    wanted = {"red": (0, 0, 255), "green": (0, 255, 0), "blue": (255, 0, 0)}[
+        key.draw.words["colour"]
+    ]
+    assert cv2.imwrite(str(tmp_path / "photo.png"), np.array([[wanted]], np.uint8))
+    image = cv2.imread(str(tmp_path / "photo.png"))
+    if key.draw.shown["converted"]:
+        image = cv2.cvtColor(image, cv2.COLOR_BGR2RGB)
+    place = ("first", "second", "third")[image[0, 0].tolist().index(255)]
+    assert [name for name, right in truth.items() if right] == [place]
+
+
+@pytest.mark.parametrize("seed", range(24))
+def test_s02_an_index_outside_stops_and_a_negative_one_counts_from_below(bank, seed):
+    _, truth, key, _ = asked(bank, "pixel-index-and-shape", seed, part=2)
+    rows, columns, i, j = (int(key.draw.shown[name].p) for name in ("H", "W", "i", "j"))
+    image = np.broadcast_to(np.arange(rows, dtype=np.uint16)[:, None], (rows, columns))
+    try:
+        happened = "inside" if image[i, j] == i else "from-the-end"
+        if happened == "from-the-end":
+            assert image[i, j] == key.draw.shown["from_below"]
+    except IndexError as error:
+        happened = "row-error" if "axis 0" in str(error) else "column-error"
+    assert [name for name, right in truth.items() if right] == [happened]
 
 
 def test_k20_assertion_division_mirror(bank):
@@ -106,6 +145,23 @@ def test_k21_the_order_gives_a_clean_uint8_image(bank):
     assert scope["x"].dtype == np.uint8
     assert scope["x"].min() > 150
     assert scope["x"].max() == 255
+
+
+@pytest.mark.parametrize("seed", range(24))
+def test_k21_the_pixel_is_what_the_program_stores(bank, seed):
+    template = bank.template("add-noise-to-uint8-order")
+    words, answer = template.texts["en"].named["options"], template.rules.part[0].answer
+    key = asked(bank, "add-noise-to-uint8-order", seed)[2]
+    value, noise = (to_float(key.draw.shown[name]) for name in ("g", "d"))
+
+    class Fixed:
+        def normal(self, _mean, _sigma, shape):
+            return np.full(shape, noise)
+
+    scope = {"np": np, "image": np.full((2, 2), value, np.uint8), "rng": Fixed(), "sigma": 9.0}
+    for step in answer["steps"]:
+        exec(words[step][0].text, scope)
+    assert key.specs[1].output == str(scope["x"][0, 0])
 
 
 def test_k22_calls_share_one_generator(bank):
