@@ -43,7 +43,7 @@ class _Layout:
 
 
 def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
-    """Draw the figure; in a quiz, hide the diameter of the blur disc."""
+    """Draw the figure; in a quiz, hide the diameters of aperture and blur disc."""
     from quizgen.figures._pen import Pen
 
     pen, place = Pen(), _layout(values)
@@ -147,7 +147,7 @@ def _upright(pen: Pen, x: float, half: float) -> None:
 
 def _labels(values: Values, *, quiz: bool) -> dict[str, str]:
     return {
-        "D": statement("D", values["D"], "mm"),
+        "D": "D" if quiz else statement("D", values["D"], "mm"),
         "z_p": statement("z'_p", values["z_p"], "mm"),
         "z_s": statement("z'_s", values["z_s"], "mm"),
         "c": equation("c", _disc(values), "mm", hide=quiz),
@@ -155,11 +155,10 @@ def _labels(values: Values, *, quiz: bool) -> dict[str, str]:
 
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
-    """Describe the figure in words; in a quiz, leave the diameter of the blur disc out."""
+    """Describe the figure in words; in a quiz, leave both diameters out."""
     words = words_of("blur_disc", lang)
-    text = words["figure"].format(
-        D=given(values["D"]), z_p=given(values["z_p"]), z_s=given(values["z_s"])
-    )
+    text = words["figure"].format(z_p=given(values["z_p"]), z_s=given(values["z_s"]))
     if quiz:
         return text + words["quiz"]
-    return text + words["answer"].format(c=spoken(_labels(values, quiz=False)["c"]))
+    told = spoken(_labels(values, quiz=False)["c"])
+    return text + words["answer"].format(D=given(values["D"]), c=told)

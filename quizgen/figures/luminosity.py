@@ -64,7 +64,7 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
     for night in (True, False):
         _curve(pen, night=night, logarithmic=log)
     for place, wavelength in enumerate(marks(values)):
-        _mark(pen, values, place, wavelength)
+        _mark(pen, values, place, wavelength, told=told)
         if told:
             pen.label((WIDTH * (0.3 + 0.4 * place), 177), _reading(values, place, wavelength))
     pen.onto(figure, background="#ffffff")  # a dark page would turn the spectrum round
@@ -136,14 +136,16 @@ _NAMED = {False: {True: 458.0, False: 604.0}, True: {True: 404.0, False: 690.0}}
 """Where the curves are named: logarithmic, then night, to a wavelength on the outer slope."""
 
 
-def _mark(pen: Pen, values: Values, place: int, wavelength: float) -> None:
+def _mark(pen: Pen, values: Values, place: int, wavelength: float, *, told: bool) -> None:
+    """A mark from the axis to the name; a dot on the curve would say which one is to be read."""
     from quizgen.figures._pen import DOTTED, THIN
 
     x = _x(wavelength)
     y = _y(read(wavelength, night=bool(values["night"])), logarithmic=bool(values["log"]))
-    pen.line("marks", [(x, _LOW), (x, y)], THIN)
-    pen.line("marks", [(x, y), (x, _HIGH - 8)], DOTTED)
-    pen.dot("marks", (x, y), 2.6)
+    if told:
+        pen.line("marks", [(x, _LOW), (x, y)], THIN)
+        pen.dot("marks", (x, y), 2.6)
+    pen.line("marks", [(x, y if told else _LOW), (x, _HIGH - 8)], DOTTED)
     pair = marks(values)
     near = len(pair) == 2 and abs(_x(pair[0]) - _x(pair[1])) < 18
     side = "c" if not near else "r" if wavelength == min(pair) else "l"

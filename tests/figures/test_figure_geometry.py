@@ -264,7 +264,7 @@ def test_blur_disc_is_cut_from_the_cone(z_p, z_s):
 def test_blur_disc_of_the_curriculum():
     # S11: D 25, z'_p 50, z'_s 50.2 -> 0.1 mm
     alt = render("blur_disc", {"D": 25, "z_p": 50, "z_s": 50.2}, quiz=False, lang="en").alt
-    assert alt.endswith("Its diameter is c = 0.1 mm.")
+    assert alt.endswith("D is 25 mm; the diameter of the disc is c = 0.1 mm.")
 
 
 # Bayer -------------------------------------------------------------------------------------

@@ -26,10 +26,10 @@ NAMES = {
 }
 
 
-def _drawn(bank, name, seed):
-    """Drawn numbers and the name of the right option of part a."""
+def _drawn(bank, name, seed, part=0):
+    """Drawn numbers and the name of the right option of a part."""
     drawn = draw(bank.template(name), seed)
-    ((_, right),) = build(drawn, 0).right
+    ((_, right),) = build(drawn, part).right
     return {key: float(value) for key, value in drawn.shown.items()}, right
 
 
@@ -57,8 +57,9 @@ def test_the_wide_aperture_stands_where_the_key_says(bank, seed):
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_brighter_laser_is_the_higher_on_the_curve(bank, seed):
     given, key = _drawn(bank, "two-lasers-from-curves", seed)
-    heights = [float(luminosity.photopic(given[name])) for name in ("l_1", "l_2")]
-    assert [given["V_1"], given["V_2"]] == pytest.approx(heights)
+    curve = luminosity.scotopic if given["dark"] else luminosity.photopic
+    heights = [float(curve(given[name])) for name in ("l_1", "l_2")]
+    assert [given["h_1"], given["h_2"]] == pytest.approx(heights, rel=0.01)
     assert heights[("first", "second").index(key)] == max(heights)
 
 
@@ -69,3 +70,14 @@ def test_spikes_stand_where_the_limits_cut(bank, seed):
     touches = given["low"] == given["a"] and given["high"] == given["b"]
     seen = {(True, True): "both", (True, False): "bottom", (False, True): "top"}
     assert key == seen.get(cuts, "fits" if touches else "wide")
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_order_of_five_lights_is_that_of_the_curves(bank, seed):
+    given, key = _drawn(bank, "order-wavelengths-by-brightness", seed, part=1)
+    by_day = [float(luminosity.photopic(given[f"n_{k}"])) for k in range(1, 6)]
+    assert by_day == sorted(by_day, reverse=True)
+    assert [given[f"V_{k}"] for k in range(1, 6)] == pytest.approx(by_day, rel=0.01)
+    by_night = [float(luminosity.scotopic(given[name])) for name in ("m_1", "m_2")]
+    assert [given["W_1"], given["W_2"]] == pytest.approx(by_night, rel=0.01)
+    assert by_night[("short", "long").index(key)] == max(by_night)

@@ -136,7 +136,7 @@ SAID = [
     ("E29", "traps/TR27", "**barrel**"),
     ("E29", "formulas/F22", "has the opposite sign"),
     ("E30", "blur-and-light-factors", "ratio = 8 or ratio = 16"),
-    ("E30", "diameter-stops-and-exposure-time", "ratio = 8 or ratio = 16"),
+    ("E30", "diameter-stops-and-exposure-time", "ratio = { pick = [2, 4, 8, 16] }"),
     ("E31", "lens-aberrations-causes-remedies", "falls on a larger area"),
     ("E31", "formulas/F39", "dark frame has been subtracted"),
     ("E32", "thin-lens-image-distance", "only in the limit of far objects"),

@@ -19,9 +19,16 @@ def build(drawn: Draw, index: int) -> Built[Spec]:
     return Built(spec, Control("lines", lines=4), right=right)
 
 
-def hints(_spec: Spec, lang: str) -> tuple[str, ...]:
-    """In own words."""
-    return (word(lang, "ask.text"),)
+FEW = 2
+"""Key points that one or two sentences can hold."""
+
+
+def hints(spec: Spec, lang: str) -> tuple[str, ...]:
+    """In own words, as short as the key points allow."""
+    count = len(spec.points)
+    return (
+        word(lang, "ask.text") if count <= FEW else word(lang, "ask.text_many").format(n=count),
+    )
 
 
 def printed(_spec: Spec, _lang: str) -> str:
