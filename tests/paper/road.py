@@ -49,9 +49,9 @@ def fields(paper: Paper) -> Iterator[Printed]:
     """The fields that a machine marks; free text has no printed answer and is left out."""
     for item in paper.items:
         question, key = item.questions[0], item.keys[0]
-        for part, solved in zip(question.parts, key.solution.parts, strict=True):
-            if solved.answer:
-                mistakes = tuple((one.name, one.value) for one in solved.mistakes)
+        for part, solved, spec in zip(question.parts, key.solution.parts, key.specs, strict=True):
+            if solved.answer:  # what is no trap is a reason for one option, pair or step
+                mistakes = tuple((m.name, m.value) for m in solved.mistakes if m.name in spec.traps)
                 yield Printed(part.field.id, key.template, part.field.control.form,
                               " ".join(part.field.hints), solved.answer, mistakes)  # fmt: skip
 
