@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from quizgen.bank.folder import Bank
 
 HEAD = ("template", "draws", "distinct", "kept", "ms/draw", "problems", "answers")
+TEACH_HEAD = ("template", "part", "level", "finding")
 NOTHING = ("0", "", "", "", "1", "")
 """Cells of a template that could not be examined."""
 
@@ -45,6 +46,7 @@ class Options(BankOptions):
     folder: Path | None
     seeds: int
     only: tuple[str, ...]
+    teach: bool
     debug: bool
 
 
@@ -53,6 +55,11 @@ class Options(BankOptions):
 @click.option("--seeds", type=click.IntRange(1, 10**6), default=200, show_default=True,
               help="How many draws of each template to examine.")  # fmt: skip
 @click.option("--only", multiple=True, help="Just this template (may be repeated).")
+@click.option(
+    "--teach",
+    is_flag=True,
+    help="Examine instead whether questions teach: answers that vary, reasons, letters.",
+)
 @click.option("--debug", is_flag=True, help="Show where in Python an error came from.")
 @bank_options
 def lint(**options: Unpack[Options]) -> None:
@@ -62,6 +69,8 @@ def lint(**options: Unpack[Options]) -> None:
     """
     bank = open_bank({"bank": options["folder"] or options["bank"], "trust": options["trust"]})
     names = options["only"] or tuple(bank.paths)
+    if options["teach"]:
+        sys.exit(_taught(bank, names, options))
     rows, broken = [], []
     with Progress("lint", len(names)) as progress:
         for name in progress.over(names):
@@ -73,6 +82,26 @@ def lint(**options: Unpack[Options]) -> None:
         click.echo(visible(problem), err=True)
     if broken:
         sys.exit(1)
+
+
+def _taught(bank: Bank, names: tuple[str, ...], options: Options) -> int:
+    """Print what stands between questions and teaching; 1 if there are errors."""
+    from quizgen.audit.teach import examine
+
+    rows: list[tuple[str, ...]] = []
+    with Progress("lint", len(names)) as progress:
+        for name in progress.over(names):
+            try:
+                found = examine(bank.template(name), options["seeds"])
+            except QuizgenError as error:
+                rows.append((name, "", "error", str(error)))
+                continue
+            rows += [(one.template, one.label, one.level, one.what) for one in found]
+    if rows:
+        print_table(TEACH_HEAD, rows)
+    errors = {row[0] for row in rows if row[2] == "error"}
+    click.echo(f"{len(errors)} of {len(names)} templates with errors")
+    return int(bool(errors))
 
 
 def _examined(bank: Bank, name: str, options: Options) -> tuple[tuple[str, ...], list[str]]:

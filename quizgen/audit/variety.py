@@ -1,0 +1,101 @@
+"""What the draws of a closed part look like over many seeds: its answers, places and lengths."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from quizgen.bank.draw import Draw
+from quizgen.bank.pools import pairs_of, taken
+from quizgen.question.contract import Built
+from quizgen.question.filling import Filler, plain
+
+CLOSED = frozenset({"choice", "multi", "tf", "match", "order", "gap"})
+"""Kinds whose answer is picked out of what is shown, or is a word that is known before."""
+CLEARLY = 1.1
+"""An option is noticed as the longest if it has a tenth more letters than any other."""
+
+
+@dataclass
+class Seen:
+    """One closed part over many draws.
+
+    Parameters
+    ----------
+    kind : str
+    draws : int
+    answers : Counter
+        What is right, by name; for pairs, steps and gaps also what is shown.
+    shown, right : Counter
+        How often each option came up, and was right.
+    most : int
+        Options shown at once.
+    places : Counter
+        Where the right option stood, from 1.
+    longest : Counter
+        Language to the draws in which a right option was clearly the longest.
+    """
+
+    kind: str
+    draws: int = 0
+    answers: Counter[str] = field(default_factory=Counter)
+    shown: Counter[str] = field(default_factory=Counter)
+    right: Counter[str] = field(default_factory=Counter)
+    most: int = 0
+    places: Counter[int] = field(default_factory=Counter)
+    longest: Counter[str] = field(default_factory=Counter)
+
+    @property
+    def bits(self) -> float:
+        """Entropy of the answers."""
+        return entropy(self.answers.values())
+
+    def add(self, drawn: Draw, index: int, built: Built[Any], fillers: Sequence[Filler]) -> None:
+        """Take a draw into account."""
+        self.draws += 1
+        self.answers[answer_name(drawn, index, built)] += 1
+        if self.kind not in {"choice", "multi"}:
+            return
+        right = {name for _, name in built.right}
+        names = [name for _, name in built.options]
+        self.shown.update(names)
+        self.right.update(right)
+        self.most = max(self.most, len(names))
+        self.places.update(place for place, name in enumerate(names, 1) if name in right)
+        for filler in fillers:
+            lengths = {name: len(plain(filler.sentence("options", name))) for name in names}
+            self.longest[filler.lang] += _longest(lengths) in right
+
+
+def _longest(lengths: dict[str, int]) -> str:
+    """The option that is clearly the longest; empty if none is."""
+    name = max(lengths, key=lambda one: lengths[one])
+    others = [length for other, length in lengths.items() if other != name]
+    return name if lengths[name] >= CLEARLY * max(others, default=0) else ""
+
+
+def answer_name(drawn: Draw, index: int, built: Built[Any]) -> str:
+    """What a learner would have to know in this draw, whatever the letters are."""
+    if built.spec.kind in {"choice", "multi"}:
+        return "+".join(sorted(name for _, name in built.right))
+    if built.spec.kind == "tf":
+        return str(built.spec.correct)
+    shown = taken(drawn, index)
+    names = [*shown.names, *shown.extra]
+    if built.spec.kind == "match":
+        pairs = pairs_of(drawn, index)
+        names = [f"{name}={pairs.get(name, '')}" for name in names]
+    if built.spec.kind == "gap":
+        names = [drawn.words.get(name, name) for name in names]
+        return "+".join(names if len({*shown.names}) == len(names) else sorted(names))
+    return "+".join(sorted(names))
+
+
+def entropy(counts: Iterable[int]) -> float:
+    """Bits that one answer is worth to whoever has seen all others."""
+    found = [count for count in counts if count]
+    total = sum(found)
+    return math.log2(total) - sum(n * math.log2(n) for n in found) / total if found else 0.0
