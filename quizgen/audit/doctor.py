@@ -12,7 +12,7 @@ from quizgen.locale import PLACES, in_script
 from quizgen.render import fonts
 
 PACKAGES = ("numpy", "sympy", "jinja2", "matplotlib", "python-flint", "mpmath", "click", "rich",
-            "msgspec", "markdown-it-py", "lark", "typst", "fonttools")  # fmt: skip
+            "msgspec", "markdown-it-py", "typst", "fonttools")  # fmt: skip
 
 Outcome = tuple[str, str, bool]
 

@@ -82,7 +82,7 @@ def test_juxtaposition_of_declared_names(text, same):
         ("sin(a, b)", "argument-count", 1),
         ("1e99999", "number-too-large", 1),
         ("1" * 61, "number-too-long", 1),
-        ("(" * 200 + "a" + ")" * 200, None, None),
+        ("(" * 1900 + "a" + ")" * 1900, None, None),
         ("sqrt(" * 200 + "a" + ")" * 200, "too-deep", 1),
         ("a" * 5000, "too-long", 4001),
     ],
@@ -94,6 +94,50 @@ def test_errors_carry_reason_and_column(text, code, column):
     with pytest.raises(ReadError) as caught:
         parse(text, symbols="abc")
     assert (caught.value.code, caught.value.column) == (code, column)
+
+
+SIGNS = "AND JOIN MINUS OR PLUS POWER RELATION SLASH TIMES".split()
+TERM = "CONSTANT FUNCTION LBAR LPAR NAME NUMBER ROOT".split()
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("a +", [*TERM, "MINUS", "PLUS"]),
+        ("not", [*TERM, "MINUS", "NOT", "PLUS"]),
+        ("a = not b", [*TERM, "MINUS", "PLUS"]),
+        ("a^*b", [*TERM, "MINUS", "PLUS"]),
+        ("√-a", TERM),
+        ("(a", ["RPAR"]),
+        ("|a", ["RBAR"]),
+        ("max(a + b", ["COMMA", "RPAR"]),
+        ("(a, b)", ["RPAR"]),
+        ("a, b", ["$END"]),
+        ("(a not b)", [*SIGNS, "RPAR"]),
+        ("sin(a, b) not c", ["$END", *SIGNS]),
+    ],
+)
+def test_errors_name_what_could_have_stood_there(text, expected):
+    with pytest.raises(ReadError) as caught:
+        parse(text)
+    assert list(caught.value.expected) == sorted(expected)
+
+
+@pytest.mark.parametrize(
+    ("text", "same"),
+    [
+        ("-a^-b^c", "-(a^(-(b^c)))"),
+        ("a*-b*c", "a*(-b)*c"),
+        ("a - -b*c", "a - (-(b*c))"),
+        ("√a^2", "(√a)^2"),
+        ("not a < b and c < a", "(not (a < b)) and (c < a)"),
+        ("a or b and not c or a", "a or (b and (not c)) or a"),
+        ("+a", "a"),
+        ("2^+a", "2^a"),
+    ],
+)
+def test_what_binds_tighter(text, same):
+    assert parse(text) == parse(same)
 
 
 def test_without_declared_names_nothing_is_guessed():

@@ -157,7 +157,7 @@ def test_conditions_give_true_or_false():
 
 
 @pytest.mark.parametrize(("use", "without"), [
-    ("import quizgen.maths.operators", {"flint", "numpy", "sympy", "mpmath", "lark"}),
+    ("import quizgen.maths.operators", {"flint", "numpy", "sympy", "mpmath"}),
     ("from quizgen.maths.systems import floats; floats()", {"numpy", "sympy", "mpmath"}),
     ("from quizgen.maths.systems import exact; exact()", {"numpy", "sympy", "mpmath"}),
 ])  # fmt: skip

@@ -1,138 +1,243 @@
-"""The formula grammar (LALR, so nesting cannot overflow the parser's stack) and its actions."""
+"""The formula grammar and its parser.
+
+::
+
+    either:   both (OR both)*
+    both:     truth (AND truth)*
+    truth:    NOT truth | relation
+    relation: sum (RELATION sum)*
+    sum:      signed ((PLUS | MINUS) signed)*
+    signed:   (PLUS | MINUS) signed | product
+    product:  joined ((TIMES | SLASH) factor)*
+    factor:   (PLUS | MINUS) factor | joined
+    joined:   power (JOIN power)*
+    power:    atom (POWER exponent)?
+    exponent: (PLUS | MINUS) exponent | power
+    atom:     NUMBER | NAME | CONSTANT | ROOT atom | LPAR either RPAR | LBAR either RBAR
+              | FUNCTION LPAR either (COMMA either)* RPAR
+
+Rules that are begun stand in a list and not on Python's stack, so nesting cannot overflow it. A
+sign ends every rule that binds tighter than the one it belongs to.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from functools import cache
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from collections.abc import Set as AbstractSet
+from itertools import pairwise
+from typing import Any
+
+import msgspec
 
 from quizgen.maths.notation.lexer import Piece, ReadError
 from quizgen.maths.notation.names import FUNCTIONS
 from quizgen.maths.operators import Typed, typed_as
-from quizgen.maths.tree import Call, Expr, Num, Sym
+from quizgen.maths.tree import Call, Expr, Sym
 
-if TYPE_CHECKING:
-    from lark.exceptions import UnexpectedToken
+BRACKET, EITHER, BOTH, NEGATED, RELATION, SUM, SIGNED, PRODUCT = range(8)
+FACTOR, JOINED, EXPONENT, POWER, ROOT = range(8, 13)
 
-GRAMMAR = r"""
-%declare PLUS MINUS TIMES SLASH JOIN POWER LPAR RPAR COMMA RELATION AND OR NOT
-%declare NUMBER NAME CONSTANT FUNCTION ROOT LBAR RBAR
-?start: either
-?either: both | both (OR both)+ -> either
-?both: truth | truth (AND truth)+ -> both
-?truth: relation | NOT truth -> negated
-?relation: sum | sum (RELATION sum)+ -> relation
-?sum: signed | signed ((PLUS|MINUS) signed)+ -> chain
-?signed: product | MINUS signed -> minus | PLUS signed -> plus
-?product: joined | joined ((TIMES|SLASH) factor)+ -> chain
-?factor: joined | MINUS factor -> minus | PLUS factor -> plus
-?joined: power | power (JOIN power)+ -> joined
-?power: atom | atom POWER exponent -> power
-?exponent: power | MINUS exponent -> minus | PLUS exponent -> plus
-?atom: NUMBER -> number
-     | NAME -> name
-     | CONSTANT -> constant
-     | FUNCTION LPAR either (COMMA either)* RPAR -> function
-     | ROOT atom -> root
-     | LPAR either RPAR -> group
-     | LBAR either RBAR -> bars
-"""
+
+class _Begun(msgspec.Struct):
+    """A rule that is begun: its bracket, sign in front or signs between, and operands so far."""
+
+    rule: int
+    signs: list[Piece]
+    operands: list[Expr]
+
+
+_BETWEEN = {
+    "OR": EITHER,
+    "AND": BOTH,
+    "RELATION": RELATION,
+    "PLUS": SUM,
+    "MINUS": SUM,
+    "TIMES": PRODUCT,
+    "SLASH": PRODUCT,
+    "JOIN": JOINED,
+    "POWER": POWER,
+}
+"""A sign between two operands, to the rule that it belongs to."""
+
+_PREFIXES = {"NOT": NEGATED, "ROOT": ROOT}
+_IN_FRONT = {PRODUCT: FACTOR, FACTOR: FACTOR, POWER: EXPONENT, EXPONENT: EXPONENT}
+"""A rule that waits for an operand, to the rule of a sign in front of that; else ``SIGNED``."""
+
+_LEAVES: dict[str, Callable[[Any], Expr]] = {
+    "NUMBER": lambda number: number,
+    "NAME": Sym,
+    "CONSTANT": lambda name: Call(name, ()),
+}
+_ATOMS = _LEAVES.keys() | {"FUNCTION", "LPAR", "LBAR", "ROOT"}
+_TERMS = _ATOMS | {"PLUS", "MINUS"}
+_TRUTHS = _TERMS | {"NOT"}
+_STARTS = {
+    **dict.fromkeys((BRACKET, EITHER, BOTH, NEGATED), _TRUTHS),
+    **dict.fromkeys((RELATION, SUM, SIGNED, PRODUCT, FACTOR, EXPONENT, POWER), _TERMS),
+    **dict.fromkeys((JOINED, ROOT), _ATOMS),
+}
+"""A rule that waits for an operand, to the tokens that can begin one."""
+
+_CLOSING = {
+    "": frozenset({"$END"}),
+    "LPAR": frozenset({"RPAR"}),
+    "LBAR": frozenset({"RBAR"}),
+    "FUNCTION": frozenset({"COMMA", "RPAR"}),
+}
+"""What opened a bracket, to the tokens that end a part of it."""
 
 _SIGNS = {row.token: row for row in typed_as(Typed.SIGN)}
 
 
-class _Actions:
-    """One method per rule; ``lark`` calls them while parsing, so no parse tree is built."""
-
-    def number(self, args: list[Any]) -> Expr:
-        value: Num = args[0].value.value
-        return value
-
-    def name(self, args: list[Any]) -> Expr:
-        return Sym(args[0].value.value)
-
-    def constant(self, args: list[Any]) -> Expr:
-        return Call(args[0].value.value, ())
-
-    def function(self, args: list[Any]) -> Expr:
-        piece = args[0].value
-        values = tuple(args[2:-1:2])
-        least, most = FUNCTIONS[piece.value]
-        odd = piece.value == "piecewise" and len(values) % 2 == 0
-        if odd or not least <= len(values) <= most:
-            raise ReadError("argument-count", piece.column, piece.text)
-        return Call(piece.value, values)
-
-    def root(self, args: list[Any]) -> Expr:
-        return Call("sqrt", (args[1],))
-
-    def group(self, args: list[Any]) -> Expr:
-        inner: Expr = args[1]
-        return inner
-
-    def bars(self, args: list[Any]) -> Expr:
-        return Call("abs", (args[1],))
-
-    def power(self, args: list[Any]) -> Expr:
-        return Call("pow", (args[0], args[2]))
-
-    def minus(self, args: list[Any]) -> Expr:
-        return Call("neg", (args[1],))
-
-    def plus(self, args: list[Any]) -> Expr:
-        inner: Expr = args[1]
-        return inner
-
-    def joined(self, args: list[Any]) -> Expr:
-        return Call("mul", tuple(args[::2]))
-
-    def chain(self, args: list[Any]) -> Expr:
-        """Fold from the left; a run of ``+`` (or of ``*``) becomes one node."""
-        result: Expr = args[0]
-        run = ""
-        for sign, term in zip(args[1::2], args[2::2], strict=True):
-            row = _SIGNS[sign.type]
-            if row.name == run and row.folds and isinstance(result, Call):
-                result = Call(row.name, (*result.args, term))
-            else:
-                result = Call(row.name, (result, term))
-            run = row.name
-        return result
-
-    def relation(self, args: list[Any]) -> Expr:
-        pairs = [
-            Call(args[i].value.value, (args[i - 1], args[i + 1])) for i in range(1, len(args), 2)
-        ]
-        return pairs[0] if len(pairs) == 1 else Call("and", tuple(pairs))
-
-    def negated(self, args: list[Any]) -> Expr:
-        return Call("not", (args[1],))
-
-    def both(self, args: list[Any]) -> Expr:
-        return Call("and", tuple(args[::2]))
-
-    def either(self, args: list[Any]) -> Expr:
-        return Call("or", tuple(args[::2]))
+def _chain(begun: _Begun) -> Expr:
+    """Fold from the left; a run of ``+`` (or of ``*``) becomes one node."""
+    result, *rest = begun.operands
+    run = ""
+    for sign, term in zip(begun.signs, rest, strict=True):
+        row = _SIGNS[sign.kind]
+        if row.name == run and row.folds and isinstance(result, Call):
+            result = Call(row.name, (*result.args, term))
+        else:
+            result = Call(row.name, (result, term))
+        run = row.name
+    return result
 
 
-@cache
-def _parser() -> Any:
-    from lark import Lark, Token
-    from lark.lexer import Lexer
+def _related(begun: _Begun) -> Expr:
+    """``a < b < c`` says two things."""
+    pairs = zip(begun.signs, begun.operands, begun.operands[1:], strict=False)
+    calls = tuple(Call(str(sign.value), (first, second)) for sign, first, second in pairs)
+    return calls[0] if len(calls) == 1 else Call("and", calls)
 
-    class Pieces(Lexer):
-        """Hands our tokens over to the parser."""
 
-        def __init__(self, _conf: object) -> None:
-            """Nothing to configure: the tokens are made beforehand."""
+def _signed(begun: _Begun) -> Expr:
+    (operand,) = begun.operands
+    return operand if begun.signs[0].kind == "PLUS" else Call("neg", (operand,))
 
-        def lex(self, lexer_state: Any, _parser_state: Any = None) -> Iterator[Token]:
-            for piece in lexer_state:
-                yield Token(piece.kind, piece)
 
-    return Lark(
-        GRAMMAR, parser="lalr", lexer=Pieces, transformer=_Actions(), maybe_placeholders=False
-    )
+def _called(name: str) -> Callable[[_Begun], Expr]:
+    return lambda begun: Call(name, tuple(begun.operands))
+
+
+_ENDED: dict[int, Callable[[_Begun], Expr]] = {
+    EITHER: _called("or"),
+    BOTH: _called("and"),
+    NEGATED: _called("not"),
+    RELATION: _related,
+    SUM: _chain,
+    SIGNED: _signed,
+    PRODUCT: _chain,
+    FACTOR: _signed,
+    JOINED: _called("mul"),
+    EXPONENT: _signed,
+    POWER: _called("pow"),
+    ROOT: _called("sqrt"),
+}
+"""What becomes of a rule that ends."""
+
+
+class _Parser:
+    """One parse: the rules begun, outermost first, and the operand that was completed last."""
+
+    def __init__(self) -> None:
+        self.begun = [_Begun(BRACKET, [], [])]
+        self.last: Expr | None = None
+        self.function: Piece | None = None
+
+    def start(self, piece: Piece) -> None:
+        """Take the first token of an operand."""
+        kind, rule = piece.kind, self.begun[-1].rule
+        if kind not in _STARTS[rule]:
+            raise self._unexpected(piece)
+        if kind in _LEAVES:
+            self.last = _LEAVES[kind](piece.value)
+        elif kind == "FUNCTION":  # the lexer calls a name so only in front of a bracket
+            self.function = piece
+        elif kind in {"LPAR", "LBAR"}:
+            self.begun.append(_Begun(BRACKET, [self.function or piece], []))
+            self.function = None
+        else:
+            begun = _PREFIXES.get(kind) or _IN_FRONT.get(rule, SIGNED)
+            self.begun.append(_Begun(begun, [piece], []))
+
+    def go_on(self, piece: Piece, last: Expr) -> None:
+        """Take a sign between two operands."""
+        rule = _BETWEEN[piece.kind]
+        last = self._ended(rule, last)
+        begun = self.begun[-1]
+        if begun.rule == rule != POWER:
+            begun.signs.append(piece)
+            begun.operands.append(last)
+        else:
+            self.begun.append(_Begun(rule, [piece], [last]))
+        self.last = None
+
+    def close(self, piece: Piece, last: Expr, following: str) -> None:
+        """Take a token that ends a bracket or an argument."""
+        last = self._ended(BRACKET, last)
+        begun = self.begun[-1]
+        if piece.kind not in _CLOSING[_opened_by(begun)]:
+            raise self._unexpected(piece)
+        begun.operands.append(last)
+        self.last = None
+        if piece.kind != "COMMA":
+            self.begun.pop()
+            self.last = _bracketed(begun, following)
+
+    def finish(self, end: Piece) -> Expr:
+        """The whole formula."""
+        if self.last is None:
+            raise self._unexpected(end)
+        tree = self._ended(BRACKET, self.last)
+        if len(self.begun) > 1:
+            raise self._unexpected(end)
+        return tree
+
+    def _ended(self, rule: int, last: Expr) -> Expr:
+        """End every rule that binds tighter."""
+        while self.begun[-1].rule > rule:
+            begun = self.begun.pop()
+            begun.operands.append(last)
+            last = _ENDED[begun.rule](begun)
+        return last
+
+    def _unexpected(self, piece: Piece) -> ReadError:
+        code = "unfinished" if piece.kind == "$END" else "unexpected"
+        return ReadError(code, piece.column, piece.text, sorted(self._expected(piece.kind)))
+
+    def _expected(self, kind: str) -> AbstractSet[str]:
+        """What could have stood there: for a closing token another one, else anything."""
+        if self.last is None:
+            return _STARTS[self.begun[-1].rule]
+        bracket = next(begun for begun in reversed(self.begun) if begun.rule == BRACKET)
+        closing = _CLOSING[_opened_by(bracket)]
+        return closing | _BETWEEN.keys() if kind in _TRUTHS else closing
+
+
+def _opened_by(bracket: _Begun) -> str:
+    return bracket.signs[0].kind if bracket.signs else ""
+
+
+def _bracketed(begun: _Begun, following: str) -> Expr:
+    """The value of what stood in brackets.
+
+    Raises
+    ------
+    ReadError
+        If a function has too many or too few arguments.
+    """
+    opened = _opened_by(begun)
+    if opened == "LBAR":
+        return Call("abs", tuple(begun.operands))
+    if opened != "FUNCTION":
+        return begun.operands[0]
+    piece, count = begun.signs[0], len(begun.operands)
+    name = str(piece.value)
+    least, most = FUNCTIONS[name]
+    odd = name == "piecewise" and count % 2 == 0
+    if (odd or not least <= count <= most) and following != "NOT":  # that is the first slip
+        raise ReadError("argument-count", piece.column, piece.text)
+    return Call(name, tuple(begun.operands))
 
 
 def build(pieces: list[Piece], end: int) -> Expr:
@@ -150,20 +255,13 @@ def build(pieces: list[Piece], end: int) -> Expr:
     ReadError
         With the column and the token kinds that could have stood there.
     """
-    from lark.exceptions import UnexpectedToken, VisitError
-
-    try:
-        tree: Expr = _parser().parse(pieces)
-    except UnexpectedToken as error:
-        raise _unexpected(error, end) from None
-    except VisitError as error:
-        raise error.orig_exc from None
-    return tree
-
-
-def _unexpected(error: UnexpectedToken, end: int) -> ReadError:
-    expected = sorted(error.accepts or error.expected)
-    if isinstance(error.token.value, Piece):
-        piece = error.token.value
-        return ReadError("unexpected", piece.column, piece.text, expected)
-    return ReadError("unfinished", end + 1, "", expected)
+    parser = _Parser()
+    last = Piece("$END", "", "", end + 1)
+    for piece, following in pairwise([*pieces, last]):
+        if parser.last is None:
+            parser.start(piece)
+        elif piece.kind in _BETWEEN:
+            parser.go_on(piece, parser.last)
+        else:
+            parser.close(piece, parser.last, following.kind)
+    return parser.finish(last)
