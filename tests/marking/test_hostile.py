@@ -61,6 +61,8 @@ HOSTILE = {
     "emoji": "🙂" * 100,
     "bangla-text": "আমি জানি না " * 16,
     "newlines": "\n" * 200,
+    "blanks-between": "1" + " " * 20_000 + "1",
+    "blank-lines-between": "1" + " \n" * 20_000 + "1",
     "quotes": "'\"" * 100,
     "formats": "{found} {column}",
 }

@@ -172,7 +172,8 @@ _SEPARATOR = re.compile(rf"[;|\n]|,(?= )|(?<=\)),?|{NAMED_NEXT.pattern}")
 
 def _numbers(spec: Spec, typed: str, decimal: str) -> dict[str, Number]:
     """Read the example: by name, in groups, or all in order."""
-    source = even(normalise(re.sub(r"\s*\r?\n\s*", "; ", typed.strip()), longest=400))
+    lines = filter(None, map(str.strip, typed.split("\n")))
+    source = even(normalise("; ".join(lines), longest=400))
     names, placed = list(spec.names()), dict[str, Number]()
     items = list(_items(source, decimal))
     if len(items) == 1 and not items[0][0]:
