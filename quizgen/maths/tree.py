@@ -49,10 +49,12 @@ def number(value: int | str | Fraction) -> Num:
 
 def walk(expr: Expr) -> Iterator[Expr]:
     """Yield every node of a tree, parents first."""
-    yield expr
-    if isinstance(expr, Call):
-        for arg in expr.args:
-            yield from walk(arg)
+    todo = [expr]
+    while todo:
+        node = todo.pop()
+        yield node
+        if isinstance(node, Call):
+            todo += node.args[::-1]
 
 
 def names(expr: Expr) -> frozenset[str]:

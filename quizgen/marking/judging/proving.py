@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+from functools import lru_cache, reduce
 from typing import Any
 
 from flint import Ordering, fmpq, fmpq_mpoly_ctx
 
 from quizgen.maths.numbers import rational
-from quizgen.maths.systems import NumberSystem, compile_expr
-from quizgen.maths.tree import Call, Expr, names, walk
+from quizgen.maths.tree import Call, Expr, Num, Sym, names, walk
 
-RATIONAL = frozenset({"add", "sub", "mul", "div", "neg", "pow"})
 LARGEST_POWER = 12
 MOST_NODES = 60
 
@@ -21,7 +21,7 @@ def is_rational(tree: Expr) -> bool:
     """Whether a formula uses arithmetic only, and is small enough to expand."""
     nodes = list(walk(tree))
     return len(nodes) <= MOST_NODES and all(
-        not isinstance(node, Call) or node.op in RATIONAL for node in nodes
+        not isinstance(node, Call) or node.op in _OPERATORS for node in nodes
     )
 
 
@@ -29,26 +29,40 @@ def proved_equal(first: Expr, second: Expr) -> bool:
     """Whether two formulas are proved to be the same rational function."""
     if not (is_rational(first) and is_rational(second)):
         return False
-    used = sorted(names(first) | names(second))
-    ctx = fmpq_mpoly_ctx.get([f"x{i}" for i in range(len(used))] or ["x0"], Ordering.lex)
-    one = ctx.constant(1)
-    env = {name: (gen, one) for name, gen in zip(used, ctx.gens(), strict=False)}
+    used = tuple(sorted(names(first) | names(second)))
     try:
-        field = _quotients(ctx)
-        top1, low1 = compile_expr(first, field)(env)
-        top2, low2 = compile_expr(second, field)(env)
+        top1, low1 = _of_key(first, used)
+        top2, low2 = _quotient(second, used)
     except (ValueError, ZeroDivisionError):
         return False
     return bool(top1 * low2 == top2 * low1)
 
 
-def _quotients(ctx: fmpq_mpoly_ctx) -> NumberSystem:
+def _quotient(tree: Expr, used: tuple[str, ...]) -> Quotient:
+    ctx, env = _field(used)
+    return _value(tree, ctx, env)
+
+
+_of_key = lru_cache(maxsize=512)(_quotient)
+"""The same for a key, which a whole class is compared with."""
+
+
+@lru_cache(maxsize=512)
+def _field(used: tuple[str, ...]) -> tuple[fmpq_mpoly_ctx, dict[str, Quotient]]:
+    """Polynomials in so many variables, and what each name stands for."""
+    ctx = fmpq_mpoly_ctx.get([f"x{i}" for i in range(len(used))] or ["x0"], Ordering.lex)
     one = ctx.constant(1)
-    return NumberSystem(
-        "quotients",
-        lambda value: (ctx.constant(rational(value)), one),
-        {"add": _add, "sub": _sub, "mul": _mul, "div": _div, "neg": _neg, "pow": _pow},
-    )
+    return ctx, {name: (gen, one) for name, gen in zip(used, ctx.gens(), strict=False)}
+
+
+def _value(tree: Expr, ctx: fmpq_mpoly_ctx, env: Mapping[str, Quotient]) -> Quotient:
+    if isinstance(tree, Num):
+        return ctx.constant(rational(tree.value)), ctx.constant(1)
+    if isinstance(tree, Sym):
+        return env[tree.name]
+    args = [_value(arg, ctx, env) for arg in tree.args]
+    op = _OPERATORS[tree.op]
+    return op(*args) if len(args) <= 2 else reduce(op, args)
 
 
 def _add(a: Quotient, b: Quotient) -> Quotient:
@@ -88,3 +102,13 @@ def _integer(value: Quotient) -> int:
     if number.q != 1 or abs(number) > LARGEST_POWER:
         raise ValueError("exponent too large")
     return int(number.p)
+
+
+_OPERATORS: dict[str, Callable[..., Quotient]] = {
+    "add": _add,
+    "sub": _sub,
+    "mul": _mul,
+    "div": _div,
+    "neg": _neg,
+    "pow": _pow,
+}

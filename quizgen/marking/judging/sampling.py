@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -14,7 +14,7 @@ from quizgen.errors import MathError, Undecided
 from quizgen.maths.constants import Scalar, TooLargeError, bounded, exact_value
 from quizgen.maths.notation import ReadError
 from quizgen.maths.precision import working_precision
-from quizgen.maths.systems import compile_expr
+from quizgen.maths.systems import Compiled, compile_expr, compile_inner
 from quizgen.maths.tree import Expr, names
 from quizgen.maths.values import Value, Values
 
@@ -67,8 +67,12 @@ def _draw(domain: Span, source: random.Random) -> fmpq:
 
 def sample_points(symbols: Mapping[str, Domain]) -> tuple[dict[str, fmpq], ...]:
     """Return rational points of the domain: both signs for ``real``, spread over the magnitudes."""
-    return _draws(
-        tuple((n, tuple(d) if isinstance(d, list) else d) for n, d in sorted(symbols.items()))
+    return _draws(_spans(symbols))
+
+
+def _spans(symbols: Mapping[str, Domain]) -> tuple[tuple[str, Span], ...]:
+    return tuple(
+        [(n, tuple(d) if isinstance(d, list) else d) for n, d in sorted(symbols.items())]
     )
 
 
@@ -78,7 +82,11 @@ def compiled(tree: Expr) -> Callable[[Env], Any]:
     The result is None where it has no value, and the class ``Undecided`` or ``TooLargeError``
     where that cannot be told.
     """
-    function = compile_expr(tree, bounded())
+    return _answering(compile_expr(tree, bounded()))
+
+
+def _answering(function: Compiled) -> Callable[[Env], Any]:
+    """Say what a formula's value is, or why it has none."""
 
     def evaluate(env: Env) -> Any:
         try:
@@ -91,6 +99,30 @@ def compiled(tree: Expr) -> Callable[[Env], Any]:
             return None
 
     return evaluate
+
+
+class Sampled:
+    """A formula's values at some points, each computed when it is first asked for.
+
+    The precision is stated once around all of them.
+    """
+
+    def __init__(self, tree: Expr, points: Sequence[Env]) -> None:
+        self.points = points
+        self._function = _answering(compile_inner(tree, bounded()))
+        self._values: list[Any] = []
+
+    def at(self, index: int) -> Any:
+        """The value at one point."""
+        while len(self._values) <= index:
+            self._values.append(self._function(self.points[len(self._values)]))
+        return self._values[index]
+
+
+@lru_cache(maxsize=512)
+def _of_key(tree: Expr, domains: tuple[tuple[str, Span], ...]) -> Sampled:
+    """The values of a key, which a whole class is compared with."""
+    return Sampled(tree, _draws(domains))
 
 
 def compare(first: Expr, second: Expr, symbols: Mapping[str, Domain]) -> Comparison:
@@ -106,9 +138,10 @@ def compare(first: Expr, second: Expr, symbols: Mapping[str, Domain]) -> Compari
     used = names(first) | names(second)
     if not used:
         return _constants(first, second)
-    points = sample_points({name: domain for name, domain in symbols.items() if name in used})
+    wanted = {name: domain for name, domain in symbols.items() if name in used}
+    typed = Sampled(second, sample_points(wanted))
     with working_precision(BITS):
-        return _sampled(compiled(first), compiled(second), points)
+        return _sampled(_of_key(first, _spans(wanted)), typed)
 
 
 def _constants(first: Expr, second: Expr) -> Comparison:
@@ -124,31 +157,31 @@ def _constants(first: Expr, second: Expr) -> Comparison:
         return Comparison(agree(a, b), 1, "proved" if exact else "sampled")
 
 
-def _sampled(
-    first: Callable[[Env], Any], second: Callable[[Env], Any], points: Sequence[Env]
-) -> Comparison:
-    pairs: list[tuple[Any, Any]] = []
-    apart = large = 0
-    for point in points:
-        a, b = first(point), second(point)
+def _sampled(key: Sampled, typed: Sampled) -> Comparison:
+    apart = large = met = 0
+    sure = True
+    for index in range(len(key.points)):
+        a, b = key.at(index), typed.at(index)
         large += b is TooLargeError
         if isinstance(a, type) or isinstance(b, type):
             continue
         if a is None or b is None:
             apart += a is not None
             continue
-        pairs.append((a, b))
-        if agree(a, b) is False:
-            return _different(first, second, points, len(pairs))
-        if len(pairs) == POINTS:
+        met += 1
+        same = agree(a, b)
+        if same is False:
+            return _different(key, typed, met)
+        sure = sure and same is True
+        if met == POINTS:
             break
-    if large == len(points):
+    if large == len(key.points):
         raise ReadError("too-large", 1)
     if apart:
-        return Comparison(equal=False, points=len(pairs) + apart, ground="domain")
-    if len(pairs) < POINTS or not all(agree(a, b) for a, b in pairs):
-        return Comparison(equal=None, points=len(pairs), ground="undecided")
-    return Comparison(equal=True, points=len(pairs), ground="sampled")
+        return Comparison(equal=False, points=met + apart, ground="domain")
+    if met < POINTS or not sure:
+        return Comparison(equal=None, points=met, ground="undecided")
+    return Comparison(equal=True, points=met, ground="sampled")
 
 
 def agree(a: Value, b: Value) -> bool | None:
@@ -163,22 +196,16 @@ def agree(a: Value, b: Value) -> bool | None:
     return True if sharp else None
 
 
-def _different(
-    first: Callable[[Env], Any], second: Callable[[Env], Any], points: Sequence[Env], count: int
-) -> Comparison:
+def _different(key: Sampled, typed: Sampled, count: int) -> Comparison:
     """Tell whether two different formulas differ by a factor or by an offset."""
-    pairs = list(_values(first, second, points[:12]))
-    ratio, difference = _relation(pairs) if len(pairs) >= 3 else (None, None)
+    pairs = [(key.at(index), typed.at(index)) for index in range(12)]
+    valued = [(a, b) for a, b in pairs if not any(map(_without_value, (a, b)))]
+    ratio, difference = _relation(valued) if len(valued) >= 3 else (None, None)
     return Comparison(False, count, "differs", ratio, difference)
 
 
-def _values(
-    first: Callable[[Env], Any], second: Callable[[Env], Any], points: Sequence[Env]
-) -> Iterator[tuple[Any, Any]]:
-    for point in points:
-        a, b = first(point), second(point)
-        if not any(value is None or isinstance(value, type) for value in (a, b)):
-            yield a, b
+def _without_value(value: object) -> bool:
+    return value is None or isinstance(value, type)
 
 
 def _relation(pairs: list[tuple[Any, Any]]) -> tuple[Any, Any]:
