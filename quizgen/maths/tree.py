@@ -59,7 +59,7 @@ def walk(expr: Expr) -> Iterator[Expr]:
 
 def names(expr: Expr) -> frozenset[str]:
     """Names of the quantities that occur in a tree."""
-    return frozenset(node.name for node in walk(expr) if isinstance(node, Sym))
+    return frozenset([node.name for node in walk(expr) if isinstance(node, Sym)])
 
 
 def substitute(expr: Expr, values: Mapping[str, Expr]) -> Expr:

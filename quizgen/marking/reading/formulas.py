@@ -52,6 +52,12 @@ _SYNONYMS = {
     "Min": "min",
 }
 
+_WORD = re.compile(r"[^\W\d_]{2}")
+"""A text without one of these names no function."""
+
+_MARKED = re.compile(r"[°%;\[\].,π:]")
+"""A text without one of these needs none of the rewrites but the first."""
+
 FORMULA_REWRITES: dict[str, Rewrite] = {
     "function synonyms": (
         re.compile(
@@ -70,6 +76,8 @@ FORMULA_REWRITES: dict[str, Rewrite] = {
     "colon": (re.compile(r"(?<=[\w)']) ?: ?(?=[\w(√])"), lambda _m: "/"),
 }
 """Rewrites that only formulas need, in order."""
+
+_NAMES, *_MARKS = FORMULA_REWRITES.values()
 
 _EULER = re.compile(r"(?<![^\W_])e ?(?:\^|\*\*) ?(?=[(\w-])")
 _ARGUMENTS = re.compile(rf"{MULTI_ARGUMENT} ?\([^()]*\d,\d")
@@ -109,10 +117,11 @@ def read_formula(typed: str, symbols: Iterable[str], decimal: str = "auto") -> F
     declared = frozenset(symbols)
     source = normalise(typed, keep_x=bool(declared & {"x", "X"}))
     source = tidied(_right_side(source))
-    for name, (pattern, new) in FORMULA_REWRITES.items():
-        source = source.sub(pattern, new)
-        if name == "function synonyms":
-            source = bracketed(source, declared)
+    if _WORD.search(source.text):
+        source = bracketed(source.sub(*_NAMES), declared)
+    if _MARKED.search(source.text):
+        for pattern, new in _MARKS:
+            source = source.sub(pattern, new)
     if "e" not in declared:
         source = _euler(source)
     _refuse_bare_log(source, declared)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Callable
+from functools import lru_cache
 
 from quizgen.marking.reading import latex
 from quizgen.marking.reading.source import Rewrite, Source
@@ -143,11 +144,20 @@ def _fold(source: Source) -> Source:
     source = source.strip(" \t\r\n\u00a0")
     if "·" in source.text and _RAISED.fullmatch(source.text):
         raise ReadError("two-readings", source.column(0), source.text)
+    concerned = frozenset().union(*map(_concerning, set(source.text)))
+    if "full-width forms" in concerned:  # they become characters that others are about
+        concerned |= REWRITES.keys()
     for name, (pattern, new) in REWRITES.items():
-        if name not in _ALWAYS:
+        if name in concerned and name not in _ALWAYS:
             source = source.sub(pattern, new)
     refuse_invisible(source)
     return source
+
+
+@lru_cache(maxsize=4096)
+def _concerning(character: str) -> frozenset[str]:
+    """Rewrites that a character gives work to: each looks for single characters."""
+    return frozenset(name for name, (pattern, _) in REWRITES.items() if pattern.search(character))
 
 
 def refuse_invisible(source: Source, allowed: str = "") -> None:

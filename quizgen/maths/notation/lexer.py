@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from fractions import Fraction
 from itertools import pairwise
 
@@ -107,54 +107,57 @@ def tokens(text: str, symbols: frozenset[str] | None, *, loose: bool = False) ->
     ReadError
         If a character or a name is not part of the grammar.
     """
-    pieces = list(_pieces(text, symbols, loose=loose))
-    return _joined(_bars(pieces), named=symbols is not None)
+    pieces = _pieces(text, symbols, loose=loose)
+    if "|" in text:
+        pieces = _bars(pieces)
+    return _joined(pieces, named=symbols is not None)
 
 
-def _pieces(text: str, symbols: frozenset[str] | None, *, loose: bool) -> Iterator[Piece]:
+def _pieces(text: str, symbols: frozenset[str] | None, *, loose: bool) -> list[Piece]:
+    found: list[Piece] = []
     position = 0
-    while position < len(text):
-        match = TOKEN.match(text, position)
-        if match is None:
-            raise ReadError("bad-character", position + 1, text[position])
+    for match in TOKEN.finditer(text):
+        if match.start() != position:
+            break
         position = match.end()
-        if match.lastgroup != "space":
-            yield from _piece(match, symbols, loose=loose)
+        if match.lastgroup == "name":
+            found += _named(match, symbols, loose=loose)
+        elif match.lastgroup != "space":
+            found.append(_piece(match))
+    if position < len(text):
+        raise ReadError("bad-character", position + 1, text[position])
+    return found
 
 
-def _piece(match: re.Match[str], symbols: frozenset[str] | None, *, loose: bool) -> Iterator[Piece]:
+def _piece(match: re.Match[str]) -> Piece:
     word, column, kind = match[0], match.start() + 1, match.lastgroup
     if kind == "number":
-        yield Piece("NUMBER", number_node(word, column), word, column)
-    elif kind == "literal":
-        yield Piece("NUMBER", _literal(word, column), word, column)
-    elif kind == "quoted":
-        yield Piece("NAME", word[1:-1], word, column)
-    elif kind == "name":
-        yield from _named(match, symbols, loose=loose)
-    elif word in RELATIONS:
-        yield Piece("RELATION", RELATIONS[word], word, column)
-    else:
-        yield Piece(OPERATORS[word], word, word, column)
+        return Piece("NUMBER", number_node(word, column), word, column)
+    if kind == "literal":
+        return Piece("NUMBER", _literal(word, column), word, column)
+    if kind == "quoted":
+        return Piece("NAME", word[1:-1], word, column)
+    if word in RELATIONS:
+        return Piece("RELATION", RELATIONS[word], word, column)
+    return Piece(OPERATORS[word], word, word, column)
 
 
-def _named(match: re.Match[str], symbols: frozenset[str] | None, *, loose: bool) -> Iterator[Piece]:
+def _named(match: re.Match[str], symbols: frozenset[str] | None, *, loose: bool) -> list[Piece]:
     word, column = match[0], match.start() + 1
     if symbols is not None and word in symbols:
-        yield Piece("NAME", word, word, column)
-    elif word in KEYWORDS:
-        yield Piece(word.upper(), word, word, column)
-    elif word in CONSTANTS:
-        yield Piece("CONSTANT", CONSTANTS[word], word, column)
-    elif word in FUNCTIONS and match.string[match.end() :].lstrip().startswith("("):
-        yield Piece("FUNCTION", word, word, column)
-    elif symbols is None:
-        yield Piece("NAME", word, word, column)
-    else:
-        yield from _declared(word, column, symbols, loose=loose)
+        return [Piece("NAME", word, word, column)]
+    if word in KEYWORDS:
+        return [Piece(word.upper(), word, word, column)]
+    if word in CONSTANTS:
+        return [Piece("CONSTANT", CONSTANTS[word], word, column)]
+    if word in FUNCTIONS and match.string[match.end() :].lstrip().startswith("("):
+        return [Piece("FUNCTION", word, word, column)]
+    if symbols is None:
+        return [Piece("NAME", word, word, column)]
+    return _declared(word, column, symbols, loose=loose)
 
 
-def _declared(word: str, column: int, symbols: frozenset[str], *, loose: bool) -> Iterator[Piece]:
+def _declared(word: str, column: int, symbols: frozenset[str], *, loose: bool) -> list[Piece]:
     table = spellings(symbols)
     single = table.get(word, table.get(folded(word))) if loose else None
     ways = [[single]] if single else split(word, symbols)
@@ -162,8 +165,7 @@ def _declared(word: str, column: int, symbols: frozenset[str], *, loose: bool) -
         raise ReadError("unknown-name", column, word, sorted(symbols))
     if len(ways) > 1:
         raise ReadError("two-readings", column, word, ["·".join(way) for way in ways])
-    for name in ways[0]:
-        yield Piece("NAME", name, word, column)
+    return [Piece("NAME", name, word, column) for name in ways[0]]
 
 
 def number_node(word: str, column: int = 1) -> Num:
