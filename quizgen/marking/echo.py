@@ -19,7 +19,8 @@ def shorten(text: str, longest: int = LONGEST_ECHO) -> str:
 
 def safe(text: str, longest: int = LONGEST_ECHO) -> str:
     """Shorten, and name control characters."""
-    return "".join(map(_visible, shorten(text, longest)))
+    cut = shorten(text, longest)
+    return cut if cut.isprintable() else "".join(map(_visible, cut))
 
 
 def _visible(character: str) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import lru_cache
 from typing import ClassVar
 
 import msgspec
@@ -82,17 +83,18 @@ class Tolerance(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
 
     def half_width(self, key: Value) -> Value:
         """Return the largest accepted distance from a key, exactly."""
-        name, number = self.stated or self.unstated
-        match name:
-            case "rel":
-                return exact_value(number) * abs(key)
-            case "abs":
-                return exact_value(number)
-            case "decimals":
-                return exact_value(self.within) / 10 ** int(number)
-            case "sigfigs":
-                return exact_value(self.within) * fmpq(10) ** (magnitude(key) + 1 - int(number))
-        return fmpq(0)
+        if self.decimals is not None:
+            return exact_value(self.within) * _place(self.decimals)
+        if self.sigfigs is not None:
+            return exact_value(self.within) * _place(self.sigfigs - 1 - magnitude(key))
+        if self.exact:
+            return fmpq(0)
+        if self.rel is not None:
+            return exact_value(self.rel) * abs(key)
+        if self.abs is not None:
+            return exact_value(self.abs)
+        name, number = self.unstated
+        return exact_value(number) * abs(key) if name == "rel" else exact_value(number)
 
     def outer_width(self, key: float) -> float:
         """Return the half-width around an approximate key, never too small.
@@ -123,6 +125,12 @@ class Tolerance(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
             return self.near(value, key)
         low, high = map(exact_value, self.accept)
         return bool(low <= value <= high)
+
+
+@lru_cache(maxsize=1024)
+def _place(decimals: int) -> fmpq:
+    """What a one is worth in a decimal place."""
+    return fmpq(10) ** -decimals
 
 
 class AngleTolerance(Tolerance, kw_only=True, frozen=True):

@@ -35,6 +35,10 @@ with working_precision():
     }
 """Constant factors worth naming."""
 
+_ABOUT = {name: to_float(factor) for name, factor in FACTORS.items()}
+NEAR = 0.01
+"""Relative distance of floats beyond which exact arithmetic need not be asked: twice ``CLOSE``."""
+
 _TENS = {power: fmpq(10) ** power for power in range(-19, 20)}
 
 
@@ -106,7 +110,8 @@ def _power_note(number: Number, key: Value, power: int) -> tuple[str, dict[str, 
 
 
 def _factor(value: Value, key: Value) -> tuple[str, dict[str, object]]:
+    ratio = to_float(value / key)
     for name, factor in FACTORS.items():
-        if close(value, key * factor):
+        if abs(ratio / _ABOUT[name] - 1) < NEAR and close(value, key * factor):
             return "factor", {"factor": name}
     return "", {}

@@ -71,9 +71,7 @@ def sample_points(symbols: Mapping[str, Domain]) -> tuple[dict[str, fmpq], ...]:
 
 
 def _spans(symbols: Mapping[str, Domain]) -> tuple[tuple[str, Span], ...]:
-    return tuple(
-        [(n, tuple(d) if isinstance(d, list) else d) for n, d in sorted(symbols.items())]
-    )
+    return tuple([(n, tuple(d) if isinstance(d, list) else d) for n, d in sorted(symbols.items())])
 
 
 def compiled(tree: Expr) -> Callable[[Env], Any]:

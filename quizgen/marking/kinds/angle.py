@@ -11,7 +11,7 @@ from quizgen.marking.diagnosis.slips import close, radians
 from quizgen.marking.judging.number import Asked, best, judge_value, resolve
 from quizgen.marking.kinds.quantity import DEGREES
 from quizgen.marking.options import Options
-from quizgen.marking.reading.chains import Side, read_sides
+from quizgen.marking.reading.chains import Side, plain_side, read_sides
 from quizgen.marking.reading.named import without_name
 from quizgen.marking.reading.quantities import TypedQuantity
 from quizgen.marking.reading.rewrites import normalise
@@ -42,9 +42,10 @@ class Spec(OneNumber, kw_only=True, frozen=True):
 
     def judge(self, typed: str, options: Options, /) -> Verdict:
         """Judge a typed angle."""
+        plain = plain_side(typed, options.decimal)
+        if plain is not None:
+            return _resolved(self, plain, options)
         sides = read_sides(without_name(normalise(typed)), options.decimal)
-        if len(sides) == 1:
-            return _resolved(self, sides[0], options)
         return best(_resolved(self, side, options) for side in sides)
 
     def show(self) -> str:

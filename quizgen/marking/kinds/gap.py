@@ -46,6 +46,8 @@ class Spec(Worded, kw_only=True, frozen=True):
         if len(words) != len(gaps):
             raise ReadError("item-count", 1, str(len(words)), [str(len(gaps))])
         cells = [_one(self, gap, word) for gap, word in zip(gaps, words, strict=True)]
+        if len(cells) == 1 and cells[0].credit == 1:
+            return cells[0]
         read_as = "; ".join(cell.read_as for cell in cells)
         stopped = next((cell for cell in cells if cell.verdict == "ambiguous"), None)
         if stopped is not None:
@@ -153,12 +155,13 @@ def _cut(typed: str, count: int) -> list[str]:
 def _one(spec: Spec, gap: list[str], word: str) -> Verdict:
     """Judge one gap: the word itself, or the known term it is nearest to."""
     right = {fold(term) for term in gap}
-    if not fold(word):
+    folded = fold(word)
+    if not folded:
         return wrong("", "gap-empty") if not word else unreadable("no-answer")
-    if fold(word) in right or _compact(word) in right or _inflected(word, right):
+    if folded in right or _compact(word) in right or _inflected(word, right):
         return correct(safe(" ".join(word.split())))
     others = [o for g in spec.gaps() for o in g if fold(o) not in right] + spec.among
-    if fold(word) in {fold(term) for term in others}:
+    if folded in map(fold, others):
         return wrong(safe(word), "other-term")
     return _nearest(word, gap, others)
 
@@ -186,7 +189,7 @@ def _compact(word: str) -> str:
 def _inflected(word: str, right: set[str]) -> bool:
     """An adverb or an ending of German: ``additively``, ``additive Mischung`` without its noun."""
     whole = fold(word)
-    return any(
+    return whole.endswith(_ENDINGS) and any(
         whole.endswith(end) and len(whole) - len(end) >= LONG and whole[: -len(end)] in right
         for end in _ENDINGS
     )

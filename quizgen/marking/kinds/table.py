@@ -50,7 +50,7 @@ class Spec(Measured, kw_only=True, frozen=True):
             if name not in self.values:
                 raise ValueError(f"no value is named {name!r}")
         for name in self.values:
-            cell(self, name)
+            decode(*_shape(self, name))
 
     def judge(self, typed: str, options: Options, /) -> Verdict:
         """Judge each cell."""
@@ -82,6 +82,12 @@ _INHERITED = (*RULES, "within", "strict")
 
 def cell(spec: Spec, name: str) -> Cell:
     """Return the spec of one cell."""
+    shape, table = _shape(spec, name)
+    return msgspec.convert(table, shape)
+
+
+def _shape(spec: Spec, name: str) -> tuple[type[Cell], dict[str, Any]]:
+    """The kind of one cell and what its spec says."""
     own = spec.cells.get(name, {})
     table: dict[str, Any] = {"kind": "number", "value": spec.values[name]}
     if not {*RULES} & own.keys():
@@ -96,7 +102,7 @@ def cell(spec: Spec, name: str) -> Cell:
         table.pop("unit", None)
     if table["kind"] not in CELLS:
         raise ValueError(f"cells.{name}: kind is one of {', '.join(CELLS)}")
-    return decode(CELLS[table["kind"]], table)
+    return CELLS[table["kind"]], table
 
 
 def _placed(typed: str, names: list[str], decimal: str) -> dict[str, Source]:

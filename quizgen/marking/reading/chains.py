@@ -11,14 +11,22 @@ from collections.abc import Iterator
 import msgspec
 from flint import fmpq
 
+from quizgen.errors import FormulaError
 from quizgen.marking.reading.formulas import read_formula
 from quizgen.marking.reading.lists import unbracketed
 from quizgen.marking.reading.literals import Doubt
 from quizgen.marking.reading.named import WORDS
 from quizgen.marking.reading.quantities import TypedQuantity, split_quantity
-from quizgen.marking.reading.scalars import Number, Readings, constant_number, read_source, scaled
+from quizgen.marking.reading.scalars import (
+    Number,
+    Readings,
+    constant_number,
+    quick,
+    read_source,
+    scaled,
+)
 from quizgen.marking.reading.source import Source
-from quizgen.marking.reading.unit_words import TypedUnit, plain_unit
+from quizgen.marking.reading.unit_words import TypedUnit, plain_unit, typed_unit
 from quizgen.maths.notation import ReadError
 from quizgen.maths.units import shown as shown_unit
 from quizgen.maths.values import Value
@@ -44,6 +52,26 @@ class Side(msgspec.Struct, frozen=True):
         return number.places if number.form in {"decimal", "scientific"} else 100
 
 
+_PLAIN = re.compile(r"([^a-zA-Zµμ°% ]+) ?((?:[a-zA-Zµμ°%][a-zA-Zµμ°%/]{0,24})?)")
+_READ = Source("", ())
+"""In place of a number part that has been read."""
+
+
+def plain_side(typed: str, decimal: str) -> Side | None:
+    """Read a plain number, alone or with a plain unit behind it, without any rewriting.
+
+    Most of what people type is one: ``6.67 mm``, ``12,5%``, ``20/3``.
+    """
+    match = _PLAIN.fullmatch(typed)
+    readings = match and quick(match[1], decimal)
+    if match is None or readings is None:
+        return None
+    try:
+        return Side(TypedQuantity(_READ, typed_unit(match[2]) if match[2] else None), readings)
+    except FormulaError:
+        return None
+
+
 def read_sides(source: Source, decimal: str) -> list[Side]:
     """Read a number with or without a unit; every side, if equal things are chained.
 
@@ -52,6 +80,9 @@ def read_sides(source: Source, decimal: str) -> list[Side]:
     ReadError
         If it cannot be read, or the sides contradict each other.
     """
+    plain = plain_side(source.text, decimal)
+    if plain is not None:
+        return [plain]
     try:
         return [_side(source, decimal)]
     except ReadError as error:

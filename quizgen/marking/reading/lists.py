@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 from quizgen.marking.reading.named import NAME
-from quizgen.marking.reading.rewrites import normalise
+from quizgen.marking.reading.rewrites import LONGEST, normalise
 from quizgen.marking.reading.source import Source
 from quizgen.maths.notation import ReadError
 from quizgen.maths.notation.names import FUNCTIONS
@@ -47,6 +47,9 @@ def read_list(typed: str, count: int | None, decimal: str) -> tuple[list[Source]
     ReadError
         If commas separate and mark decimals at once, or the number of items is wrong.
     """
+    plain = _plain_items(typed, count)
+    if plain:
+        return plain, _NOTHING
     source = even(normalise(re.sub(r"\r?\n", ";", typed.strip())))
     names, source = fronted(source)
     source, tail = _opened(source)
@@ -56,6 +59,27 @@ def read_list(typed: str, count: int | None, decimal: str) -> tuple[list[Source]
     if count is not None and len(items) != count:
         raise ReadError("item-count", 1, str(len(items)), [str(count)])
     return items, tail
+
+
+_EITHER_SIGN = re.compile(r"-?[0-9]+(?:[.,][0-9]+)?")
+_POINT = re.compile(r"-?[0-9]+(?:\.[0-9]+)?")
+_PLAIN = re.compile(
+    rf"(\()?(?:{_EITHER_SIGN.pattern}(?:; ?{_EITHER_SIGN.pattern})+"
+    rf"|({_POINT.pattern}(?:(?:, {_POINT.pattern})+|(?:,{_POINT.pattern})+)))(?(1)\))"
+)
+_NOTHING = Source("", ())
+
+
+def _plain_items(typed: str, count: int | None) -> list[Source]:
+    """The items of ``(1.5; 2)`` and ``1.5, 2``, where nothing has to be rewritten; else none."""
+    match = _PLAIN.fullmatch(typed) if len(typed) <= LONGEST else None
+    if match is None or (match[2] and count is None):
+        return []
+    items = [
+        Source(item[0], tuple(range(item.start() + 1, item.end() + 1)))
+        for item in (_POINT if match[2] else _EITHER_SIGN).finditer(typed)
+    ]
+    return items if count in {None, len(items)} else []
 
 
 def even(source: Source) -> Source:

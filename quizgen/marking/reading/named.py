@@ -18,6 +18,7 @@ _WORD = rf"(?:[^\W\d_]|[{SIGNS}]){{2,}}"
 WORDS = rf"{_WORD}(?: {_WORD})+"
 """A name in several words: ``focal length``."""
 
+_INSIDE = re.compile(r"[\s_.-]")
 _NAME = re.compile(rf"([^\W\d][\w' ./{SIGNS}-]*?) ?(?::=|[=:≈]|->|→) ?")
 
 
@@ -31,13 +32,14 @@ def split_name(item: Source) -> tuple[str, Source]:
 
 def name_key(name: str) -> str:
     """Return the spelling that names are compared by."""
-    return re.sub(r"[\s_.-]", "", folded(name))
+    return _INSIDE.sub("", folded(name))
 
 
 def find_name(typed: str, names: list[str]) -> str:
     """Return the declared name that a typed one means (case counts only if it must), or ''."""
     for same in (name_key, lambda name: name_key(name).lower()):
-        found = [name for name in names if same(name) == same(typed)]
+        wanted = same(typed)
+        found = [name for name in names if same(name) == wanted]
         if len(found) == 1:
             return found[0]
     return ""

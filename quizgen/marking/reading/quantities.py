@@ -14,7 +14,6 @@ from quizgen.maths.notation import ReadError
 _NUMBER_PART = re.compile(
     r"(?:[\d.,' +()√π^*/-]|[eE](?=[-+]?\d)|sqrt(?=\()|pi(?![^\W\d_])|[xX](?= ?10))*"
 )
-_FAST = re.compile(r"(-?\d+(?:[.,]\d+)?) ?([a-zA-Zµμ°%]+)", re.ASCII)
 
 
 class TypedQuantity(msgspec.Struct, frozen=True):

@@ -168,6 +168,8 @@ def refuse_invisible(source: Source, allowed: str = "") -> None:
     ReadError
         With the character's name and column.
     """
+    if source.text.isprintable():
+        return
     for position, character in enumerate(source.text):
         if unicodedata.category(character) in _CONTROL and character not in allowed:
             raise ReadError("bad-character", source.column(position), character)

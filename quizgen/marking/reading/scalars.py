@@ -76,7 +76,9 @@ def as_percent(number: Number) -> Number:
     return replace(number, read_as=f"{number.read_as} %", percent=True)
 
 
-_FAST = re.compile(r"([-−–]?)([0-9]{1,30})(?:([.,])([0-9]{1,30}))?")
+_FAST = re.compile(
+    r"([-−–]?)([0-9]{1,30})(?:([.,])([0-9]{1,30}))?(?:[eE]([-+]?[0-9]{1,2})|/([0-9]{1,30}))?"
+)
 _DIGITS = str.maketrans("০১২৩৪৫৬৭৮৯０１２３４５６７８９", "01234567890123456789")
 _SCIENTIFIC = re.compile(
     r"(?P<sign>[-+]?) ?(?P<whole>\d*)(?:\.(?P<digits>\d*))?"
@@ -99,15 +101,22 @@ _E_SPACED = re.compile(r"(?<=[\d.]) ?[eE] ?(?=[-+]?\d)")
 
 
 def quick(typed: str, decimal: str) -> Readings | None:
-    """Read a plain number without any rewriting, with both readings if there are two."""
+    """Read a plain number without any rewriting, with both readings if there are two.
+
+    Most of what people type is one: ``6.67``, ``6,67``, ``20/3``, ``1.5e-3``.
+    """
     match = _FAST.fullmatch(typed if typed.isascii() else typed.translate(_DIGITS))
     if match is None:
         return None
-    sign, whole, mark, digits = match.groups()
+    sign, whole, mark, digits, exponent, bottom = match.groups()
     sign = "-" if sign else ""
+    if bottom:
+        return None if mark or not int(bottom) else Readings(_quotient(sign, whole, bottom))
     main = _decimal(sign, whole, digits or "")
     if main.places != 3 or len(whole) > 3 or whole[0] == "0":
-        return Readings(main)
+        return Readings(_raised(main, int(exponent)) if exponent else main)
+    if exponent:
+        return None
     doubt = doubtful(mark, decimal)
     if doubt is None:
         return Readings(main)
@@ -124,6 +133,12 @@ def _decimal(sign: str, whole: str, digits: str) -> Number:
         )
     least = len(whole.strip("0")) or 1
     return Number(value, sign + whole, "integer", 0, (least, len(whole.lstrip("0")) or 1))
+
+
+def _quotient(sign: str, top: str, bottom: str) -> Number:
+    value = fmpq(int(top), int(bottom))
+    lowest = int(bottom) == value.q
+    return Number(-value if sign else value, f"{sign}{top}/{bottom}", "fraction", lowest=lowest)
 
 
 def read_number(typed: str, decimal: str = "auto") -> Readings:
@@ -192,14 +207,18 @@ def _scientific(text: str) -> Number | None:
     exponent = match["e"] or match["p"]
     if exponent is None:
         return number
-    power = _power(exponent)
-    figures = number.figures if digits else (number.figures[1], number.figures[1])
+    return _raised(number, _power(exponent))
+
+
+def _raised(number: Number, power: int) -> Number:
+    """A decimal or whole number times a power of ten."""
+    least, most = number.figures
     return Number(
         number.value * fmpq(10) ** power,
         f"{number.read_as}·10^{power}",
         "scientific",
         max(0, number.places - power),
-        figures,
+        (least if number.form == "decimal" else most, most),
     )
 
 

@@ -53,8 +53,9 @@ def plain(name: str) -> bool:
 
 def folded(name: str) -> str:
     """Spelling without subscript marks and Greek letters: ``k_1`` and ``k1`` are one name."""
-    for letter, word in GREEK.items():
-        name = name.replace(letter, word)
+    if not name.isascii():
+        for letter, word in GREEK.items():
+            name = name.replace(letter, word)
     return name.replace("_", "")
 
 
