@@ -96,8 +96,8 @@ def test_errors_carry_reason_and_column(text, code, column):
     assert (caught.value.code, caught.value.column) == (code, column)
 
 
-SIGNS = "AND JOIN MINUS OR PLUS POWER RELATION SLASH TIMES".split()
-TERM = "CONSTANT FUNCTION LBAR LPAR NAME NUMBER ROOT".split()
+SIGNS = ["AND", "JOIN", "MINUS", "OR", "PLUS", "POWER", "RELATION", "SLASH", "TIMES"]
+TERM = ["CONSTANT", "FUNCTION", "LBAR", "LPAR", "NAME", "NUMBER", "ROOT"]
 
 
 @pytest.mark.parametrize(
