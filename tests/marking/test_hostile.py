@@ -64,6 +64,8 @@ HOSTILE = {
     "blanks-between": "1" + " " * 20_000 + "1",
     "blank-lines-between": "1" + " \n" * 20_000 + "1",
     "quotes": "'\"" * 100,
+    "beyond-floats": "0.11x10^352",
+    "beyond-floats-below": "-1x10^-352",
     "formats": "{found} {column}",
 }
 

@@ -49,11 +49,17 @@ def close(value: Value, target: Value) -> bool:
 
 def power_of_ten(value: Value, key: Value) -> int:
     """Exponent k if the value is 10^k times the key, else 0."""
-    if value == 0 or key == 0:
-        return 0
-    ratio = to_float(value / key)
+    ratio = _ratio(value, key)
     power = round(math.log10(ratio)) if 1e-19 < ratio < 1e19 else 0
     return power if power and close(value, key * _TENS[power]) else 0
+
+
+def _ratio(value: Value, key: Value) -> float:
+    """About how many times the key a value is; zero where no float can say."""
+    try:
+        return to_float(value / key)
+    except (ZeroDivisionError, OverflowError):
+        return 0.0
 
 
 def radians(value: Value, key: Value) -> bool:
@@ -110,7 +116,7 @@ def _power_note(number: Number, key: Value, power: int) -> tuple[str, dict[str, 
 
 
 def _factor(value: Value, key: Value) -> tuple[str, dict[str, object]]:
-    ratio = to_float(value / key)
+    ratio = _ratio(value, key)
     for name, factor in FACTORS.items():
         if abs(ratio / _ABOUT[name] - 1) < NEAR and close(value, key * factor):
             return "factor", {"factor": name}

@@ -277,7 +277,10 @@ def constant_number(tree: Expr) -> Number:
     ReadError
         If it has no finite real value or is too large.
     """
-    return Number(constant(tree), to_text(tree), "expression")
+    value = constant(tree)
+    if abs(value) > LARGEST_VALUE:
+        raise ReadError("too-large", 1)
+    return Number(value, to_text(tree), "expression")
 
 
 def moved(error: ReadError, source: Source) -> ReadError:
