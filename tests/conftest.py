@@ -4,10 +4,16 @@ from __future__ import annotations
 
 import os
 import shutil
+import sys
 
 import pytest
 
 from quizgen.bank.folder import Bank, builtin
+
+# Containers forbid bytecode to be kept; then every cold process that a test starts would compile
+# SymPy and all the rest again, two seconds each.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+sys.dont_write_bytecode = False
 
 
 @pytest.fixture(scope="session")
