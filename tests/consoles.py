@@ -69,9 +69,8 @@ def typed(step: Step) -> str:
 
 def checkout(folder: Path) -> Path:
     """A copy of the project, so that a command may change it."""
-    for name in CHECKOUT:
-        source = ROOT / name
-        (shutil.copytree if source.is_dir() else shutil.copy2)(source, folder / name)
+    for source in filter(Path.exists, (ROOT / name for name in CHECKOUT)):
+        (shutil.copytree if source.is_dir() else shutil.copy2)(source, folder / source.name)
     return folder
 
 

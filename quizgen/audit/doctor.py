@@ -11,7 +11,7 @@ from quizgen.errors import QuizgenError
 from quizgen.locale import PLACES, in_script
 from quizgen.render import fonts
 
-PACKAGES = ("numpy", "sympy", "jinja2", "matplotlib", "python-flint", "mpmath", "click", "rich",
+PACKAGES = ("numpy", "sympy", "jinja2", "matplotlib", "python-flint", "mpmath", "click",
             "msgspec", "markdown-it-py", "typst", "fonttools")  # fmt: skip
 
 Outcome = tuple[str, str, bool]

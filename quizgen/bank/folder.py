@@ -215,7 +215,9 @@ class Bank:
         if renamed:
             return f"; it is now called {renamed[0]!r}"
         close = difflib.get_close_matches(name, self.paths, 3)
-        return f"; did you mean {', '.join(close)}?" if close else f" (there are {len(self.paths)})"
+        if close:
+            return f"; did you mean {', '.join(close)}?"
+        return f" (there are {len(self.paths)}; quizgen templates lists them)"
 
     def written_in(self, name: str) -> tuple[str, ...]:
         """Languages that a template is written in, without reading them."""

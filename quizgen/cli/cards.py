@@ -32,8 +32,8 @@ class Options(BankOptions):
 
 
 @click.command()
-@click.option("--lang", type=click.Choice(choices()), default=FIRST, show_default=True,
-              help="Language.")  # fmt: skip
+@click.option("--lang", type=click.Choice(choices(), case_sensitive=False), default=FIRST,
+              show_default=True, help="Language.")  # fmt: skip
 @click.option("--topic", "topics", help="Only these topics, by comma.")
 @click.option("--kind", "kinds", help="Only these kinds, by comma: vocab, formula, cheat, trap, "
               "figure, truth, choice, question.")  # fmt: skip

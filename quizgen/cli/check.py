@@ -39,7 +39,9 @@ class Marked(NamedTuple):
 @click.argument("key", type=click.Path(path_type=Path))
 @click.argument("answers", type=click.Path(path_type=Path), nargs=-1, required=True)
 @click.option(
-    "--lang", type=click.Choice(languages()), help="Language of the remarks [the form's own]."
+    "--lang",
+    type=click.Choice(languages(), case_sensitive=False),
+    help="Language of the remarks [the form's own].",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print JSON instead of a table.")
 @click.option("--csv", "as_csv", is_flag=True, help="Print CSV (the default for several forms).")

@@ -11,7 +11,7 @@ import click
 
 from quizgen import render
 from quizgen.cli.command import command
-from quizgen.cli.options import SEED, BankOptions, bank_options, checked, open_bank, split
+from quizgen.cli.options import SEED, BankOptions, Whole, bank_options, checked, open_bank, split
 from quizgen.cli.terminal import Progress, visible
 from quizgen.errors import ChoiceError, CodeError, RenderError
 from quizgen.locale import FIRST, choices
@@ -54,16 +54,18 @@ class Options(BankOptions):
 @click.option("--code", help="Code of a paper: builds exactly that paper again.")
 @click.option("--blueprint", help=f"mock, trial or a TOML file. [default: {USUAL}]")
 @click.option("--topic", help="Questions of one topic (or all), instead of a blueprint.")
+@click.option("--minutes", type=Whole(3, 9999), help="As many questions as this time allows.")
 @click.option(
-    "--minutes", type=click.IntRange(3, 9999), help="As many questions as this time allows."
+    "--lang",
+    type=click.Choice(choices(), case_sensitive=False),
+    help=f"Language. [default: {FIRST}]",
 )
-@click.option("--lang", type=click.Choice(choices()), help=f"Language. [default: {FIRST}]")
 @click.option(
     "--format", "formats", default="html,pdf", show_default=True,
     help=f"Outputs, by comma: {', '.join(render.RENDERERS)}.",
 )  # fmt: skip
-@click.option("--form", type=click.Choice(FORMS), default=FORMS[0], show_default=True,
-              help="The blank form: TOML for an editor, CSV for a spreadsheet.")  # fmt: skip
+@click.option("--form", type=click.Choice(FORMS, case_sensitive=False), default=FORMS[0],
+              show_default=True, help="The blank form: TOML for an editor, CSV for a spreadsheet.")  # fmt: skip
 @click.option("--out", type=click.Path(path_type=Path),
               help=f"Folder to write to. [default: {HOME}/CODE]")  # fmt: skip
 @click.option("--reference", is_flag=True, help="The questions with the numbers of the notes.")

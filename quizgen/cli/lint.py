@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Unpack
 
 import click
 
-from quizgen.cli.options import BankOptions, bank_options, open_bank
+from quizgen.cli.options import BankOptions, Whole, bank_options, open_bank
 from quizgen.cli.terminal import Progress, interrupted, print_table, visible
 from quizgen.errors import QuizgenError
 
@@ -52,7 +52,7 @@ class Options(BankOptions):
 
 @click.command()
 @click.argument("folder", type=click.Path(path_type=Path), required=False)
-@click.option("--seeds", type=click.IntRange(1, 10**6), default=200, show_default=True,
+@click.option("--seeds", type=Whole(1, 10**6), default=200, show_default=True,
               help="How many draws of each template to examine.")  # fmt: skip
 @click.option("--only", multiple=True, help="Just this template (may be repeated).")
 @click.option(
@@ -68,6 +68,8 @@ def lint(**options: Unpack[Options]) -> None:
     FOLDER is the bank, as in --bank. A broken template does not stop the others.
     """
     bank = open_bank({"bank": options["folder"] or options["bank"], "trust": options["trust"]})
+    for name in options["only"]:
+        bank.folder_of(name)
     names = options["only"] or tuple(bank.paths)
     if options["teach"]:
         sys.exit(_taught(bank, names, options))

@@ -17,7 +17,14 @@ if TYPE_CHECKING:
 P = ParamSpec("P")
 T = TypeVar("T")
 
-SEED = click.IntRange(0, LARGEST_SEED)
+
+class Whole(click.IntRange):
+    """A whole number between bounds, and called so where something else is typed."""
+
+    name = "whole number"
+
+
+SEED = Whole(0, LARGEST_SEED)
 """Seeds of papers, decks and previews."""
 
 

@@ -9,6 +9,7 @@ import click
 
 from quizgen.cli.options import (
     BankOptions,
+    Whole,
     bank_options,
     checked,
     language_option,
@@ -44,7 +45,7 @@ class Options(BankOptions):
 @click.option("--topic", help="Only this topic.")
 @click.option("--tier", metavar="[A|B|C|D]", help="Only this tier.")
 @language_option
-@click.option("--count", type=click.IntRange(1, 200), default=10, show_default=True,
+@click.option("--count", type=Whole(1, 200), default=10, show_default=True,
               help="How many questions.")  # fmt: skip
 @click.option("--seed", help="Any text: the same text gives the same questions.")
 @bank_options

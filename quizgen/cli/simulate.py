@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypedDict, Unpack
 
 import click
 
+from quizgen.cli.terminal import print_table, tell
+from quizgen.errors import ChoiceError
+
 if TYPE_CHECKING:
     from quizgen.camera.simulate import Photo
 
+HEAD = ("effect", "", "DN", "ms", "took", "why")
+"""What an effect can change, what it was to take (or saves, if skipped), what it took."""
 SCENES = Path(__file__).parent.parent / "camera" / "scenes"
 
 
@@ -65,7 +71,12 @@ def simulate(scene: str | None, **options: Unpack[Options]) -> None:
 def _find(scene: str) -> Path:
     path, shipped = Path(scene), SCENES / f"{scene}.toml"
     plain = path.name == scene
-    return shipped if plain and not path.exists() and shipped.exists() else path
+    if path.exists() or not plain or path.suffix:
+        return path
+    if not shipped.exists():
+        names = ", ".join(sorted(known.stem for known in SCENES.glob("*.toml")))
+        raise ChoiceError(f"no scene {scene!r} (there are {names}; or the path of a TOML file)")
+    return shipped
 
 
 def _list_scenes() -> None:
@@ -114,35 +125,37 @@ def summary(photo: Photo, whole: Photo | None = None) -> dict[str, Any]:
 
 
 def _print(title: str, photo: Photo, whole: Photo | None, report: dict[str, Any]) -> None:
-    from rich.table import Table
+    click.echo(title)
+    rows = [*_ran(photo), *_skipped(photo)]
+    if rows:
+        print_table(HEAD, rows)
+    _print_totals(photo, whole, report)
 
-    from quizgen.cli.terminal import console
 
-    table = Table("effect", "", "why", "bound DN", "predicted ms", "measured ms", title=title)
-    for column in table.columns[3:]:
-        column.justify = "right"
+def _ran(photo: Photo) -> Iterator[tuple[str, ...]]:
     for step in photo.plan.steps:
         times = f"{step.predicted_ms:.2f}", f"{photo.times[step.effect]:.2f}"
-        rung = f"ran ({step.rung})" if step.rung else "ran"
-        table.add_row(step.effect, rung, step.reason, f"{step.bound_dn:.3g}", *times)
+        why = f"as {step.rung}: {step.reason}" if step.rung else step.reason
+        yield step.effect, "ran", f"{step.bound_dn:.3g}", *times, why
+
+
+def _skipped(photo: Photo) -> Iterator[tuple[str, ...]]:
     for item in photo.plan.skipped:
-        row = item.effect, "skipped", item.reason, f"{item.bound_dn:.3g}"
-        table.add_row(*row, f"saves {item.saved_ms:.2f}", "")
-    console().print(table)
-    _print_totals(photo, whole, report)
+        saved = f"{item.saved_ms:.2f}"
+        yield item.effect, "skipped", f"{item.bound_dn:.3g}", saved, "", item.reason
 
 
 def _print_totals(photo: Photo, whole: Photo | None, report: dict[str, Any]) -> None:
     if not photo.plan.steps and not photo.plan.skipped:
-        click.echo("nothing is called for: the picture is the scene")
-    click.echo(
+        tell("nothing is called for: the picture is the scene")
+    tell(
         f"error at most {report['predicted_error_dn']:.3g} DN of {report['budget_dn']:g} allowed; "
         f"{report['predicted_ms']:.1f} ms predicted, {report['measured_ms']:.1f} ms measured"
     )
     if photo.plan.absent:
-        click.echo(f"not in this camera: {', '.join(photo.plan.absent)}")
+        tell(f"not in this camera: {', '.join(photo.plan.absent)}")
     if whole is not None:
-        click.echo(
+        tell(
             f"everything: {report['everything_ms']:.1f} ms, "
             f"difference {report['difference_dn']:.3g} DN"
         )

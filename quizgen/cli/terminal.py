@@ -11,12 +11,9 @@ import time
 import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from types import FrameType, TracebackType
-from typing import TYPE_CHECKING, Self
+from typing import Self
 
 import click
-
-if TYPE_CHECKING:
-    from rich.console import Console
 
 NARROWEST = 20
 """Columns that text is laid out for at least."""
@@ -68,13 +65,6 @@ def colour_choice() -> bool | None:
     """
     plain = os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"
     return False if plain else None
-
-
-def console() -> Console:
-    """Where tables are printed: with colours only if ``colour_choice`` has nothing against it."""
-    from rich.console import Console
-
-    return Console(color_system=None if colour_choice() is False else "auto", markup=False)
 
 
 def visible(text: str) -> str:
@@ -152,7 +142,7 @@ def print_table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
     room = columns() if on_terminal() else sys.maxsize
     for number, row in enumerate([head, *body]):
         for line in _row_lines(row, sizes, room):
-            click.secho(line, bold=number == 0 or None)
+            click.echo(line if number else click.style(line, bold=True))
 
 
 def _row_lines(row: Sequence[str], sizes: Sequence[int], room: int) -> Iterator[str]:
@@ -160,9 +150,16 @@ def _row_lines(row: Sequence[str], sizes: Sequence[int], room: int) -> Iterator[
     if room - len(cells) >= READABLE:
         yield from wrapped(row[-1], room, cells, " " * len(cells))
         return
-    yield cells.rstrip()
+    line = cells.rstrip()
+    yield from [line] if len(line) <= room else wrapped(line, room, "", GAP)
     if row[-1]:
         yield from wrapped(row[-1], room, GAP * 2, GAP * 2)
+
+
+def tell(text: str) -> None:
+    """Print a sentence; on a terminal it is broken between words."""
+    for line in wrapped(visible(text), columns() if on_terminal() else sys.maxsize):
+        click.echo(line)
 
 
 class Progress:

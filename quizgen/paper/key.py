@@ -188,7 +188,9 @@ def load_key(table: Mapping[str, Any], place: str = "key") -> Key:
             "table; make the paper again, or mark it with that version"
         )
     if table.get("format") != FORMAT:
-        raise KeyFileError(f"{place}: format is {table.get('format')!r}, not {FORMAT!r}")
+        form = " (this is a form; the key comes first)" if "answers" in table else ""
+        found = f"format is {table.get('format')!r}, not {FORMAT!r}"
+        raise KeyFileError(f"{place}: {found}{form}")
     try:
         key = msgspec.convert(table, Key)
     except msgspec.ValidationError as error:

@@ -88,6 +88,12 @@ def test_answers_that_are_asked_back_are_counted_in_words(folder, lang, count, s
     assert said in marked(folder, "form.json", options=["--lang", lang]).stdout
 
 
+def test_a_form_in_the_place_of_the_key_is_told(folder):
+    paths = [str(folder / name) for name in ("answers.toml", "key.json")]
+    said = str(CliRunner().invoke(check, paths).exception)
+    assert "this is a form; the key comes first" in said
+
+
 def test_only_bad_forms_are_exit_code_two(folder):
     done = marked(folder, "missing.toml", "gone.toml")
     assert done.exit_code == 2

@@ -171,7 +171,12 @@ MISTAKES = [
     (["exam", "--code", "trial-4-en-000000", "--topic", "optics"], "already fixes"),
     (["exam", "--blueprint", "trial", "--topic", "optics"], "leave --topic"),
     (["preview", "Z99"], "unknown template"),
-    (["frobnicate"], "No such command"),
+    (["frobnicate"], "no command 'frobnicate' (there are exam, check, practice"),
+    (["exam", "--seed", "abc"], "'abc' is not a valid whole number"),
+    (["lint", "--only", "thin-lens-limit"], "did you mean thin-lens-limits"),
+    (["preview", "xyz"], "quizgen templates lists them"),
+    (["simulate", "nowhere"], "no scene 'nowhere' (there are fisheye, flat"),
+    (["simulate", "my-scene.toml"], "my-scene.toml: No such file"),
 ]
 
 

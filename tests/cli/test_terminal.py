@@ -8,7 +8,7 @@ import pytest
 from rich.cells import cell_len
 
 from quizgen.cli import terminal
-from quizgen.cli.terminal import Progress, console, visible, wrapped
+from quizgen.cli.terminal import Progress, visible, wrapped
 
 ENGLISH = "The pupil lets in less light, and shorter wavelengths are refracted with more power."
 BANGLA = "একটি পিনহোল ক্যামেরায় ফোকাস দূরত্ব দেওয়া আছে; বিন্দুটি ছবিতে কোথায় দেখা যাবে তা বের করো।"
@@ -69,9 +69,30 @@ def test_no_color_takes_every_code_out_of_tables(monkeypatch):
     monkeypatch.setenv("FORCE_COLOR", "1")
     monkeypatch.delenv("TERM", raising=False)
     monkeypatch.delenv("NO_COLOR", raising=False)
-    assert console().color_system is not None
+    assert terminal.colour_choice() is None
     monkeypatch.setenv("NO_COLOR", "1")
-    assert console().color_system is None
     assert terminal.colour_choice() is False
     monkeypatch.setenv("NO_COLOR", "")
     assert terminal.colour_choice() is None
+
+
+EFFECTS = [
+    ("chromatic aberration", "skipped", "0.0616", "22.00", "107.68", "changes at most 0.0616 DN"),
+    ("gamma", "ran", "74.1", "1.50", "24.99", "as table: this rung is off by 0.0072 DN at most"),
+]
+
+
+@pytest.mark.parametrize("room", [30, 40, 60, 80, 120])
+def test_a_table_is_no_wider_than_the_terminal(monkeypatch, capsys, room):
+    monkeypatch.setattr(terminal, "on_terminal", lambda: True)
+    monkeypatch.setattr(terminal, "columns", lambda: room)
+    terminal.print_table(("effect", "", "DN", "ms", "took", "why"), EFFECTS)
+    lines = capsys.readouterr().out.splitlines()
+    assert max(map(cell_len, lines)) <= room
+    words = [word for row in EFFECTS for cell in row for word in cell.split()]
+    assert " ".join(lines).split()[5:] == words
+
+
+def test_a_table_that_is_piped_has_a_line_for_each_row(capsys):
+    terminal.print_table(("effect", "", "DN", "ms", "took", "why"), EFFECTS)
+    assert len(capsys.readouterr().out.splitlines()) == 3
