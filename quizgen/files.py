@@ -10,7 +10,7 @@ import shutil
 import signal
 import threading
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from types import FrameType
 from typing import Any
@@ -126,8 +126,14 @@ def _write_synced(path: Path, data: bytes) -> None:
         os.fsync(stream.fileno())
 
 
-def read_table(path: Path) -> Mapping[str, Any]:
+def read_table(path: Path, meant: Callable[[str], str] = str) -> Mapping[str, Any]:
     """Read a JSON file or, by its suffix or its first sign, a TOML file; 0.50 stays text.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+    meant : callable
+        What becomes of a TOML file that people write by hand before it is read.
 
     Raises
     ------
@@ -137,7 +143,7 @@ def read_table(path: Path) -> Mapping[str, Any]:
     text = read_text(path, KeyFileError)
     suffix = path.suffix.lower()
     if suffix == ".toml" or (suffix != ".json" and not text.lstrip().startswith("{")):
-        return parse_toml(text, path, KeyFileError, parse_float=str)
+        return parse_toml(meant(text), path, KeyFileError, parse_float=str)
     table = parse_json(text, path, KeyFileError)
     if not isinstance(table, dict):
         raise KeyFileError(f"{path}: a table is expected, not {type(table).__name__}")

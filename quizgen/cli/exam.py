@@ -65,7 +65,7 @@ class Options(BankOptions):
     help=f"Outputs, by comma: {', '.join(render.RENDERERS)}.",
 )  # fmt: skip
 @click.option("--form", type=click.Choice(FORMS, case_sensitive=False), default=FORMS[0],
-              show_default=True, help="The blank form: TOML for an editor, CSV for a spreadsheet.")  # fmt: skip
+              show_default=True, help="Blank form: for an editor or a spreadsheet.")  # fmt: skip
 @click.option("--out", type=click.Path(path_type=Path),
               help=f"Folder to write to. [default: {HOME}/CODE]")  # fmt: skip
 @click.option("--reference", is_flag=True, help="The questions with the numbers of the notes.")

@@ -11,9 +11,9 @@ import hashlib
 import io
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 
@@ -35,6 +35,19 @@ SEALED = "tells quizgen whether anything was written here"
 _SEAL = re.compile(r'^"?seal\b.*\n?', re.MULTILINE)
 _LAYOUT = re.compile(r"[\s\",;]+")
 """What an editor or a spreadsheet may change by itself."""
+
+_TYPED = re.compile(r'^(\s*(?:"[^"\n]*"|[\w-]+)\s*=\s*)"(?!"")(.*)$', re.MULTILINE)
+"""A line of a form with a text in double quotes."""
+_COMMANDS = (
+    "begin beta bar big bigl bigr binom bmod boldsymbol boxed bullet nabla ne neq not notin nu "
+    "forall frac rangle rbrace rceil rfloor rho right rightarrow rm tan tanh tau text textbf "
+    "textit tfrac theta tilde times to top"
+)
+"""Of LaTeX, those that begin as an escape of TOML does: ``\\t`` of ``\\times`` is no tab."""
+_BACKSLASH = re.compile(
+    rf"(\\\\)|\\(?=(?:{'|'.join(_COMMANDS.split())})(?![A-Za-z])|[^btnfr\"\\uU]"
+    r"|u(?![0-9A-Fa-f]{4})|U(?![0-9A-Fa-f]{8}))"
+)
 
 
 class Student(msgspec.Struct):
@@ -143,7 +156,7 @@ def read_answers(path: Path) -> Answers:
     KeyFileError
         Naming file and field or line.
     """
-    table = _read_csv(path) if path.suffix.lower() == ".csv" else read_table(path)
+    table = _read_csv(path) if path.suffix.lower() == ".csv" else _read_table(path)
     if "answers" not in table:
         raise KeyFileError(f"{path}: has no table [answers]")
     try:
@@ -154,6 +167,22 @@ def read_answers(path: Path) -> Answers:
         wrong = found.student.decimal
         raise KeyFileError(f"{path}: student.decimal {wrong!r} is not {', '.join(DECIMALS)}")
     return found
+
+
+def _read_table(path: Path) -> Mapping[str, Any]:
+    try:
+        return read_table(path, _as_meant)
+    except KeyFileError as error:
+        if "not valid TOML" not in str(error):
+            raise
+        raise KeyFileError(
+            f'{error}; an answer stands between straight quotes: "1a" = "6,67"'
+        ) from (None)
+
+
+def _as_meant(text: str) -> str:
+    r"""A form in which backslashes of LaTeX are doubled, as TOML has them: ``"\frac{1}{2}"``."""
+    return _TYPED.sub(lambda line: line[1] + '"' + _BACKSLASH.sub(r"\\\\", line[2]), text)
 
 
 def _read_csv(path: Path) -> dict[str, object]:

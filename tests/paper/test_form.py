@@ -145,3 +145,28 @@ def test_blanks_are_no_answer_and_a_form_reads_back(form):
     form.write_text(text, "utf-8")
     assert not holds_answers(form)
     assert read_answers(form).typed() == {"1": "  "}
+
+
+@pytest.mark.parametrize(
+    ("line", "meant"),
+    [
+        (r'"1" = "\frac{20}{3}"', r"\frac{20}{3}"),
+        (r'"1" = "3 \times 10^5 \text{ m}"   # a \times b', r"3 \times 10^5 \text{ m}"),
+        (r'"1" = "3\cdot 5"', r"3\cdot 5"),
+        (r'"1" = "\beta\rho\nu\theta\upsilon"', r"\beta\rho\nu\theta\upsilon"),
+        (r'"1" = "\\frac{1}{2}"', r"\frac{1}{2}"),
+        (r'"1" = "two\nlines and a \"word\" \u09ea"', 'two\nlines and a "word" \u09ea'),
+        (r'"1" = "\ttab\nnumber"', "\ttab\nnumber"),
+        (r"'1' = '\frac{1}{2}'", r"\frac{1}{2}"),
+        (r'"1" = """\t"""', "\t"),
+        (r'"1" = "C:\x\"', None),
+    ],
+)
+def test_latex_between_quotes_is_read_as_typed(tmp_path, line, meant):
+    path = tmp_path / "a.toml"
+    path.write_text(f"[answers]\n{line}\n", "utf-8")
+    if meant is not None:
+        assert read_answers(path).typed() == {"1": meant}
+        return
+    with pytest.raises(KeyFileError, match=r"line 2.*between straight quotes"):
+        read_answers(path)
