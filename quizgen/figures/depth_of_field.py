@@ -26,7 +26,7 @@ PARAMETERS = {
     "z_2": Parameter("m", "distance of the middle object", 2.0, 0.3, 1000.0),
     "z_3": Parameter("m", "distance of the right object", 6.0, 0.3, 1000.0),
     "order": Parameter(
-        "", "0 puts N_1 at A and N_2 at B, 1 the other way", 0.0, 0.0, 1.0, whole=True
+        "", "0 puts N_1 at photo 1 and N_2 at 2, 1 the other way", 0.0, 0.0, 1.0, whole=True
     ),
 }
 
@@ -35,11 +35,11 @@ SENSOR_MM = 36.0
 
 _WIDE, _HIGH = 144, 96
 _GAP, _TOP, _BELOW = 8.0, 15.0, 15.0
-_LETTERS = "AB"
+_NUMBERS = "12"
 
 
 def f_numbers(values: Values) -> tuple[float, float]:
-    """F-numbers of A and B."""
+    """F-numbers of photos 1 and 2."""
     pair = (values["N_1"], values["N_2"])
     return (pair[1], pair[0]) if values["order"] else pair
 
@@ -75,7 +75,7 @@ def photographed(values: Values) -> tuple[Scene, Camera]:
 
 
 def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
-    """Draw the figure; in a quiz, show letters without the f-numbers."""
+    """Draw the figure; in a quiz, show their numbers without the f-numbers."""
     from quizgen.camera import pictures
     from quizgen.camera.filters import everywhere_alike
     from quizgen.figures._pen import WIDTH, Pen
@@ -91,8 +91,8 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
     for place, photo in enumerate(photos):
         left = _GAP + place * (wide + _GAP)
         put(figure, pen, photo.pixels(), (left, _BELOW, wide, high))
-        letter, number = _LETTERS[place], given(f_numbers(values)[place])
-        text = f"{{{letter}}}" if quiz else f"{{{letter}:}}  f{{/{number}}}"
+        mark, number = _NUMBERS[place], given(f_numbers(values)[place])
+        text = f"{{{mark}}}" if quiz else f"{{{mark}:}}  f{{/{number}}}"
         pen.label((left + wide / 2, pen.height - 8), text)
         _distances(pen, values, left, wide)
     pen.onto(figure, background="#ffffff")
@@ -126,12 +126,10 @@ def alt(values: Values, lang: str, *, quiz: bool) -> str:
     words = words_of("depth_of_field", lang)
     depths = [given(values[f"z_{place}"]) for place in (1, 2, 3)]
     told = [words["figure"].format(*depths)]
-    for letter, number in zip(_LETTERS, f_numbers(values), strict=True):
+    for mark, number in zip(_NUMBERS, f_numbers(values), strict=True):
         if quiz:
-            told.append(
-                words["wide" if number == min(f_numbers(values)) else "small"].format(letter)
-            )
+            told.append(words["wide" if number == min(f_numbers(values)) else "small"].format(mark))
         else:
             blur = [derived(size) for size in discs(values, number)]
-            told.append(words["number"].format(letter, given(number), *blur))
+            told.append(words["number"].format(mark, given(number), *blur))
     return " ".join(told)

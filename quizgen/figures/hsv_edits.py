@@ -23,7 +23,7 @@ PARAMETERS = {
     "delta": Parameter("deg", "turn of the hue H", low=-360.0, high=360.0),
     "order": Parameter(
         "",
-        "which permutation of (original, V, S, H) stands at A to D, as edit_order says",
+        "which permutation of (original, V, S, H) stands at 1 to 4, as edit_order says",
         0.0,
         0.0,
         23.0,
@@ -33,12 +33,12 @@ PARAMETERS = {
 }
 
 EDITS = ("original", "V", "S", "H")
-_LETTERS = "ABCD"
+_NUMBERS = "1234"
 _GAP, _CAPTION = 8.0, 15.0
 
 
 def edit_order(order: float) -> tuple[str, ...]:
-    """Which edit stands at A, B, C and D.
+    """Which edit has number 1, 2, 3 and 4.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ def edit_order(order: float) -> tuple[str, ...]:
 
 
 def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
-    """Draw the figure; in a quiz, show letters without the edits."""
+    """Draw the figure; in a quiz, show numbers without the edits."""
     from quizgen.figures import _scene
     from quizgen.figures._pen import THIN, WIDTH, Pen
     from quizgen.figures._picture import Picture
@@ -76,8 +76,8 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
 
 
 def _caption(values: Values, place: int, edit: str, *, quiz: bool) -> str:
-    letter = f"{{{_LETTERS[place]}}}"
-    return letter if quiz else f"{letter}{{:}}  {_symbols(values, edit)}"
+    mark = f"{{{_NUMBERS[place]}}}"
+    return mark if quiz else f"{mark}{{:}}  {_symbols(values, edit)}"
 
 
 def _symbols(values: Values, edit: str) -> str:
@@ -131,5 +131,5 @@ def alt(values: Values, lang: str, *, quiz: bool) -> str:
     captions = []
     for place, edit in enumerate(edit_order(values["order"])):
         what = words["original"] if edit == "original" else spoken(_symbols(values, edit))
-        captions.append(f"{_LETTERS[place]}: {what}")
+        captions.append(f"{_NUMBERS[place]}: {what}")
     return words["figure"] + " " + "; ".join(captions) + words["stop"]

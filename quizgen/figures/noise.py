@@ -22,7 +22,7 @@ PARAMETERS = {
     "sigma": Parameter("1", "standard deviation of the Gaussian noise, 1 = white", 0.08, 0.01, 0.3),
     "p": Parameter("1", "share of the impulses, half black, half white", 0.08, 0.01, 0.5),
     "order": Parameter(
-        "", "permutation of (clean, Gaussian, impulse) at A to C", 0.0, 0.0, 5.0, whole=True
+        "", "permutation of (clean, Gaussian, impulse) at 1 to 3", 0.0, 0.0, 5.0, whole=True
     ),
     "seed": Parameter("", "seed of both noises", 1.0, 0.0, 9999.0, whole=True),
 }
@@ -32,11 +32,11 @@ BINS = 52
 _WIDE, _HIGH = 96, 72
 _GAP, _CAPTION, _ZOOM, _HISTOGRAM, _TICKS = 6.0, 15.0, 48.0, 42.0, 13.0
 _DETAIL = (slice(26, 38), slice(30, 54))
-_LETTERS = "ABC"
+_NUMBERS = "123"
 
 
 def noise_order(order: float) -> tuple[str, ...]:
-    """Which picture stands at A, B and C.
+    """Which picture has number 1, 2 and 3.
 
     Parameters
     ----------
@@ -66,7 +66,7 @@ def scene() -> Image:
 
 
 def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
-    """Draw the figure; in a quiz, show letters without the noise."""
+    """Draw the figure; in a quiz, show numbers without the noise."""
     from quizgen.camera import pictures
     from quizgen.figures._pen import WIDTH, Pen
 
@@ -99,8 +99,8 @@ def _column(figure: Figure, pen: Pen, image: Image, where: tuple[float, float, f
 
 
 def _caption(values: Values, place: int, kind: str, *, quiz: bool) -> str:
-    letter = f"{{{_LETTERS[place]}}}"
-    return letter if quiz else f"{letter}{{:}}  {_symbols(values, kind)}"
+    mark = f"{{{_NUMBERS[place]}}}"
+    return mark if quiz else f"{mark}{{:}}  {_symbols(values, kind)}"
 
 
 def _symbols(values: Values, kind: str) -> str:
@@ -117,5 +117,5 @@ def alt(values: Values, lang: str, *, quiz: bool) -> str:
     told = []
     for place, kind in enumerate(noise_order(values["order"])):
         seen = words[f"{kind} seen"] if quiz else f"{words[kind]}, {spoken(_symbols(values, kind))}"
-        told.append(f"{_LETTERS[place]}: {seen}")
+        told.append(f"{_NUMBERS[place]}: {seen}")
     return words["figure"] + " " + "; ".join(told) + words["stop"]

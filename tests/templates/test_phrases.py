@@ -132,11 +132,11 @@ def test_any_other_point_of_the_ray_in_front_of_the_camera_counts(bank, typed, v
 
 
 @pytest.mark.parametrize("seed", range(12))
-def test_the_letters_asked_for_are_those_of_the_picture(bank, seed):
+def test_the_numbers_asked_for_are_those_of_the_picture(bank, seed):
     """The figure's own table of permutations decides where each edit stands."""
     from quizgen.figures.hsv_edits import edit_order
 
     one = draw(bank.template("hsv-edit-from-pictures"), seed)
     order = edit_order(float(int(one.shown["order"].p)))
-    expected = [["ABCD"[order.index(edit)]] for edit in ("V", "S", "H")]
+    expected = [["1234"[order.index(edit)]] for edit in ("V", "S", "H")]
     assert [gap[:1] for gap in build(one, 0).spec.accept] == expected

@@ -42,7 +42,7 @@ class Spec(Worded, kw_only=True, frozen=True):
     def judge(self, typed: str, _options: Options, /) -> Verdict:
         """Judge typed words, one per gap."""
         gaps = self.gaps()
-        words = _words(typed, len(gaps))
+        words = _digits(typed, gaps) or _words(typed, len(gaps))
         if len(words) != len(gaps):
             raise ReadError("item-count", 1, str(len(words)), [str(len(gaps))])
         cells = [_one(self, gap, word) for gap, word in zip(gaps, words, strict=True)]
@@ -94,6 +94,8 @@ _NUMBER = re.compile(
     r"(?:^|(?<=[\s,;(]))\(?"
     r"(?:(\d{1,2}) ?(?:[).:]\)?|=|→|-+>|[-–—](?=\D)|(?=[^\W\d]))|([a-h])[).])\s*"
 )
+_PAIR = re.compile(r"(?<![-–—\d])(\d{1,2})\s*[-–—]\s*(\d{1,2})(?![-–—\d])")
+"""A gap's number and a number as its word, ``1-3``."""
 _ENDINGS = ("ly", "e", "er", "en", "es", "em")
 LONG = 6
 """Letters of a term that may take an ending."""
@@ -117,8 +119,18 @@ def _words(typed: str, count: int) -> list[str]:
     return _by_number(rewrite("digits", typed), count) or _in_a_row(typed, count)
 
 
+def _digits(typed: str, gaps: list[list[str]]) -> list[str]:
+    """The digits of ``324``, if each gap takes a single one."""
+    digits = typed.strip()
+    single = all(any(len(word) == 1 and word.isdigit() for word in gap) for gap in gaps)
+    return list(digits) if single and digits.isdigit() and len(digits) == len(gaps) > 1 else []
+
+
 def _by_number(typed: str, count: int) -> list[str]:
     """The words behind the gaps' own numbers, ``(1) ... (2) ...``; none without numbers."""
+    pairs = dict(_PAIR.findall(typed))
+    if {*pairs} == {*map(str, range(1, count + 1))} and not re.search(r"\w", _PAIR.sub("", typed)):
+        return [pairs[str(number)] for number in range(1, count + 1)]
     marks = list(_NUMBER.finditer(typed))
     names = [mark[1] or str("abcdefgh".index(mark[2]) + 1) for mark in marks]
     if sorted(names) != sorted(map(str, range(1, count + 1))) or marks[0].start():
