@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
 import subprocess
 import sys
@@ -131,3 +132,88 @@ def test_cards_and_their_pictures_are_one_set(tmp_path, monkeypatch, formats):
     (names,) = sets
     assert names[-1].startswith("quizgen.")
     assert any(name.startswith("media/") for name in names)
+
+
+def kept(folder) -> dict[str, bytes]:
+    """What stands in a folder, but for what a killed run left behind."""
+    files = (path for path in folder.rglob("*") if path.is_file())
+    names = {path: path.relative_to(folder).as_posix() for path in files}
+    return {name: path.read_bytes() for path, name in names.items() if ".part" not in name}
+
+
+def killed_at(step: int, folder, contents) -> bool:
+    """Write in a process that ends, as by kill -9, at a step that others see."""
+    left = step
+
+    def dying(call):
+        def counted(*arguments, **options):
+            nonlocal left
+            if left == 0:
+                os._exit(9)
+            left -= 1
+            return call(*arguments, **options)
+
+        return counted
+
+    child = os.fork()
+    if child == 0:
+        for name in ("rename", "replace", "unlink"):
+            setattr(os, name, dying(getattr(os, name)))
+        write_all(folder, contents)
+        os._exit(0)
+    return os.waitpid(child, 0)[1] != 0
+
+
+SETS = {
+    "key.json": ["exam", "--blueprint", "sensor.10", "--seed", "1", "--format", "html"],
+    "quizgen.csv": ["cards", "--kind", "figure", "--topic", "distortion", "--format", "tsv,csv"],
+    "tradeoff.html": ["tradeoff", "thin-lens", "--quick"],
+}
+"""Last file of a set to the command that writes it."""
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork")
+@pytest.mark.parametrize("seal", SETS)
+def test_a_command_killed_between_two_renames_leaves_a_whole_set_or_none(
+    tmp_path, monkeypatch, seal
+):
+    """The last file of a set stands only beside the others of its set."""
+    after = written_by(SETS[seal], tmp_path, monkeypatch)
+    before = dict.fromkeys([*after, "older.txt"], b"old")
+    monkeypatch.setattr(os, "fsync", lambda _: None)
+    assert list(after)[-1] == seal
+    assert len(after) >= 4
+    step = 0
+    while killed_at(step, tmp_path / f"new{step}", after):
+        assert kept(tmp_path / f"new{step}") in ({}, after)
+        step += 1
+    step = 0
+    while killed_at(step, renewed(tmp_path / f"old{step}", before), after):
+        found = kept(tmp_path / f"old{step}")
+        assert seal not in found or found in (before, {**before, **after})
+        step += 1
+    assert step > len(after)
+    assert kept(tmp_path / f"old{step}") == {**before, **after}
+
+
+def renewed(folder, contents):
+    """A folder with a set in it."""
+    write_all(folder, contents)
+    return folder
+
+
+def written_by(words, folder, monkeypatch) -> dict[str, bytes]:
+    """The one set of files that a command writes, their contents shortened."""
+    from click.testing import CliRunner
+
+    from quizgen import files
+    from quizgen.cli.main import group
+    from quizgen.tradeoff import page
+
+    sets = []
+    for module in (files, page):
+        monkeypatch.setattr(module, "write_all", lambda _, made: sets.append(made) or [])
+    done = CliRunner().invoke(group, [*words, "--out", str(folder / "none")])
+    assert done.exit_code == 0, done.output
+    (only,) = sets
+    return {name: hashlib.sha256(data).digest() for name, data in only.items()}
