@@ -44,8 +44,10 @@ _SEPARATORS = ",;\t"
 _NAME = re.compile(rf"(?!\.+$)[A-Za-z0-9_.-]{{1,{LONGEST_NAME}}}")
 _TOO_LARGE = 10**MOST_DIGITS
 _STARTS_FORMULA = frozenset({"=", "+", "-", "@", "\u2212", "\t"})
-_HARMLESS = frozenset("\n\u200c\u200d")
-"""Line break and the two joiners, which Bangla needs."""
+_JOINERS = frozenset("\u200c\u200d")
+"""Bangla needs them."""
+_BREAKS = frozenset({"Zl", "Zp"})
+"""Separators of lines and paragraphs: readers of JSON Lines would cut there."""
 NAMES = "letters A-Z, digits, '_', '.' and '-'"
 """What a name may consist of, for messages."""
 
@@ -109,13 +111,23 @@ def _first(cell: str) -> str:
     return unicodedata.normalize("NFKC", next(seen, ""))
 
 
-def visible(text: str) -> str:
-    """A text with its control characters named, so that it steers no terminal and hides nothing."""
-    return "".join(_named(c) if _is_control(c) else c for c in text)
+def visible(text: str, kept: str = "\n") -> str:
+    """A text with its control characters named, so that it steers no terminal and hides nothing.
+
+    Parameters
+    ----------
+    text : str
+    kept : str
+        Control characters that stay as they are.
+    """
+    if text.isprintable():
+        return text
+    return "".join(_named(c) if _is_control(c) and c not in kept else c for c in text)
 
 
 def _is_control(character: str) -> bool:
-    return unicodedata.category(character)[0] == "C" and character not in _HARMLESS
+    kind = unicodedata.category(character)
+    return (kind[0] == "C" or kind in _BREAKS) and character not in _JOINERS
 
 
 def _named(character: str) -> str:

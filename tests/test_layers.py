@@ -26,7 +26,7 @@ LAYERS = {
     "bank": "errors outside files locale maths",
     "camera": "errors outside files png maths arrays",
     "figures": "errors png locale arrays camera",
-    "marking": "errors locale maths",
+    "marking": "errors outside locale maths",
     "question": "errors outside locale maths typeset bank figures marking",
     "paper": "errors outside files locale maths bank marking question",
     "practice": "errors outside files locale maths bank marking question paper",

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
-from quizgen.cli.terminal import visible
 from quizgen.errors import KeyFileError
 from quizgen.locale import FIRST, languages
 from quizgen.marking.echo import safe
+from quizgen.outside import visible
 
 if TYPE_CHECKING:
     from quizgen.paper.form import Answers

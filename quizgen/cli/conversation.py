@@ -9,11 +9,12 @@ from typing import TypedDict, Unpack
 
 import click
 
-from quizgen.cli.terminal import columns, visible, wrapped
+from quizgen.cli.terminal import columns, wrapped
 from quizgen.figures import Figure
 from quizgen.files import write_all
 from quizgen.locale import FIRST
 from quizgen.marking.messages import practice_words
+from quizgen.outside import visible
 from quizgen.practice.session import Session, Turn
 from quizgen.practice.shelf import Shelf
 from quizgen.practice.task import Next, Task

@@ -12,9 +12,10 @@ import click
 from quizgen import render
 from quizgen.cli.command import command
 from quizgen.cli.options import SEED, BankOptions, Whole, bank_options, checked, open_bank, split
-from quizgen.cli.terminal import Progress, visible
+from quizgen.cli.terminal import Progress
 from quizgen.errors import ChoiceError, CodeError, RenderError
 from quizgen.locale import FIRST, choices
+from quizgen.outside import visible
 from quizgen.paper.form import FORMS
 
 if TYPE_CHECKING:

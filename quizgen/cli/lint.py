@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING, Unpack
 import click
 
 from quizgen.cli.options import BankOptions, Whole, bank_options, open_bank
-from quizgen.cli.terminal import Progress, interrupted, print_table, visible
+from quizgen.cli.terminal import Progress, interrupted, print_table
 from quizgen.errors import QuizgenError
+from quizgen.outside import visible
 
 if TYPE_CHECKING:
     from quizgen.audit.lint import Report

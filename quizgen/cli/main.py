@@ -12,8 +12,9 @@ from typing import NoReturn
 
 import click
 
-from quizgen.cli.terminal import Interrupt, colour_choice, interrupted, visible
+from quizgen.cli.terminal import Interrupt, colour_choice, interrupted
 from quizgen.errors import QuizgenError
+from quizgen.outside import visible
 
 WRONG = 2
 """Exit code of wrong use, and of files that cannot be read or written."""

@@ -15,10 +15,10 @@ from typing import Self
 
 import click
 
+from quizgen.outside import visible
+
 NARROWEST = 20
 """Columns that text is laid out for at least."""
-HARMLESS = frozenset("\n\u200c\u200d")
-"""Line break and the two joiners, which Bangla needs: shown as they are."""
 _BLANKS = re.compile(r"[ \t\n]+")
 """Where a line may break; not at a no-break space."""
 GAP = "  "
@@ -65,20 +65,6 @@ def colour_choice() -> bool | None:
     """
     plain = os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"
     return False if plain else None
-
-
-def visible(text: str) -> str:
-    """A text with its control characters named, so that it moves no cursor and rings no bell."""
-    return "".join(_named(c) if _is_control(c) else c for c in text)
-
-
-def _is_control(character: str) -> bool:
-    return unicodedata.category(character)[0] == "C" and character not in HARMLESS
-
-
-def _named(character: str) -> str:
-    name = unicodedata.name(character, "control character")
-    return f"[U+{ord(character):04X} {name}]"
 
 
 def wrapped(text: str, room: int, first: str = "", rest: str = "") -> Iterator[str]:

@@ -5,11 +5,9 @@ Who writes a page escapes there: a message is text, also for JSON and for listen
 
 from __future__ import annotations
 
-import unicodedata
+from quizgen.outside import visible
 
 LONGEST_ECHO = 40
-_BREAKS = frozenset({"Zl", "Zp"})
-"""Separators of lines and paragraphs: readers of JSON Lines would cut there."""
 
 
 def shorten(text: str, longest: int = LONGEST_ECHO) -> str:
@@ -18,14 +16,5 @@ def shorten(text: str, longest: int = LONGEST_ECHO) -> str:
 
 
 def safe(text: str, longest: int = LONGEST_ECHO) -> str:
-    """Shorten, and name control characters."""
-    cut = shorten(text, longest)
-    return cut if cut.isprintable() else "".join(map(_visible, cut))
-
-
-def _visible(character: str) -> str:
-    kind = unicodedata.category(character)
-    if (kind[0] != "C" and kind not in _BREAKS) or character == "\u200d":
-        return character
-    name = unicodedata.name(character, "control character")
-    return f"[U+{ord(character):04X} {name}]"
+    """Shorten, and name control characters, line breaks too."""
+    return visible(shorten(text, longest), kept="")

@@ -8,7 +8,8 @@ import pytest
 from rich.cells import cell_len
 
 from quizgen.cli import terminal
-from quizgen.cli.terminal import Progress, visible, wrapped
+from quizgen.cli.terminal import Progress, wrapped
+from quizgen.outside import visible
 
 ENGLISH = "The pupil lets in less light, and shorter wavelengths are refracted with more power."
 BANGLA = "একটি পিনহোল ক্যামেরায় ফোকাস দূরত্ব দেওয়া আছে; বিন্দুটি ছবিতে কোথায় দেখা যাবে তা বের করো।"
