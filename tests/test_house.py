@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 import sys
 from functools import cache
 from pathlib import Path
@@ -33,3 +34,39 @@ def test_few_parameters_are_typed_any():
         a for path in FILES for f in measure.functions(tree(path)) for a in measure.parameters(f)
     ]
     assert sum(map(measure.is_any, found)) <= 0.03 * len(found)
+
+
+CALLED_FROM_OUTSIDE = {"list_commands", "get_command", "format_commands"}
+"""Methods that click looks for in a group."""
+
+
+def _names(node) -> list[str]:
+    """The names that a piece of syntax uses: of things, of fields, or as a text (``getattr``)."""
+    match node:
+        case ast.Name(id=name) | ast.Attribute(attr=name) | ast.keyword(arg=str(name)):
+            return [name]
+        case ast.Constant(value=str(text)):
+            return re.findall(r"\w+", text)
+    return []
+
+
+def used_in(node) -> set[str]:
+    """All names of a module but those of its docstrings, which would hide what nobody calls."""
+    docs = {id(n.value) for n in ast.walk(node) if isinstance(n, ast.Expr)}
+    return {name for n in ast.walk(node) if id(n) not in docs for name in _names(n)}
+
+
+def test_every_public_function_has_a_caller_in_the_product():
+    """But for ``arrays``, whose functions are there to be called from outside (docs/accuracy.md)."""
+    product = [path for path in FILES if path.is_relative_to(ROOT / "quizgen")]
+    used = set(CALLED_FROM_OUTSIDE).union(*(used_in(tree(path)) for path in product))
+    for page in (ROOT / "quizgen").rglob("*.j2"):
+        used |= set(re.findall(r"\w+", page.read_text(encoding="utf-8")))
+    idle = [
+        f"{path.relative_to(ROOT)}: {function.name}"
+        for path in product
+        if path.parent.name != "arrays"
+        for function in measure.functions(tree(path))
+        if not function.name.startswith("_") and function.name not in used
+    ]
+    assert not idle

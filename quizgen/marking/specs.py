@@ -194,9 +194,3 @@ def decode(shape: type[Shape], table: Table) -> Shape:
     except (msgspec.ValidationError, FormulaError, ValueError, TypeError) as error:
         raise KeyFileError(f"spec ({table['kind']}): {error}") from None
     return spec
-
-
-def as_table(spec: Worded | Measured) -> dict[str, object]:
-    """Write a specification as the plain table that a key stores: without what is a default."""
-    table: dict[str, object] = msgspec.to_builtins(spec)
-    return {"kind": spec.kind, **table}

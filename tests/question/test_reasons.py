@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import json
 
+import msgspec
 import pytest
 
 from quizgen.bank.folder import Bank
 from quizgen.marking.mark import mark
-from quizgen.marking.specs import as_table
 from quizgen.question.compose import compose
 
 RULES = """
@@ -79,7 +79,7 @@ def parts(tmp_path):
     for lang in ("en", "bn"):
         (folder / f"{lang}.md").write_text(PROSE.replace("{0}", lang), "utf-8")
     question, key = compose(Bank(tmp_path, trusted=True).template("eyes"), 1, "en", figures=False)
-    specs = [json.loads(json.dumps(as_table(spec))) for spec in key.specs]
+    specs = [json.loads(json.dumps(msgspec.to_builtins(spec))) for spec in key.specs]
     marks = [{n: m for m, n in names_of(part.field)} for part in question.parts]
     return specs, marks, key.solution.parts
 

@@ -10,7 +10,6 @@ from flint import fmpq
 from msgspec.structs import replace
 
 from quizgen.marking.reading.literals import Doubt, doubtful, pointed, tidied
-from quizgen.marking.reading.rewrites import normalise
 from quizgen.marking.reading.source import Source
 from quizgen.maths.constants import constant
 from quizgen.maths.notation import ReadError, parse_pieces, to_text, tokens
@@ -139,24 +138,6 @@ def _quotient(sign: str, top: str, bottom: str) -> Number:
     value = fmpq(int(top), int(bottom))
     lowest = int(bottom) == value.q
     return Number(-value if sign else value, f"{sign}{top}/{bottom}", "fraction", lowest=lowest)
-
-
-def read_number(typed: str, decimal: str = "auto") -> Readings:
-    """Read a typed number.
-
-    Parameters
-    ----------
-    typed : str
-        For example ``66,67``, ``১২.৫``, ``3x10^5``, ``1 1/2``, ``√2/2``, ``4,55 %``.
-    decimal : str
-        The learner's decimal sign: ``auto``, ``point`` or ``comma``.
-
-    Raises
-    ------
-    ReadError
-        With the column, if it cannot be read.
-    """
-    return quick(typed, decimal) or read_source(normalise(typed), decimal)
 
 
 def read_source(source: Source, decimal: str) -> Readings:
