@@ -259,20 +259,8 @@ def near_limit(f: Numbers, N: Numbers, c: Numbers, s: Numbers) -> Result:
 def far_limit(f: Numbers, N: Numbers, c: Numbers, s: Numbers) -> Result:
     """Farthest distance that is still sharp; infinity at or beyond the hyperfocal distance.
 
-    Parameters
-    ----------
-    f, N, c, s : array_like
-        As for ``near_limit``.
-
-    Returns
-    -------
-    float or array
-        Unit of f, s or more. Whether s reaches the hyperfocal distance is decided exactly.
-
-    Raises
-    ------
-    DomainError
-        ``no-real-image`` (s < f).
+    Arguments and errors as ``near_limit``; s or more. Whether s reaches the hyperfocal distance is
+    decided exactly.
     """
     return _FAR(f, N, c, s)
 
@@ -280,19 +268,6 @@ def far_limit(f: Numbers, N: Numbers, c: Numbers, s: Numbers) -> Result:
 def total_depth(f: Numbers, N: Numbers, c: Numbers, s: Numbers) -> Result:
     """Depth of field, far limit minus near limit, without subtracting them.
 
-    Parameters
-    ----------
-    f, N, c, s : array_like
-        As for ``near_limit``.
-
-    Returns
-    -------
-    float or array
-        Unit of f; infinity at or beyond the hyperfocal distance.
-
-    Raises
-    ------
-    DomainError
-        ``no-real-image`` (s < f).
+    Arguments and errors as ``near_limit``; infinity at or beyond the hyperfocal distance.
     """
     return _TOTAL(f, N, c, s)

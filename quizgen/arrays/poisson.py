@@ -188,42 +188,10 @@ def pmf(k: Numbers, lam: Numbers) -> Result:
 
 
 def upper(k: Numbers, lam: Numbers) -> Result:
-    """Probability of k photons or more.
-
-    Parameters
-    ----------
-    k, lam : array_like
-        As for ``pmf``.
-
-    Returns
-    -------
-    float or array
-        Between 0 and 1.
-
-    Raises
-    ------
-    DomainError
-        As ``pmf``.
-    """
+    """Probability of k photons or more; arguments and errors as ``pmf``."""
     return _UPPER(k, lam)
 
 
 def lower(k: Numbers, lam: Numbers) -> Result:
-    """Probability of k photons or fewer.
-
-    Parameters
-    ----------
-    k, lam : array_like
-        As for ``pmf``.
-
-    Returns
-    -------
-    float or array
-        Between 0 and 1.
-
-    Raises
-    ------
-    DomainError
-        As ``pmf``.
-    """
+    """Probability of k photons or fewer; arguments and errors as ``pmf``."""
     return _LOWER(k, lam)

@@ -97,16 +97,5 @@ def cos4(r: Numbers, f: Numbers) -> Result:
 
 
 def falloff(r: Numbers, f: Numbers) -> Result:
-    """Loss of illumination 1 - cos**4, accurate for small angles too.
-
-    Parameters
-    ----------
-    r, f : array_like
-        As for ``cos4``.
-
-    Returns
-    -------
-    float or array
-        Between 0 and 1.
-    """
+    """Loss of illumination 1 - cos**4, accurate for small angles too; arguments as ``cos4``."""
     return _FALLOFF(r, f)

@@ -6,6 +6,8 @@ signs and formula lines are written in the grammar that students type.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import cache
 from typing import Literal, TypeVar
 
@@ -193,24 +195,22 @@ def passage(entry: Entry, name: str, lang: str) -> tuple[Block, ...]:
     BankError
         Naming file, entry, field, language and column.
     """
-    texts: Passage = getattr(entry, name)
-    try:
-        return fill_blocks(blocks(in_language(texts, lang, "")), _printed, _no_program)
-    except BankError as error:
-        raise BankError(f"{entry.place}: {name}.{lang}: {error}") from error
+    with _at(entry, name, lang) as text:
+        return fill_blocks(blocks(text), _printed, _no_program)
 
 
 def sentence(entry: Entry, name: str, lang: str) -> tuple[Inline, ...]:
-    """A sentence of an entry as inlines.
+    """The same as ``passage`` for a sentence, as inlines."""
+    with _at(entry, name, lang) as text:
+        return fill(inlines(text), _printed)
 
-    Raises
-    ------
-    BankError
-        Naming file, entry, field, language and column.
-    """
+
+@contextmanager
+def _at(entry: Entry, name: str, lang: str) -> Iterator[str]:
+    """The text of a field; what is wrong with it is located."""
     texts: Passage = getattr(entry, name)
     try:
-        return fill(inlines(in_language(texts, lang, "")), _printed)
+        yield in_language(texts, lang, "")
     except BankError as error:
         raise BankError(f"{entry.place}: {name}.{lang}: {error}") from error
 

@@ -210,15 +210,13 @@ def _head(node: n.Node, lang: str) -> str:
     if isinstance(node, n.Word):
         return f"\\{node.text}" if node.text in KNOWN else rf"\operatorname{{{node.text}}}"
     if isinstance(node, n.Scripts):
-        scripts = _scripts(n.Scripts(n.Op(""), node.sub, node.sup, node.primes), lang)
-        return _head(node.base, lang) + scripts
+        return _head(node.base, lang) + _scripts(node.alone, lang)
     return _emit(node, lang)
 
 
 @_emit.register
 def _big(node: n.Big, lang: str) -> str:
-    bounds = n.Scripts(n.Op(""), node.lower, node.upper)
-    return _known(_SIGNS, node.sign, "sign") + _scripts(bounds, lang)
+    return _known(_SIGNS, node.sign, "sign") + _scripts(node.bounds, lang)
 
 
 @_emit.register

@@ -6,7 +6,7 @@ stronger place gets brackets. Nodes carry no language: words such as *otherwise*
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 WORDS, RELATION, SUM, MODULO, NEGATIVE, PRODUCT, FRACTION, QUANTITY, POWER, ATOM = range(10)
@@ -123,6 +123,11 @@ class Scripts:
         """A power as soon as there is a superscript."""
         return ATOM if self.sup is None else POWER
 
+    @property
+    def alone(self) -> Scripts:
+        """The primes, sub- and superscript without their base."""
+        return replace(self, base=Op(""))
+
 
 @dataclass(frozen=True, slots=True)
 class Accent:
@@ -159,6 +164,11 @@ class Big:
     lower: Node | None = None
     upper: Node | None = None
     level: ClassVar[int] = ATOM
+
+    @property
+    def bounds(self) -> Scripts:
+        """The bounds as scripts of the sign."""
+        return Scripts(Op(""), self.lower, self.upper)
 
 
 @dataclass(frozen=True, slots=True)
