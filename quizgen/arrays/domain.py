@@ -4,7 +4,7 @@ Policy, the same for every function of this package:
 
 * A pole is an infinity (object in the focal plane, far limit beyond the hyperfocal distance).
 * A value beyond the range of binary64 is rounded like any other: to infinity, or to zero.
-* No answer (beyond the fold, hue of a gray, empty range, ...) raises ``DomainError`` when all
+* No answer (beyond the fold, hue of a grey, empty range, ...) raises ``DomainError`` when all
   arguments are scalars. With arrays the result is a ``numpy.ma.MaskedArray``, masked exactly
   where there is no answer (NaN lies under the mask). When every element has an answer, the
   result is a plain array. ``answered(result)`` is the mask to ask for in both cases.

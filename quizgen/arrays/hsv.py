@@ -46,11 +46,11 @@ def _saturation(R: Array, G: Array, B: Array) -> Array:
     return spread / size
 
 
-def _gray(R: Array, G: Array, B: Array) -> Flags:
+def _grey(R: Array, G: Array, B: Array) -> Flags:
     return (R == G) & (G == B)
 
 
-_HUE = Kernel(_hue, (REAL,) * 3, (Rule("gray-hue", _gray),))
+_HUE = Kernel(_hue, (REAL,) * 3, (Rule("grey-hue", _grey),))
 _SATURATION = Kernel(_saturation, (REAL,) * 3)
 _VALUE = Kernel(lambda R, G, B: np.maximum(np.maximum(R, G), B), (REAL,) * 3)
 
@@ -71,7 +71,7 @@ def hue(R: Numbers, G: Numbers, B: Numbers) -> Result:
     Raises
     ------
     DomainError
-        ``gray-hue`` (R = G = B).
+        ``grey-hue`` (R = G = B).
     """
     return _HUE(R, G, B)
 
@@ -87,7 +87,7 @@ def saturation(R: Numbers, G: Numbers, B: Numbers) -> Result:
     Returns
     -------
     float or array
-        0 for grays and black; above 1 or negative outside the gamut; infinity when the largest
+        0 for greys and black; above 1 or negative outside the gamut; infinity when the largest
         channel is 0 and another is negative (a pole).
     """
     return _SATURATION(R, G, B)
@@ -120,7 +120,7 @@ def to_hsv(R: Numbers, G: Numbers, B: Numbers) -> tuple[Result, Result, Result]:
     Returns
     -------
     tuple
-        As ``hue``, ``saturation`` and ``value``; in arrays only the hue of grays is masked.
+        As ``hue``, ``saturation`` and ``value``; in arrays only the hue of greys is masked.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Hue of a colour that differs from a gray by a few ten-millionths, and how it is lost.
+"""Hue of a colour that differs from a grey by a few ten-millionths, and how it is lost.
 
 Source: A. R. Smith, "Color gamut transform pairs", SIGGRAPH 1978.
 """

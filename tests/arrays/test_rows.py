@@ -120,7 +120,7 @@ def test_printed_values(name, args, text):
 REFUSED = [
     ("distortion.inverse_radius", (0.77, -0.25, 0.0), "beyond-fold"),
     ("distortion.inverse_radius", (0.76980035891950105, -0.25, 0.0), "beyond-fold"),
-    ("hsv.hue", (0.5, 0.5, 0.5), "gray-hue"),
+    ("hsv.hue", (0.5, 0.5, 0.5), "grey-hue"),
     ("projection.project_x", (2.0, 1.0, -0.0), "on-camera-plane"),
     ("projection.pixel", (2.0, 1.0, 1.0, 0.0, 0.0), "on-camera-plane"),
     ("normalise.normalise", (1.0, 3.0, 3.0, 0.0, 1.0), "empty-range"),
