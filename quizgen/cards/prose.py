@@ -17,7 +17,7 @@ from typing import Any, TypeGuard
 from quizgen import typeset
 from quizgen.bank.prose import Code, CodeBlock, Inline, Items, Paragraph, Styled, Table, Words
 from quizgen.figures import Figure
-from quizgen.question.filling import Maths
+from quizgen.question.filling import Maths, tied
 from quizgen.typeset.nodes import RELATION, Node, Row
 
 _TITLE = re.compile(rb"<title>.*?</title>", re.DOTALL)
@@ -168,28 +168,8 @@ def html(part: object, lang: str, *, ask: bool | None = None) -> str:
 
 @html.register
 def _(part: tuple, lang: str, *, ask: bool | None = None) -> str:  # type: ignore[type-arg]
-    return "".join(html(item, lang, ask=ask) for item in _tied(part))
-
-
-def _tied(parts: tuple[Any, ...]) -> Iterator[Any]:
-    """Keep a symbol and the value that follows it, as in f = 50 mm, on one line."""
-    rest = list(parts)
-    while rest:
-        part = rest.pop(0)
-        if not isinstance(part, Maths) or not (rest and _sticks(rest[0])):
-            yield part
-            continue
-        text = ""
-        while rest and isinstance(rest[0], Words) and " " not in text:
-            text += rest.pop(0).text
-        stuck, blank, loose = text.partition(" ")
-        yield Together((part, Words(stuck)))
-        if blank:
-            rest.insert(0, Words(blank + loose))
-
-
-def _sticks(part: object) -> bool:
-    return isinstance(part, Words) and part.text.startswith("\u00a0")
+    groups = tied(part)
+    return "".join(html(g[0] if len(g) == 1 else Together(g), lang, ask=ask) for g in groups)
 
 
 @html.register
