@@ -46,13 +46,15 @@ class Language(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     """What ``language.toml`` says.
 
     ``name`` is the language in itself, ``english`` in English, ``order`` its place in lists,
-    ``script`` the ISO 15924 code of its letters.
+    ``script`` the ISO 15924 code of its letters, ``line_height`` the lines that its letters need on
+    pages where they need other lines than the page has.
     """
 
     name: str
     english: str
     order: int
     script: str
+    line_height: float | None = None
 
 
 def languages() -> tuple[str, ...]:
@@ -106,6 +108,22 @@ def language(lang: str) -> Language:
 def in_script(script: str) -> tuple[str, ...]:
     """Languages that are written in a script, such as ``Beng``: those that need its fonts."""
     return tuple(lang for lang in languages() if language(lang).script == script)
+
+
+def line_heights(rule: str) -> str:
+    """The style of those languages whose lines have a height of their own.
+
+    Parameters
+    ----------
+    rule : str
+        A selector with ``{}`` for the language.
+    """
+    heights = {lang: language(lang).line_height for lang in languages()}
+    return "".join(
+        f"{rule.format(lang)} {{ line-height: {height:g}; }}\n"
+        for lang, height in heights.items()
+        if height
+    )
 
 
 def in_letters_of(lang: str, text: str) -> bool:

@@ -8,7 +8,7 @@ from importlib.resources import files
 import jinja2
 from markupsafe import Markup
 
-from quizgen.locale import in_script, marks, word
+from quizgen.locale import in_script, line_heights, marks, word
 from quizgen.paper.paper import Paper
 from quizgen.question.markup import blocks, display, inline
 from quizgen.render import fonts
@@ -36,7 +36,8 @@ def _environment() -> jinja2.Environment:
 
 @cache
 def _style() -> str:
-    return (files("quizgen.render") / "pages" / "paper.css").read_text(encoding="utf-8")
+    page = (files("quizgen.render") / "pages" / "paper.css").read_text(encoding="utf-8")
+    return line_heights(":lang({})") + page
 
 
 def render(paper: Paper, kind: str) -> bytes:
