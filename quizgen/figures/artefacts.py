@@ -125,7 +125,7 @@ _CAMERAS: Mapping[str, dict[str, Any]] = {
 
 def _things(kind: str, side: float, variant: int) -> tuple[tuple[Thing, ...], Colour]:
     if kind in ("blooming", "streak"):
-        return _lamp(side), (0.01, 0.013, 0.03)
+        return _lamp(side, _GLARE[kind]), (0.01, 0.013, 0.03)
     if kind in ("rolling shutter", "motion blur"):
         return _car(side, 900.0), (0.35, 0.45, 0.6)
     if kind in ("barrel", "pincushion", "lateral colour"):
@@ -146,11 +146,15 @@ def _box(x: float, y: float, wide: float, high: float, colour: Colour) -> Thing:
     )  # fmt: skip
 
 
-def _lamp(side: float) -> tuple[Thing, ...]:
+_GLARE = {"streak": (14.0, 12.0, 8.0), "blooming": (2.6, 2.4, 1.9)}
+"""Colours of the lamp: what blooms must end inside the picture, or it could be a streak."""
+
+
+def _lamp(side: float, glare: Colour) -> tuple[Thing, ...]:
     from quizgen.camera import Length, Thing
 
     lamp = Thing("disc", x=Length(30 * side), y=Length(-18), radius=Length(5),
-                 colour=(14.0, 12.0, 8.0), depth=4.0)  # fmt: skip
+                 colour=glare, depth=4.0)  # fmt: skip
     post = _box(30 * side, 17, 3, 62, (0.08, 0.08, 0.08))
     house = _box(-38 * side, 14, 46, 68, (0.03, 0.03, 0.045))
     window = _box(-46 * side, -2, 10, 12, (0.45, 0.28, 0.08))

@@ -40,10 +40,11 @@ def test_the_named_artefact_is_the_one_shown(bank, seed):
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_gaussian_noise_stands_where_the_key_says(bank, seed):
+def test_the_noise_asked_for_stands_where_the_key_says(bank, seed):
     given, key = _drawn(bank, "recognise-noise-from-histograms", seed)
     place = ("left", "middle", "right").index(key)
-    assert noise.noise_order(given["order"])[place] == "gaussian"
+    asked = ("clean", "gaussian", "impulse")[int(given["asked"])]
+    assert noise.noise_order(given["order"])[place] == asked
 
 
 @pytest.mark.parametrize("seed", SEEDS)
@@ -52,6 +53,14 @@ def test_the_wide_aperture_stands_where_the_key_says(bank, seed):
     shown = {"N_1": given["N_b"], "N_2": given["N_a"], "order": given["order"]}
     pair = depth_of_field.f_numbers(shown)
     assert pair[("left", "right").index(key)] == min(pair) == given["N_a"]
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_object_in_focus_is_the_one_of_the_key(bank, seed):
+    given, key = _drawn(bank, "which-photo-which-f-number", seed, part=1)
+    objects = [given[name] for name in ("z_1", "z_2", "z_3")]
+    assert objects == sorted(objects)
+    assert objects[("nearer", "middle", "farther").index(key)] == given["s"]
 
 
 @pytest.mark.parametrize("seed", SEEDS)
