@@ -146,7 +146,7 @@ def _box(x: float, y: float, wide: float, high: float, colour: Colour) -> Thing:
     )  # fmt: skip
 
 
-_GLARE = {"streak": (14.0, 12.0, 8.0), "blooming": (2.6, 2.4, 1.9)}
+_GLARE = {"streak": (14.0, 12.0, 8.0), "blooming": (4.4, 3.9, 3.0)}
 """Colours of the lamp: what blooms must end inside the picture, or it could be a streak."""
 
 

@@ -133,6 +133,17 @@ def test_every_artefact_is_seen(kind, variant):
     assert changed.mean() > (0.002 if artefacts.KINDS[kind] == "hot pixels" else 0.02)
 
 
+def test_what_blooms_ends_inside_the_picture_and_a_streak_does_not():
+    def rows(kind):
+        ideal, photo = _pictures("artefacts", {"kind": kind}, quiz=True)
+        return np.flatnonzero((np.abs(photo - ideal).max(axis=2) > 12).any(axis=1))
+
+    blob, streak = rows(0), rows(1)
+    assert 3 < blob.min() < blob.max() < 92
+    assert blob.size > 20
+    assert (streak.min(), streak.max()) == (0, 95)
+
+
 def test_corners_fall_off_with_the_fourth_power_of_the_cosine():
     ideal, photo = _pictures("artefacts", {"kind": 3}, quiz=True)
 
