@@ -181,6 +181,9 @@ def _question_slots(text: Text) -> Iterator[str]:
     for name, section in text.sections.items():
         if len(name) == 1:
             yield from slots(section)
+    for asked in ("options", "claims"):
+        for sentence in text.named.get(asked, {}).values():
+            yield from slots(sentence)
 
 
 def composed_problems(one: Draw) -> list[str]:

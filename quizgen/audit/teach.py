@@ -189,8 +189,8 @@ def pool_size(template: Template) -> int:
     return total
 
 
-_MARK = re.compile(r"(?<![\w'])([A-L])(?![\w'])(?! =)")
-"""A letter that stands alone and is no quantity."""
+_MARK = re.compile(r"(?<![\w'])([A-L])(?![\w'])(?! =)(?<!A(?= (?!and |or )[a-z]))")
+"""A letter that stands alone and is neither a quantity nor an article."""
 _PICTURE = re.compile(r"[^\W\d]{2,15} (\d)")
 
 

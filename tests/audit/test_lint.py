@@ -49,6 +49,13 @@ def test_languages_that_show_other_values_are_told_apart(tmp_path, english, bang
     assert found == [f"en.md and bn.md do not show the same values: {odd}"]
 
 
+def test_options_that_show_other_values_are_told_apart(tmp_path):
+    bangla = ENGLISH.replace("- yes: Yes.", "- yes: Yes, {{ c }}.")
+    assert problems(tmp_path, ENGLISH, bangla) == [
+        "en.md and bn.md do not show the same values: ['c']"
+    ]
+
+
 def test_languages_with_other_options_are_told_apart(tmp_path):
     found = problems(tmp_path, ENGLISH, ENGLISH.replace("- no: No.", "- not: No."))
     assert found == ["bn.md: section 'options' differs by ['no', 'not']"]

@@ -115,6 +115,12 @@ def test_letters_of_the_figure_are_not_those_of_options(tmp_path):
     assert clash not in found(tmp_path / "b", DRAWN + picture + GOOD)
 
 
+def test_an_article_is_no_letter(tmp_path):
+    """ "A square grid ..." begins the words of this figure."""
+    picture = '[figure]\nname = "distorted_grid"\nvalues = { k1 = "0.1" }\n'
+    assert found(tmp_path, DRAWN + picture + GOOD) == []
+
+
 def test_numbered_pictures_stand_in_order(tmp_path):
     words = "## options\n" + "".join(f"- {n}: picture {i}\n" for i, n in enumerate("abcd", 1))
     odd = ("1", "error", "numbered pictures are out of order: use in_order")
