@@ -25,11 +25,15 @@ class About(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     """What ``bank.toml`` says.
 
     ``languages`` are those it is written in, ``title`` is the chapter's by language, and
-    ``topics`` are its topics in order, each with its title by language.
+    ``topics`` are its topics in order, each with its title by language. ``terms`` are words of the
+    subject, none of which is another one misspelt; ``counted`` has the words that may stand beside
+    a number, by the name that an answer gives as ``counts``.
     """
 
     name: str = ""
     languages: tuple[str, ...] = ()
+    terms: tuple[str, ...] = ()
+    counted: dict[str, tuple[str, ...]] = {}
     title: dict[str, str] = {}
     topics: dict[str, dict[str, str]] = {}
 

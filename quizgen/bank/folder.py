@@ -20,6 +20,8 @@ from functools import cache, cached_property
 from pathlib import Path
 from types import ModuleType
 
+import msgspec
+
 from quizgen.bank.about import About, Curriculum, in_language, read_struct
 from quizgen.bank.pages import read_text
 from quizgen.bank.prose import Text
@@ -237,14 +239,23 @@ class Bank:
         texts = {path.stem: read_text(path) for path in prose}
         known = languages()
         order = [lang for lang in known if lang in texts] + sorted(set(texts) - set(known))
-        digest = digest_of(*(read_bytes(path, BankError) for path in files), source)
+        words = self._words(rules)
+        digest = digest_of(*(read_bytes(path, BankError) for path in files), source, *words)
         ordered: dict[str, Text] = {lang: texts[lang] for lang in order}
-        template = Template(name, rules, chain, ordered, digest, folder)
+        template = Template(name, rules, chain, ordered, digest, folder, self.about)
         try:
             check_against_chain(template)
         except QuizgenError as error:
             raise BankError(str(error)) from error
         return template
+
+    def _words(self, rules: Rules) -> Iterator[bytes]:
+        """The words of ``bank.toml`` that a template's answers are marked with."""
+        answers = [part.answer for part in rules.part]
+        if any("counts" in answer for answer in answers):
+            yield msgspec.json.encode(self.about.counted)
+        if any(answer.get("kind") == "gap" for answer in answers):
+            yield msgspec.json.encode(self.about.terms)
 
     def _chain(self, rules: Rules) -> tuple[Chain, bytes]:
         if not rules.solver:

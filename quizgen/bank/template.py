@@ -15,6 +15,7 @@ from typing import Any
 
 import msgspec
 
+from quizgen.bank.about import About
 from quizgen.bank.limits import problems
 from quizgen.bank.rules import DrawRule, FigureRule, KeepRule, PartRule, Rules, minutes_of
 from quizgen.errors import BankError, FormulaError
@@ -43,6 +44,9 @@ class Template:
         Language to its parsed prose.
     digest : str
         Changes whenever any file behind the template changes.
+    path : pathlib.Path
+    about : About
+        What its bank says about itself.
     """
 
     id: str
@@ -51,6 +55,7 @@ class Template:
     texts: Mapping[str, Any]
     digest: str
     path: Path = field(default=Path())
+    about: About = field(default=About())
 
     def __repr__(self) -> str:
         return f"<Template {self.id}, in {', '.join(self.texts)}>"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from fractions import Fraction
 
 import msgspec
 
@@ -52,6 +53,7 @@ class Context:
 class Options(msgspec.Struct, frozen=True):
     """Reading options: language of the sentences, decimal sign, and the question around.
 
+    ``points`` are the marks of the part, which limit what a missing unit costs.
     ``settle`` allows a few seconds of a computer algebra system, in a process of its own, for a
     formula that sampling cannot decide.
     """
@@ -60,6 +62,7 @@ class Options(msgspec.Struct, frozen=True):
     decimal: str = "auto"
     context: Context | None = None
     settle: bool = False
+    points: Fraction = Fraction(1)
 
 
 PLAIN = Options()

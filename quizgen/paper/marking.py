@@ -174,7 +174,8 @@ class Marker:
     def mark(self, part: KeyPart, typed: str) -> PartResult:
         """Mark one part; a part marked again replaces its earlier values."""
         spec = load_spec(part.in_order())
-        verdict = _verdict(self.question, spec, typed, self.options, self.earlier)
+        options = msgspec.structs.replace(self.options, points=part.worth())
+        verdict = _verdict(self.question, spec, typed, options, self.earlier)
         if self.question.chain is not None:
             _remember(self.question, spec, verdict, self.earlier)
         return _result(self.question, part, typed, explained(spec, verdict, self.options.lang))

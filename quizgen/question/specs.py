@@ -16,6 +16,7 @@ from quizgen.marking.mark import show
 from quizgen.marking.specs import AnySpec, Measured
 from quizgen.maths.constants import Scalar
 from quizgen.maths.numbers import key_text, rational, short_decimal
+from quizgen.maths.units import SIMPLE
 from quizgen.maths.values import Value
 from quizgen.question.contract import Built, Named, S
 from quizgen.question.filling import Filler, plain
@@ -89,9 +90,32 @@ def numeric(
     """
     wrong = {trap: write(values) for trap, values in drawn.mistaken(index).items()}
     found = {"of": list(answer_names(answer_of(drawn, index))), key: write(drawn.answer(index))}
+    found |= counts(drawn, index) if "counts" in shape.__struct_fields__ else {}
     traps = {"traps": wrong, "notes": notes(drawn, wrong)} if wrong else {}
     spec = specification(shape, drawn, index, **{**found, **traps, **given})
     return Built(spec, mistakes=mistaken(spec, key))
+
+
+def counts(drawn: Draw, index: int) -> dict[str, Any]:
+    """The words for what a part counts: those it names, else the unit that its values have."""
+    answer = answer_of(drawn, index)
+    stated = answer.get("counts")
+    if isinstance(stated, Mapping):
+        return {"counts": {name: _words(drawn, index, things) for name, things in stated.items()}}
+    units = {drawn.template.units.get(name, "") for name in answer_names(answer)} - {"", "1"}
+    if stated is None and (answer["kind"] == "table" or "unit" in answer or len(units) != 1):
+        return {}
+    return {"counts": _words(drawn, index, stated or [*units])}
+
+
+def _words(drawn: Draw, index: int, things: str | list[str]) -> list[str]:
+    """Listed units as they are, and the bank's words for whatever else is counted."""
+    known, found = drawn.template.about.counted, list[str]()
+    for thing in [things] if isinstance(things, str) else things:
+        if thing not in SIMPLE and thing not in known:
+            raise complaint(drawn, index, f"counts: {thing!r} is neither a unit nor in bank.toml")
+        found += known.get(thing, (thing,))
+    return found
 
 
 def notes(drawn: Draw, traps: Iterable[str]) -> dict[str, dict[str, str]]:

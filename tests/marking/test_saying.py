@@ -137,7 +137,7 @@ CODE = {"kind": "code", "output": "[1, 2, 3]"}
     ("output", "typed", "note", "credit"),
     [
         ("[1, 2, 3]", "1, 2, 3", "output-brackets", 0.5),
-        ("(1, 2)", "[1, 2]", "output-type", 0),
+        ("(1, 2)", "[1, 2]", "output-separators", 0.5),
         ("['a', 'b']", "[‘a’, ‘b’]", "", 1),
         ('{"a": 1}', "{“a”: 1}", "", 1),
         ("['a']", "[„a“]", "output-quotes", 0),

@@ -44,8 +44,8 @@ def fold(text: str) -> str:
 
 
 def budget(term: str) -> int:
-    """Typing slips allowed: none up to four letters, one up to eight, else two."""
-    return 0 if len(term) <= 4 else 1 if len(term) <= 8 else 2
+    """Typing slips allowed: none up to four letters or with digits, one up to eight, else two."""
+    return 0 if len(term) <= 4 or any(map(str.isdigit, term)) else 1 if len(term) <= 8 else 2
 
 
 def slips(first: str, second: str, most: int) -> int:
@@ -83,36 +83,15 @@ _PREFIXES = re.compile(
     r"^(?:anti|non|nicht|dis|mis|trans|over|under|super|sub|pre|post|un|in|im|ir|il|an|de|re|ab|ent|be|ver|a)"
     r"(?=.{3})"
 )
-_TERMS = frozenset({
-    "reflection", "refraction", "diffraction", "deflection", "inflection", "emission",
-    "omission", "transmission", "absorption", "adsorption", "dispersion", "diffusion",
-    "effusion", "convex", "concave", "convergent", "divergent", "convergence", "divergence",
-    "increase", "decrease", "increases", "decreases", "increasing", "decreasing", "inverse",
-    "reverse", "converse", "affect", "effect", "additive", "adaptive", "addictive",
-    "subtractive", "aberration", "defocus", "focus", "translation", "transition", "rotation",
-    "notation", "protection", "detection", "objection", "injection", "resolution",
-    "revolution", "solution", "dilution", "illumination", "elimination", "luminance",
-    "illuminance", "luminosity", "radiance", "irradiance", "radiation", "contrast", "constant",
-    "content", "extent", "intensity", "density", "magnification", "minification",
-    "amplification", "interpolation", "extrapolation", "internal", "external", "interval",
-    "horizontal", "vertical", "parallel", "perpendicular", "positive", "negative", "primary",
-    "secondary", "tertiary", "sampling", "scaling", "shading", "sharpening", "blurring",
-    "deblurring", "noising", "denoising", "photon", "proton", "phonon", "electron", "neutron",
-    "rod", "cone", "near", "far", "nearsighted", "farsighted", "myopia", "hyperopia", "myopic",
-    "hyperopic", "monochromatic", "dichromatic", "trichromatic", "chromatic", "achromatic",
-    "photopic", "scotopic", "mesopic", "quantisation", "quantization",
-    "binarisation", "equalisation", "equalization", "linear", "nonlinear",
-})  # fmt: skip
-"""Words of the subject that differ by a letter or two: none of them is another's misspelling."""
 
 
-def another_word(typed: str, term: str) -> bool:
+def another_word(typed: str, term: str, known: Iterable[str]) -> bool:
     """Whether what was typed is a word of its own rather than a slip in spelling a term.
 
-    An opposite (``un-``, ``de-``, ``an-``), another word of the subject, or two letters replaced.
+    An opposite (``un-``, ``de-``, ``an-``), a known word, or two letters replaced.
     """
     word, wanted = fold(typed), fold(term)
-    if word in _TERMS or _stem(word) == wanted or _stem(wanted) == word:
+    if word in map(fold, known) or _stem(word) == wanted or _stem(wanted) == word:
         return True
     if word[:2] != wanted[:2] and _stem(word) == _stem(wanted):
         return True
@@ -123,3 +102,14 @@ def another_word(typed: str, term: str) -> bool:
 
 def _stem(word: str) -> str:
     return _PREFIXES.sub("", word)
+
+
+def confusable(terms: Iterable[str], words: Iterable[str]) -> list[str]:
+    """The terms that could be taken for a slip in spelling one of some words, and are none."""
+    most = {fold(word): budget(fold(word)) for word in words}
+    folded = {term: fold(term) for term in terms}
+    return [
+        term
+        for term, own in folded.items()
+        if own not in most and any(slips(own, word, few) <= few for word, few in most.items())
+    ]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 
 import msgspec
 
@@ -38,7 +39,7 @@ class Spec(Worded, kw_only=True, frozen=True):
             if given == folded(output):
                 return correct(safe(given))
         note = _note(self, given)
-        if note == "output-brackets":
+        if note in SET_OTHERWISE:
             return partial(HALF, safe(given), note)
         return wrong(safe(given), note)
 
@@ -47,7 +48,11 @@ class Spec(Worded, kw_only=True, frozen=True):
         return self.output
 
 
+SET_OTHERWISE = frozenset({"output-brackets", "output-separators"})
+"""Notes on output whose values are right: it earns half."""
+
 _BRACKETS = re.compile(r"[\[\](){}]")
+_SEPARATORS = re.compile(r"[\[\](){},\s]+")
 _STRAIGHT = {**dict.fromkeys("“”„‟«»", '"'), **dict.fromkeys("‘’‚‛", "'")}
 """Quotation marks that an editor puts in place of those of a program."""
 _QUOTES = re.compile(f"[{''.join(_STRAIGHT)}]")
@@ -62,19 +67,39 @@ def folded(text: str) -> str:
 
 
 def _note(spec: Spec, given: str) -> str:
-    for name, output in spec.traps.items():
-        if given == folded(output):
-            return f"trap:{name}"
+    """What is wrong with an output: a mistake as it is printed, the way of writing, a mistake."""
     wanted = folded(spec.output)
-    if given == _BRACKETS.sub("", wanted):
-        return "output-brackets"
+    return (
+        _mistake(spec, given, str)
+        or _written_otherwise(given, wanted)
+        or _mistake(spec, given, _values)
+        or ("output-type" if _same_numbers(given, wanted) else "")
+    )
+
+
+def _mistake(spec: Spec, given: str, reduced: Callable[[str], str]) -> str:
+    for name, output in spec.traps.items():
+        if reduced(given) == reduced(folded(output)):
+            return f"trap:{name}"
+    return ""
+
+
+def _written_otherwise(given: str, wanted: str) -> str:
     if given.casefold() == wanted.casefold():
         return "output-case"
     if re.sub(r"\s", "", given) == re.sub(r"\s", "", wanted):
         return "output-lines"
     if re.sub(r"['\"]", "", given) == re.sub(r"['\"]", "", wanted):
         return "output-quotes"
-    return "output-type" if _same_numbers(given, wanted) else ""
+    if _values(given) != _values(wanted):
+        return ""
+    missing = _BRACKETS.search(wanted) and not _BRACKETS.search(given)
+    return "output-brackets" if missing else "output-separators"
+
+
+def _values(text: str) -> str:
+    """What is printed, without brackets and commas."""
+    return _SEPARATORS.sub(" ", text).strip()
 
 
 def _same_numbers(given: str, wanted: str) -> bool:

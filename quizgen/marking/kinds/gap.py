@@ -22,11 +22,13 @@ from quizgen.maths.notation import ReadError
 class Spec(Worded, kw_only=True, frozen=True):
     """Gap: ``accept`` = synonyms per gap; ``among`` = the topic's other terms.
 
-    The first synonym of a gap is the one shown. A single gap may be given as a plain list.
+    ``terms`` are further words of the subject, which are nobody's slip in spelling. The first
+    synonym of a gap is the one shown. A single gap may be given as a plain list.
     """
 
     accept: list[list[str] | str]
     among: list[str] = msgspec.field(default_factory=list)
+    terms: list[str] = msgspec.field(default_factory=list)
 
     def gaps(self) -> list[list[str]]:
         """Synonyms per gap."""
@@ -89,7 +91,7 @@ _SEPARATORS = tuple(
         ),
     )
 )
-_NUMBERED = re.compile(r"^\s*(?:\(?\d{1,2}[).:]|[a-hA-H][).:])\s*")
+_NUMBERED = re.compile(r"^\s*(?:\(?\d{1,2}[).:](?!\d)|[a-hA-H][).:])\s*")
 _NUMBER = re.compile(
     r"(?:^|(?<=[\s,;(]))\(?"
     r"(?:(\d{1,2}) ?(?:[).:]\)?|=|→|-+>|[-–—](?=\D)|(?=[^\W\d]))|([a-h])[).])\s*"
@@ -175,10 +177,10 @@ def _one(spec: Spec, gap: list[str], word: str) -> Verdict:
     others = [o for g in spec.gaps() for o in g if fold(o) not in right] + spec.among
     if folded in map(fold, others):
         return wrong(safe(word), "other-term")
-    return _nearest(word, gap, others)
+    return _nearest(spec, word, gap, others)
 
 
-def _nearest(word: str, gap: list[str], others: list[str]) -> Verdict:
+def _nearest(spec: Spec, word: str, gap: list[str], others: list[str]) -> Verdict:
     """Judge a word that is no known term by the terms it is nearest to."""
     near, _ = nearest_terms(word, [*gap, *others])
     if not near and _holds_a_term(word, [*gap, *others]):
@@ -188,14 +190,15 @@ def _nearest(word: str, gap: list[str], others: list[str]) -> Verdict:
         return ambiguous("which-term", safe(word), terms=tuple(near))
     if hits != {True}:
         return wrong(safe(near[0] if near else word), "other-term" if near else "unknown-term")
-    if all(another_word(word, term) for term in near):
+    if all(another_word(word, term, spec.terms) for term in near):
         return ambiguous("another-word", safe(word))
     return correct(safe(near[0]), "spelling", typed=word)
 
 
 def _compact(word: str) -> str:
     """``C, M, Y, K`` is CMYK."""
-    return fold(re.sub(r"[\s,./·-]", "", word)) if re.search(r"[,.·]", word) else ""
+    spelt = re.search(r"[,.·]", word) and not re.search(r"\d", word)
+    return fold(re.sub(r"[\s,./·-]", "", word)) if spelt else ""
 
 
 def _inflected(word: str, right: set[str]) -> bool:

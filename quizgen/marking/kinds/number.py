@@ -5,18 +5,28 @@ from __future__ import annotations
 import re
 from typing import Literal
 
+import msgspec
 from flint import fmpq
+from msgspec.structs import replace
 
 from quizgen.marking.diagnosis.context import hints_for
 from quizgen.marking.judging.number import Asked, best, judge_value, resolve
 from quizgen.marking.kinds import quantity
 from quizgen.marking.options import Options
 from quizgen.marking.reading.chains import Side, read_sides
+from quizgen.marking.reading.counted import (
+    check_counted,
+    counted_name,
+    counted_unit,
+    without_counted,
+)
 from quizgen.marking.reading.named import without_name
+from quizgen.marking.reading.quantities import TypedQuantity
 from quizgen.marking.reading.rewrites import normalise
 from quizgen.marking.reading.scalars import (
     Number,
     Readings,
+    as_fraction,
     as_percent,
     each,
     quick,
@@ -24,10 +34,10 @@ from quizgen.marking.reading.scalars import (
     scaled,
 )
 from quizgen.marking.reading.source import Source
-from quizgen.marking.reading.unit_words import plain_unit
+from quizgen.marking.reading.unit_words import TypedUnit, plain_unit
 from quizgen.marking.rounding import shown
 from quizgen.marking.specs import OneNumber
-from quizgen.marking.verdict import Verdict, unreadable, with_values
+from quizgen.marking.verdict import Verdict, unreadable, with_values, wrong
 from quizgen.maths.constants import exact_value
 from quizgen.maths.notation import ReadError
 from quizgen.maths.units import shown as shown_unit
@@ -40,18 +50,21 @@ class Spec(OneNumber, kw_only=True, frozen=True):
 
     With ``percent`` the value is the fraction, tolerances and ``accept`` are in percent, and
     ``4.55 %``, ``4.55`` and ``0.0455`` are read alike. ``notation = "f-number"`` reads ``1:8``
-    as 8. With ``unit`` (printed beside the field) the unit may be typed or left out.
+    as 8. With ``unit`` (printed beside the field) the unit may be typed or left out. ``counts``
+    are a unit or words for what is counted, which may be typed, too.
     """
 
     form: Literal["", "fraction", "lowest", "decimal"] = ""
     percent: bool = False
     unit: str = ""
     notation: Literal["", "f-number"] = ""
+    counts: list[str] = msgspec.field(default_factory=list)
 
     def validate(self) -> None:
         """Check tolerance, value and traps."""
         super().validate()
         unit(self.unit)
+        check_counted(self.counts)
 
     def value_unit(self) -> str:
         """The unit printed beside the field; a percentage stands for a plain fraction."""
@@ -64,7 +77,8 @@ class Spec(OneNumber, kw_only=True, frozen=True):
         plain = quick(typed, options.decimal)
         if plain is not None:
             return _resolved(self, plain, options)
-        return best(_resolved(self, found, options) for found in _read(self, typed, options))
+        source = _without_lens(self, without_name(normalise(typed)))
+        return best(_judged(self, side, source, options) for side in _read(self, source, options))
 
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
@@ -87,8 +101,18 @@ def _judge(spec: Spec, number: Number, options: Options) -> Verdict:
     if spec.percent:
         return _judge_percent(spec, number, options)
     if number.percent:
-        return unreadable("percent-not-asked", number.read_as)
+        return _judge_share(spec, number, options)
     return _judge_as(spec, number, number.value, options)
+
+
+def _judge_share(spec: Spec, number: Number, options: Options) -> Verdict:
+    """Read ``5 %`` as 0.05; ask back where it was 5 that was asked."""
+    share = as_fraction(number)
+    verdict = _judge_as(spec, share, share.value, options)
+    plain = replace(number, percent=False)
+    if spec.counts or (not verdict.credit and _judge_as(spec, plain, plain.value, options).credit):
+        return unreadable("percent-not-asked", number.read_as)
+    return verdict
 
 
 def _judge_percent(spec: Spec, number: Number, options: Options) -> Verdict:
@@ -115,25 +139,22 @@ def _judge_as(spec: Spec, number: Number, value: Value, options: Options) -> Ver
     return with_values(verdict, value / scale)
 
 
-COUNTED = frozenset({"px", "B", "bit", "stop", "EV", "photon", "e-", "row", "frame", "lp", "DN"})
-"""What is counted: its name may stand behind a count although no unit is asked."""
-
 _TIMES = re.compile(r" ?-? ?(?<![^\W\d_])(?:times|fold|fach|mal|[xX*]|গুণ|বার|টি|টা)$", re.IGNORECASE)
 _PER_HUNDRED = re.compile(r"^শতকরা (.+)$")
 _LENS = re.compile(r"[fFƒ] ?/? ?(?=\d)|1 ?: ?(?=\d)")
 _RATIO = re.compile(r"(?<=\d) ?: ?(?=\d)")
 
 
-def _read(spec: Spec, typed: str, options: Options) -> list[Readings]:
+def _read(spec: Spec, source: Source, options: Options) -> list[Side]:
     """Read a number; several if equal things are chained."""
-    source = _without_lens(spec, without_name(normalise(typed)))
+    source = without_counted(source, spec.counts)
     try:
-        return [read_source(source, options.decimal)]
+        return [Side(TypedQuantity(source, None), read_source(source, options.decimal))]
     except ReadError as error:
         found = [] if error.code == "two-readings" else _sides(source, options)
         if not found:
             raise
-    return [_counted(spec, side, source, options) for side in found]
+    return found
 
 
 def _sides(source: Source, options: Options) -> list[Side]:
@@ -147,37 +168,39 @@ def _sides(source: Source, options: Options) -> list[Side]:
         return []
 
 
-def _counted(spec: Spec, side: Side, source: Source, options: Options) -> Readings:
-    """Read the counted thing behind a count, and percent as a word.
+def _judged(spec: Spec, side: Side, source: Source, options: Options) -> Verdict:
+    """Judge one side, whose unit may be what is counted, or percent as a word.
 
     Raises
     ------
     ReadError
-        If it has a unit that nobody asked for.
+        If it has a unit, and nobody said of what.
     """
     typed = side.quantity.unit
     if typed is None:
-        return side.readings
+        return _resolved(spec, side.readings, options)
     if typed.text == "%":
-        return each(side.readings, as_percent)
-    asked = _unit_of(spec, options)
-    if asked:
-        wanted = plain_unit(asked)
-        if typed.dimension == wanted.dimension:
-            return each(side.readings, lambda n: scaled(n, typed.factor / wanted.factor))
-    elif typed.text in COUNTED:
-        return side.readings
-    raise ReadError("unit-not-asked", source.column(0), typed.text)
+        return _resolved(spec, each(side.readings, as_percent), options)
+    if not spec.counts:
+        raise ReadError("unit-not-asked", source.column(0), typed.text)
+    unit_counted = plain_unit(counted_unit(spec.counts))
+    if typed.dimension != unit_counted.dimension:
+        return _other_thing(spec, side.readings, typed, options)
+    factor = typed.factor / unit_counted.factor
+    return _resolved(spec, each(side.readings, lambda n: _converted(n, typed, factor)), options)
 
 
-def _unit_of(spec: Spec, options: Options) -> str:
-    """The unit in which the question's chain shows the quantity asked, if there is one."""
-    if options.context is None or spec.percent or len(spec.of) != 1:
-        return ""
-    chain, (name,) = options.context.chain, spec.quantities()
-    step = chain.by_name.get(name)
-    shown_in = chain.given.get(name, "") if step is None else step.unit
-    return "" if shown_in == "1" else shown_in
+def _converted(number: Number, typed: TypedUnit, factor: Value) -> Number:
+    read_as = f"{number.read_as} {shown_unit(typed.text)}"
+    return replace(scaled(number, factor), read_as=read_as)
+
+
+def _other_thing(spec: Spec, readings: Readings, typed: TypedUnit, options: Options) -> Verdict:
+    """Say that something else is counted than what was typed."""
+    right = _resolved(spec, readings, options).credit
+    fields = {"given": shown_unit(typed.text), "asked": counted_name(spec.counts, options.lang)}
+    read_as = f"{readings.main.read_as} {fields['given']}"
+    return wrong(read_as, "unit-wrong" if right else "unit-clash", **fields)
 
 
 def _without_lens(spec: Spec, source: Source) -> Source:

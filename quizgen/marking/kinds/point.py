@@ -12,6 +12,7 @@ from quizgen.marking.diagnosis.slips import close, common_slip
 from quizgen.marking.judging.number import Asked, judge_value, settle
 from quizgen.marking.options import Options
 from quizgen.marking.reading.chains import read_all
+from quizgen.marking.reading.counted import check_counted, counted_unit, without_counted
 from quizgen.marking.reading.lists import read_list
 from quizgen.marking.reading.named import reordered
 from quizgen.marking.reading.quantities import split_quantity
@@ -28,14 +29,19 @@ from quizgen.maths.values import Value
 
 
 class Spec(Numbers, kw_only=True, frozen=True):
-    """Point: ``values``; ``names`` of the coordinates; ``unit`` of all; ``up_to_scale``."""
+    """Point: ``values``; ``names`` of the coordinates; ``unit`` of all; ``up_to_scale``.
+
+    ``counts`` are a unit or words for what each coordinate counts, which may be typed.
+    """
 
     names: list[str] = msgspec.field(default_factory=list)
+    counts: list[str] = msgspec.field(default_factory=list)
     up_to_scale: bool = False
 
     def validate(self) -> None:
         """Check tolerance, coordinates, unit and traps."""
         super().validate()
+        check_counted(self.counts)
         if not self.values or (self.names and len(self.names) != len(self.values)):
             raise ValueError("values must not be empty, names as many as values")
         if any(len(trap) != len(self.values) for trap in self.traps.values()):
@@ -45,8 +51,9 @@ class Spec(Numbers, kw_only=True, frozen=True):
         """Judge typed coordinates."""
         items, tail = read_list(typed, len(self.values), options.decimal)
         items = reordered(items, self.names, ReadError("item-count", 1))
-        unit = _unit(tail)
-        first, second, doubt = read_all(items, self.unit, unit, options.decimal)
+        items = [without_counted(item, self.counts) for item in items]
+        unit, asked = _unit(tail), self.unit or counted_unit(self.counts)
+        first, second, doubt = read_all(items, asked, unit, options.decimal)
         verdict = _judge(self, first, options)
         if second is None or doubt is None or (doubt.native and verdict.credit):
             return verdict

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 from flint import fmpq
 
 from quizgen.marking.diagnosis.context import hints_for
@@ -92,12 +94,18 @@ def _without_unit(spec: Spec, number: Number, wanted: TypedUnit, options: Option
     if spec.bare:
         return _prefix(spec, number, number.value, wanted, verdict)
     if verdict.credit:
-        unit = shown_unit(spec.unit)
-        credit = min(HALF, verdict.credit)
-        missing = partial(credit, number.read_as, "unit-missing", unit=unit)
-        return with_values(missing, number.value)
+        return _missing(spec, number, verdict, options.points)
     ratio = _logarithm(spec, number.value, number.read_as)
     return ratio or _prefix(spec, number, number.value, wanted, verdict)
+
+
+def _missing(spec: Spec, number: Number, verdict: Verdict, points: Fraction) -> Verdict:
+    """Take off for the unit: half, but never more than half a point, and nothing besides."""
+    credit = max(HALF, 1 - HALF / points)
+    if verdict.credit < credit:
+        return verdict
+    unit = shown_unit(spec.unit)
+    return with_values(partial(credit, number.read_as, "unit-missing", unit=unit), number.value)
 
 
 def _clash(spec: Spec, number: Number, typed: TypedUnit, read_as: str) -> Verdict:

@@ -32,12 +32,15 @@ CELLS: dict[str, type[Cell]] = {
 class Spec(Measured, kw_only=True, frozen=True):
     """Table: ``values`` (name to value); ``units`` (name to unit); ``cells`` (name to a table).
 
+    ``counts`` maps a name to the unit or words for what it counts.
+
     A cell is a number with the table's tolerance unless ``cells`` says otherwise:
     ``cells = {H = {kind = "angle", abs = "0.5"}}``.
     """
 
     values: dict[str, Scalar]
     units: dict[str, str] = msgspec.field(default_factory=dict)
+    counts: dict[str, list[str]] = msgspec.field(default_factory=dict)
     cells: dict[str, dict[str, Any]] = msgspec.field(default_factory=dict)
     traps: dict[str, dict[str, Scalar]] = msgspec.field(default_factory=dict)
 
@@ -46,7 +49,7 @@ class Spec(Measured, kw_only=True, frozen=True):
         super().validate()
         if not self.values:
             raise ValueError("values must not be empty")
-        for name in (*self.units, *self.cells):
+        for name in (*self.units, *self.counts, *self.cells):
             if name not in self.values:
                 raise ValueError(f"no value is named {name!r}")
         for name in self.values:
@@ -94,6 +97,8 @@ def _shape(spec: Spec, name: str) -> tuple[type[Cell], dict[str, Any]]:
         table |= {key: getattr(spec, key) for key in _INHERITED}
     if spec.units.get(name):
         table["unit"] = spec.units[name]
+    if spec.counts.get(name):
+        table["counts"] = spec.counts[name]
     table["traps"] = {trap: values[name] for trap, values in spec.traps.items() if name in values}
     if isinstance(spec.of, dict) and name in spec.of:
         table["of"] = [spec.of[name]]

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 from quizgen.marking.reading.named import NAME
-from quizgen.marking.reading.rewrites import LONGEST, normalise
+from quizgen.marking.reading.rewrites import LONGEST, LONGEST_PROSE, normalise
 from quizgen.marking.reading.source import Source
 from quizgen.maths.notation import ReadError
 from quizgen.maths.notation.names import FUNCTIONS
@@ -50,7 +50,7 @@ def read_list(typed: str, count: int | None, decimal: str) -> tuple[list[Source]
     plain = _plain_items(typed, count)
     if plain:
         return plain, _NOTHING
-    source = even(normalise(re.sub(r"\r?\n", ";", typed.strip())))
+    source = even(normalise(re.sub(r"\r?\n", ";", typed[:LONGEST_PROSE].strip())))
     names, source = fronted(source)
     source, tail = _opened(source)
     items = _items(source, len(names) or count, decimal)

@@ -46,6 +46,15 @@ ANSWER = re.compile(
 _X = re.compile(r"(?<=[\d)])(?<!^0)(?<![^\d.,]0) *[xXхХ] *(?=\d)")
 
 
+_TENS = {
+    3: ("thousand", "tausend", "Tsd", "হাজার"),
+    5: ("lakhs", "lakh", "lacs", "lac", "লাখ", "লক্ষ"),
+    6: ("millions", "million", "millionen", "mio", "মিলিয়ন", "নিযুত"),
+    7: ("crores", "crore", "কোটি"),
+}
+_EXPONENTS = {word.lower(): power for power, words in _TENS.items() for word in words}
+
+
 def _table(pairs: dict[str, str]) -> Callable[[re.Match[str]], str]:
     return lambda match: pairs[match[0]]
 
@@ -58,6 +67,10 @@ def _fraction(match: re.Match[str]) -> str:
 REWRITES: dict[str, Rewrite] = {
     "direction marks around": (re.compile(f"^[{_DIRECTION}]+|[{_DIRECTION}]+$"), lambda _m: ""),
     "blanks": (re.compile(f"[{_BLANKS}]"), lambda _m: " "),
+    "letters with a dot": (
+        re.compile("[\u09dc\u09dd\u09df]"),
+        lambda m: unicodedata.normalize("NFC", m[0]),
+    ),
     "digits": (
         re.compile(r"[^\W0-9A-Za-z_²³¹]"),
         lambda m: str(unicodedata.decimal(m[0], m[0])),
@@ -78,13 +91,18 @@ REWRITES: dict[str, Rewrite] = {
     ),
     "subscripts": (re.compile(r"[₀-₉ₓᵢ]+"), lambda m: m[0].translate(_SUBSCRIPTS)),
     "vulgar fractions": (re.compile(r"(\d*) ?([¼-¾⅐-⅞])"), _fraction),
+    "classifiers": (re.compile(r"(?<=\d) ?-?(?:টি|টা|খানা|খানি)(?=[ ;,।.]|$)"), lambda _m: ""),
     "answer": (ANSWER, lambda _m: ""),
     "about": (_ABOUT, lambda _m: ""),
     "x between numbers": (_X, lambda _m: "*"),
+    "powers of ten in words": (
+        re.compile(rf"(?<=\d) ?({'|'.join(_EXPONENTS)})(?![^\W\d_])\.?", re.IGNORECASE),
+        lambda m: f"*10^{_EXPONENTS[m[1].lower()]}",
+    ),
 }
 """Name to pattern and replacement, in the order they are applied."""
 
-_ALWAYS = ("answer", "about", "x between numbers")
+_ALWAYS = ("answer", "about", "x between numbers", "powers of ten in words")
 _RAISED = re.compile(r"[-+−–]?\d+·(?!10)\d{2,}")
 _STOPS = ".;।॥"
 _UNFINISHED = re.compile(r"[-+]?(?:\d+;|\d{1,3}(?:\.\d{3})+\.)")
@@ -126,6 +144,7 @@ def normalise(typed: str, *, keep_x: bool = False, longest: int = LONGEST) -> So
         source = source.sub(*REWRITES["answer"]).sub(*REWRITES["about"])
     if not keep_x:
         source = source.sub(*REWRITES["x between numbers"])
+        source = source.sub(*REWRITES["powers of ten in words"])
     source = source.strip()
     if not source.text:
         raise ReadError("no-answer", 1)

@@ -75,6 +75,13 @@ def as_percent(number: Number) -> Number:
     return replace(number, read_as=f"{number.read_as} %", percent=True)
 
 
+def as_fraction(number: Number) -> Number:
+    """The share that a percentage is: ``5 %`` is 0.05."""
+    decimal = number.form in {"integer", "decimal"}
+    form, places = ("decimal", number.places + 2) if decimal else (number.form, number.places)
+    return replace(number, value=number.value / 100, form=form, places=places, percent=False)
+
+
 _FAST = re.compile(
     r"([-−–]?)([0-9]{1,30})(?:([.,])([0-9]{1,30}))?(?:[eE]([-+]?[0-9]{1,2})|/([0-9]{1,30}))?"
 )

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import chain
 
 from quizgen.bank.draw import Draw
 from quizgen.bank.pools import taken
 from quizgen.locale import word
-from quizgen.marking.judging.wording import fold
+from quizgen.marking.judging.wording import confusable, fold
 from quizgen.marking.kinds.gap import Spec
 from quizgen.marking.mark import show as printed
 from quizgen.question.contract import Built, Control
@@ -25,13 +26,15 @@ def build(drawn: Draw, index: int) -> Built[Spec]:
     among = [*answer.get("among", ()), *(term for _, _, terms in wrong for term in terms)]
     named = [(str(place), name) for place, name in enumerate(told, 1)]
     slips = [(f"{mark}={fold(term)}", name) for mark, name, terms in wrong for term in terms]
+    accept = [synonyms(drawn, name) for name in words]
     return Built(
         specification(
             Spec,
             drawn,
             index,
-            accept=[synonyms(drawn, name) for name in words],
+            accept=accept,
             among=list(dict.fromkeys(among)),
+            terms=confusable(drawn.template.about.terms, chain(*accept)),
             why=why(drawn, [*named, *slips]),
         ),
         Control("gaps"),

@@ -22,7 +22,7 @@ def build(drawn: Draw, index: int) -> Built[Spec]:
 
 def hints(spec: Spec, lang: str) -> tuple[str, ...]:
     """Unit and rounding."""
-    unit = word(lang, "ask.quantity", unit=shown(spec.unit))
+    unit = word(lang, "ask.unit" if spec.bare else "ask.quantity", unit=shown(spec.unit))
     return said(unit, rounding(spec, spec.value, lang))
 
 
