@@ -41,6 +41,8 @@ ONE_BY_ONE = [
     ("powers of ten in words", "9,6 Mio. Byte", "9,6*10^6 Byte"),
     ("powers of ten in words", "৬২ লাখ", "৬২*10^5"),
     ("powers of ten in words", "5 lacquers", "5 lacquers"),
+    ("ties", "12~mm", "12 mm"),
+    ("ties", "20/3 ~ 6.67", "20/3 ~ 6.67"),
     ("answer", "Answer: 5", "5"),
     ("answer", "Die Antwort ist 5", "5"),
     ("answer", "উত্তরঃ ৫", "৫"),

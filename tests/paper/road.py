@@ -38,17 +38,18 @@ class Printed:
     mistakes: tuple[tuple[str, str], ...]
 
 
-def all_templates(bank: Bank, seed: int, lang: str) -> Paper:
-    """A paper in which every template of the bank stands once."""
+def all_templates(bank: Bank, seed: int, lang: str = "both") -> Paper:
+    """A paper in which every template of the bank stands once; one draw serves all languages."""
     slots = tuple(SlotRule(templates=(name,)) for name in bank.paths)
     blueprint = Blueprint({"en": "Everything"}, slots, name="everything", source="everything")
     return build(bank, blueprint, seed, lang, figures=False)
 
 
-def fields(paper: Paper) -> Iterator[Printed]:
+def fields(paper: Paper, lang: str) -> Iterator[Printed]:
     """The fields that a machine marks; free text has no printed answer and is left out."""
+    place = paper.langs.index(lang)
     for item in paper.items:
-        question, key = item.questions[0], item.keys[0]
+        question, key = item.questions[place], item.keys[place]
         for part, solved, spec in zip(question.parts, key.solution.parts, key.specs, strict=True):
             if solved.answer:  # what is no trap is a reason for one option, pair or step
                 mistakes = tuple((m.name, m.value) for m in solved.mistakes if m.name in spec.traps)
@@ -108,9 +109,9 @@ class Desk:
         csv.writer(out, delimiter=",;"[len(self.forms) % 2]).writerows(cells)
         self._keep(f"{len(self.forms)}.csv", out.getvalue())
 
-    def json(self, answers: dict[str, str]) -> None:
+    def json(self, answers: dict[str, str], lang: str) -> None:
         """Fill in the page, which saves this."""
-        student = {"name": "", "lang": self.paper.langs[0], "decimal": "auto"}
+        student = {"name": "", "lang": lang, "decimal": "auto"}
         data = {"code": self.paper.code, "student": student, "answers": answers}
         self._keep(f"{len(self.forms)}.json", json.dumps(data, ensure_ascii=False))
 

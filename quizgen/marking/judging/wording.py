@@ -21,7 +21,8 @@ _BRITISH = (
 )
 _UMLAUTS = (("ä", "ae"), ("ö", "oe"), ("ü", "ue"), ("ß", "ss"))
 _ARTICLES = re.compile(r"^(?:the|an|a|der|die|das|ein|eine|it is|its) (?=\S)")
-_DASHES = re.compile(r"[-‐‑‒–—_/]")
+_DASHES = re.compile(r"(?<=[^\W_])[-‐‑‒–—−_/]|[-‐‑‒–—−_/](?!\d)")
+"""Hyphens and dashes, but not the sign of a number."""
 
 
 @lru_cache(maxsize=4096)
@@ -35,7 +36,7 @@ def fold(text: str) -> str:
     text = unicodedata.normalize("NFKC", text).casefold()
     if not text.isascii():
         text = "".join(str(unicodedata.decimal(c, c)) for c in text)
-    text = _DASHES.sub(" ", text)
+    text = _DASHES.sub(" ", text).replace("−", "-")
     text = " ".join(text.split()).strip(" .,;:!?\"'()।")
     text = _ARTICLES.sub("", text)
     for old, new in (*_UMLAUTS, *_BRITISH):

@@ -31,7 +31,7 @@ _SHORTEST = 4
 _AROUND = " .!()[]{}\"'*_।॥“”‘’«»"
 _QUOTED = " \"'*_“”«»"
 _LABELLED = re.compile(
-    r"[\[(]?(?P<mark>[A-Za-zক-ঞ]|\d{1,2})(?:[\])]? ?[).:=,-]+ ?|[\])] ?| )(?P<words>[^\s(].+)"
+    r"[\[(]?(?P<mark>[A-Za-zক-ঞ]|\d{1,2})(?:[\])]? ?[).:=,-]+ ?|[\])] ?| (?!\())(?P<words>\S.+)"
 )
 _BEHIND = re.compile(r"(?P<words>.{2,}?) ?[\[(](?P<mark>[A-Za-zক-ঞ])[\])]")
 _FILLING = re.compile(r"^(?:option|অপশন) ", re.IGNORECASE)

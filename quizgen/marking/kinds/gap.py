@@ -91,7 +91,7 @@ _SEPARATORS = tuple(
         ),
     )
 )
-_NUMBERED = re.compile(r"^\s*(?:\(?\d{1,2}[).:](?!\d)|[a-hA-H][).:])\s*")
+_NUMBERED = re.compile(r"^\s*(?:\(?\d{1,2}[).:](?!\d)|[a-hA-H][).:](?=\s*\S))\s*")
 _NUMBER = re.compile(
     r"(?:^|(?<=[\s,;(]))\(?"
     r"(?:(\d{1,2}) ?(?:[).:]\)?|=|→|-+>|[-–—](?=\D)|(?=[^\W\d]))|([a-h])[).])\s*"

@@ -127,12 +127,11 @@ def with_names(names: list[str], items: list[Source]) -> list[Source]:
 def _opened(source: Source) -> tuple[Source, Source]:
     """Remove all pairs of brackets around everything."""
     inner, tail = unbracketed(source)
-    while not tail.text:
+    while True:
         again, behind = unbracketed(inner)
-        if again is inner:
-            break
-        inner, tail = again, behind
-    return inner, tail
+        if again is inner or (tail.text and behind.text):
+            return inner, tail
+        inner, tail = again, behind if behind.text else tail
 
 
 def unbracketed(source: Source) -> tuple[Source, Source]:

@@ -95,6 +95,7 @@ REWRITES: dict[str, Rewrite] = {
     "answer": (ANSWER, lambda _m: ""),
     "about": (_ABOUT, lambda _m: ""),
     "x between numbers": (_X, lambda _m: "*"),
+    "ties": (re.compile(r"(?<=\d)~(?=[^\W\d_]|[%°])"), lambda _m: " "),
     "powers of ten in words": (
         re.compile(rf"(?<=\d) ?({'|'.join(_EXPONENTS)})(?![^\W\d_])\.?", re.IGNORECASE),
         lambda m: f"*10^{_EXPONENTS[m[1].lower()]}",
@@ -102,10 +103,10 @@ REWRITES: dict[str, Rewrite] = {
 }
 """Name to pattern and replacement, in the order they are applied."""
 
-_ALWAYS = ("answer", "about", "x between numbers", "powers of ten in words")
+_ALWAYS = ("answer", "about", "x between numbers", "ties", "powers of ten in words")
 _RAISED = re.compile(r"[-+−–]?\d+·(?!10)\d{2,}")
 _STOPS = ".;।॥"
-_UNFINISHED = re.compile(r"[-+]?(?:\d+;|\d{1,3}(?:\.\d{3})+\.)")
+_UNFINISHED = re.compile(r"[-+]?(?:\d+;|\d{1,3}(?:\.\d{3}){2,}\.)")
 _EXOTIC = re.compile(r"[^ -~]")
 _CONTROL = frozenset({"Cc", "Cf", "Co", "Cs", "Cn", "Zl", "Zp"})
 
@@ -144,7 +145,7 @@ def normalise(typed: str, *, keep_x: bool = False, longest: int = LONGEST) -> So
         source = source.sub(*REWRITES["answer"]).sub(*REWRITES["about"])
     if not keep_x:
         source = source.sub(*REWRITES["x between numbers"])
-        source = source.sub(*REWRITES["powers of ten in words"])
+        source = source.sub(*REWRITES["ties"]).sub(*REWRITES["powers of ten in words"])
     source = source.strip()
     if not source.text:
         raise ReadError("no-answer", 1)
@@ -152,7 +153,7 @@ def normalise(typed: str, *, keep_x: bool = False, longest: int = LONGEST) -> So
 
 
 def _finished(source: Source) -> Source:
-    """Drop the full stop of a sentence; ``1.000.`` and ``3;`` may not be written out."""
+    """Drop the full stop of a sentence; ``1.000.000.`` and ``3;`` may not be written out."""
     if _UNFINISHED.fullmatch(source.text):
         return source
     kept = source.cut(0, len(source.text) - 1).strip()
