@@ -55,15 +55,26 @@ class Spec(Numbers, kw_only=True, frozen=True):
         unit, asked = _unit(tail), self.unit or counted_unit(self.counts)
         first, second, doubt = read_all(items, asked, unit, options.decimal)
         verdict = _judge(self, first, options)
-        if second is None or doubt is None or (doubt.native and verdict.credit):
+        if second is None or doubt is None:
             return verdict
-        echoes = (_echo(self, first), _echo(self, second))
-        return settle(verdict, _judge(self, second, options), doubt, echoes)
+        other = _judge(self, second, options)
+        twofold = [i for i, (a, b) in enumerate(zip(first, second, strict=True)) if a != b]
+        if doubt.native and all(_right(verdict, place) for place in twofold):
+            return verdict
+        if not (doubt.group_wins or any(_right(other, place) for place in twofold)):
+            return verdict
+        return settle(verdict, other, doubt, (_echo(self, first), _echo(self, second)))
 
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
         inside = "; ".join(shown(self, key) for key in self.keys())
         return f"({inside}) {shown_unit(self.unit)}".rstrip()
+
+
+def _right(verdict: Verdict, place: int) -> bool:
+    """Whether a coordinate is right."""
+    cells = verdict.cells
+    return bool(cells[place].credit) if cells else bool(verdict.credit)
 
 
 def _unit(tail: Source) -> TypedUnit | None:

@@ -103,7 +103,7 @@ REWRITES: dict[str, Rewrite] = {
 }
 """Name to pattern and replacement, in the order they are applied."""
 
-_ALWAYS = ("answer", "about", "x between numbers", "ties", "powers of ten in words")
+_ALWAYS = ("answer", "about", "classifiers", "x between numbers", "ties", "powers of ten in words")
 _RAISED = re.compile(r"[-+−–]?\d+·(?!10)\d{2,}")
 _STOPS = ".;।॥"
 _UNFINISHED = re.compile(r"[-+]?(?:\d+;|\d{1,3}(?:\.\d{3}){2,}\.)")
@@ -170,6 +170,7 @@ def _fold(source: Source) -> Source:
     for name, (pattern, new) in REWRITES.items():
         if name in concerned and name not in _ALWAYS:
             source = source.sub(pattern, new)
+    source = source.sub(*REWRITES["classifiers"])
     refuse_invisible(source)
     return source
 
