@@ -43,6 +43,8 @@ _PICTURES = re.compile(
     re.IGNORECASE,
 )
 """Words before the number of a picture, which is its place among the options."""
+_UNFINISHED = re.compile(r"[+/&|(\[{][\s*+/&|(\[{]*$")
+"""A sign behind which more was to come: no answer yet."""
 _FILLERS = re.compile(r"\b(?:and|und|or|option|answer|ans|এবং|ও|উত্তর)\b", re.IGNORECASE)
 
 
@@ -169,7 +171,7 @@ def _positions(spec: Spec, typed: str) -> list[int]:
     text = _PICTURES.sub(" ", source.text).translate(BANGLA_LETTERS)
     marks = re.findall(r"[A-Za-z]+|\d+|[^\s,;.&+()/|:!\[\]{}\"'*_।॥“”«»]", _FILLERS.sub(" ", text))
     found = [position for mark in marks for position in _mark(spec, mark)]
-    if not found:
+    if not found or _UNFINISHED.search(text):
         raise ReadError("option-expected", 1, safe(typed), _range(spec))
     return list(dict.fromkeys(found))
 
