@@ -44,11 +44,10 @@ class PartPlan:
         rules = template.rules
         self.answer = rules.part[index].answer
         self.of = answer_names(self.answer)
-        unknown = set(self.of) - set(template.units)
+        place = f"{template.file}: part {index + 1}"
+        unknown = set(self.of) - {*template.chain.given, *template.chain.by_name}
         if unknown:
-            raise BankError(
-                f"{template.path / 'template.toml'}: part {index + 1}: unknown {sorted(unknown)}"
-            )
+            raise BankError(f"{place}: answer: of: unknown to the solver: {sorted(unknown)}")
         self.known = {n for part in rules.part[:index] for n in answer_names(part.answer)}
         needed = frozenset().union(
             *(template.chain.needs(n, self.known - {n}) for n in self.of), frozenset()
@@ -65,7 +64,6 @@ class PartPlan:
         try:
             self.tolerances = _tolerances(self.answer, self.of)
         except (msgspec.ValidationError, ValueError) as error:
-            place = f"{template.path / 'template.toml'}: part {index + 1}"
             raise BankError(f"{place}: {error}") from None
         bounds = self.answer.get("accept", ()) if self.of else ()
         self.accept = [_Bound(template, str(text)) for text in bounds]

@@ -98,7 +98,7 @@ def test_shuffling_is_a_permutation_and_balanced():
         (("[draw]", "[draw"), "not valid TOML"),
         (("[draw]", 'where = ["f >"]\n[draw]'), "formula"),
         (("[draw]", 'where = ["g > 1"]\n[draw]'), "formula"),
-        (('of = ["p', 'of = ["q'), "part 1: unknown"),
+        (('of = ["p', 'of = ["q'), "part 1: answer: of: unknown"),
         (("[draw]", 'drop = ["nonsense"]\n[draw]'), "not a trap"),
     ],
 )
@@ -276,3 +276,10 @@ def test_a_phrase_may_follow_a_drawn_number(tmp_path):
     for seed in range(12):
         one = draw(template, seed)
         assert one.words["w"] == ("red", "green", "blue")[int(one.shown["a"].p) % 3]
+
+
+def test_a_number_that_the_solver_does_not_know_is_no_answer(tmp_path):
+    """Drawn quantities beside the model's are the template's own: no mistake leads to them."""
+    toml = BASE.replace("[[part]]", "side = { pick = [0, 1] }\n[[part]]").replace("p'_x", "side")
+    with pytest.raises(BankError, match=r"part 1: answer: of: unknown to the solver: \['side'\]"):
+        draw(make_bank(tmp_path, toml).template("mine"), 0)

@@ -187,7 +187,8 @@ def rows(form: dict) -> str:
     out = io.StringIO()
     filled = form.get("answers")
     pairs = filled.items() if isinstance(filled, dict) else [("1", filled)]
-    csv.writer(out, delimiter=";").writerows([("part", "answer"), *pairs])
+    shown = ((part, hex(v) if isinstance(v, int) else v) for part, v in pairs)
+    csv.writer(out, delimiter=";").writerows([("part", "answer"), *shown])
     return out.getvalue()
 
 

@@ -39,6 +39,7 @@ HOSTILE = {
     "many-powers": "2^2^2^2^2^2^2^2^2^2^2",
     "long-powers": "^".join(["9"] * 100),
     "factorial": "10000000!",
+    "circled": "➅ ⑵ 🄋",
     "null": "1\x002",
     "rtl": "\u202e1\u202d2",
     "surrogate": "\ud800",

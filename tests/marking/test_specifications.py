@@ -99,6 +99,7 @@ def test_a_specification_cannot_be_changed():
         ({"kind": "code", "output": "1", "traps": {"half": 1}}, "traps"),
         ({"kind": "table", "values": {"a": "1"}, "traps": {"half": "2"}}, "traps"),
         ({"kind": "match", "pairs": {"A": "1"}, "traps": {"half": "A2"}}, "traps"),
+        ({"kind": "order", "steps": ["A", "B", "A"], "before": [["A", "B"]]}, "stands twice"),
         ({"kind": "number", "value": "1", "colour": "red"}, "colour"),
         ({"kind": "number", "value": "1", "decimals": 1, "exact": True}, "only one of"),
     ],

@@ -8,6 +8,7 @@ import msgspec
 import pytest
 
 from quizgen.bank.folder import Bank
+from quizgen.errors import BankError
 from quizgen.marking.mark import mark
 from quizgen.question.compose import compose
 
@@ -140,3 +141,20 @@ def test_the_solution_prints_them(parts):
     said = "".join(getattr(part, "text", "") for part in solved[4].options[0])
     assert said == "cones: [en] Three pigments."
     assert [part.text for part in solved[5].options[0]] == ["[en] Rods have ", "1", ", no: one."]
+
+
+@pytest.mark.parametrize(
+    ("order", "said"),
+    [
+        ('["file", "sensor", "sensor"]', "'sensor' is twice"),
+        ('["film", "lens"]', "'film' is unknown"),
+    ],
+)
+def test_a_wrong_order_is_one_of_the_steps(tmp_path, order, said):
+    rules = RULES.replace('["file", "sensor", "lens"]', order)
+    folder = tmp_path / "templates" / "light" / "eyes"
+    folder.mkdir(parents=True)
+    (folder / "template.toml").write_text(rules, "utf-8")
+    (folder / "en.md").write_text(PROSE, "utf-8")
+    with pytest.raises(BankError, match=f"part 3: answer: traps.backwards: step {said}"):
+        compose(Bank(tmp_path).template("eyes"), 1, figures=False)

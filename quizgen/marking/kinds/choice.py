@@ -135,7 +135,7 @@ def _both(spec: Spec, piece: str) -> int:
     if match is None:
         return 0
     mark = match["mark"].translate(BANGLA_LETTERS)
-    position = int(mark) if mark.isdigit() else LETTERS.find(mark.upper()) + 1
+    position = int(mark) if mark.isdecimal() else LETTERS.find(mark.upper()) + 1
     meant = _meant(spec, match["words"])
     if not 1 <= position <= len(spec.choices()) or not meant:
         return 0
@@ -178,7 +178,7 @@ def _positions(spec: Spec, typed: str) -> list[int]:
 
 def _mark(spec: Spec, mark: str) -> list[int]:
     """Positions of one mark: ``B``, ``2`` or several letters run together."""
-    positions = [int(mark)] if mark.isdigit() else [LETTERS.find(c.upper()) + 1 for c in mark]
+    positions = [int(mark)] if mark.isdecimal() else [LETTERS.find(c.upper()) + 1 for c in mark]
     if not all(1 <= position <= len(spec.choices()) for position in positions):
         raise ReadError("option-expected", 1, mark, _range(spec))
     return positions

@@ -37,6 +37,8 @@ class Spec(Worded, kw_only=True, frozen=True):
         """``before`` must speak of the steps and contain no circle."""
         if not 1 <= len(self.steps) <= MOST_STEPS:
             raise ValueError(f"steps must be 1 to {MOST_STEPS}")
+        if len({*self.steps}) < len(self.steps):
+            raise ValueError("a step stands twice")
         for pair in self.before or ():
             if not {*pair} <= {*self.steps}:
                 raise ValueError(f"before: {pair[0]!r}, {pair[1]!r} are not both steps")

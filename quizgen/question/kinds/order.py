@@ -12,7 +12,16 @@ from quizgen.locale import word
 from quizgen.marking.kinds.order import Spec
 from quizgen.marking.mark import show as printed
 from quizgen.question.contract import Built, Control
-from quizgen.question.specs import answer_of, lettered, mixed, notes, reasoned, specification, why
+from quizgen.question.specs import (
+    answer_of,
+    complaint,
+    lettered,
+    mixed,
+    notes,
+    reasoned,
+    specification,
+    why,
+)
 
 
 def build(drawn: Draw, index: int) -> Built[Spec]:
@@ -21,6 +30,7 @@ def build(drawn: Draw, index: int) -> Built[Spec]:
     shown = taken(drawn, index)
     options = lettered(mixed(drawn, index, [*shown.names, *shown.extra]))
     marks = {name: mark for mark, name in options}
+    _check_traps(drawn, index)
     traps = _wrong_orders(answer.get("traps", {}), shown.names, marks)
     spec = specification(
         Spec,
@@ -45,6 +55,17 @@ def build(drawn: Draw, index: int) -> Built[Spec]:
             for trap, wrong in traps.items()
         },
     )
+
+
+def _check_traps(drawn: Draw, index: int) -> None:
+    """Refuse a wrong order of other steps, or of one step twice."""
+    answer = answer_of(drawn, index)
+    known = {*answer["steps"], *answer.get("distractors", ())}
+    for trap, order in answer.get("traps", {}).items():
+        for step in order:
+            if step not in known or order.count(step) > 1:
+                wrong = "twice" if step in known else "unknown"
+                raise complaint(drawn, index, f"answer: traps.{trap}: step {step!r} is {wrong}")
 
 
 def _wrong_orders(
