@@ -138,15 +138,15 @@ def draw(template: Template, seed: str | int, slot: str | int = "0") -> Draw:
         return _first(plan_of(template), str(seed), str(slot))
 
 
-@working_precision()
 def _first(plan: Plan, seed: str, slot: str) -> Draw:
-    """The first admissible try; the plan is made before, under no lock of the precision."""
+    """The first admissible try; the lock of the precision is held for one try at a time."""
     template = plan.template
     stem = f"{template.origin}/{template.rules.version}/{seed}/{slot}"
     reasons: Counter[str] = Counter()
     for attempt in range(MAX_TRIES):
-        shown, words = plan.candidate(stem, attempt)
-        result = admissible(plan, shown)
+        with working_precision():
+            shown, words = plan.candidate(stem, attempt)
+            result = admissible(plan, shown)
         if not isinstance(result, str):
             values, traps = result
             return Draw(template, seed, slot, attempt + 1, shown, words, values, traps)
