@@ -123,18 +123,19 @@ def _sentence(spec: Kind, verdict: Verdict, lang: str) -> str:
 
 def _reasons(spec: Kind, verdict: Verdict, lang: str) -> str:
     """Why what was chosen is wrong, as the question's author says it."""
-    known = spec.why.get(lang, {}) if isinstance(spec, Worded) else {}
+    known = spec.why.get(lang) if isinstance(spec, Worded) else None
     chosen = verdict.fields.get("because", ())
-    found = (
-        [known[label] for label in chosen if label in known] if isinstance(chosen, tuple) else []
-    )
-    return " ".join(dict.fromkeys(found))
+    if not known or not isinstance(chosen, tuple):
+        return ""
+    return " ".join(dict.fromkeys(known[label] for label in chosen if label in known))
 
 
 def _shared(verdict: Verdict, lang: str) -> str:
     """What all wrong cells have in common, behind the names of the wrong ones."""
+    if verdict.note not in NAMING:
+        return ""
     missed = [cell for cell in verdict.cells if cell.credit < 1]
-    if verdict.note not in NAMING or len({cell.note for cell in missed}) != 1:
+    if len({cell.note for cell in missed}) != 1:
         return ""
     note, fields = common_slip(missed)
     return "" if note.startswith("trap:") else say(lang, note, fields)

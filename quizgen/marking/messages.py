@@ -47,7 +47,9 @@ def say(lang: str, note: str, fields: Mapping[str, object]) -> str:
     if "{" not in sentence:
         return sentence
     shown = _Blanks({key: _shown(lang, v) for key, v in fields.items()})
-    return _CLAUSE.sub(lambda clause: _known(clause[1], shown), sentence).format_map(shown)
+    if "⟨" in sentence:
+        sentence = _CLAUSE.sub(lambda clause: _known(clause[1], shown), sentence)
+    return sentence.format_map(shown)
 
 
 def _known(clause: str, shown: Mapping[str, str]) -> str:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import operator
 import re
 import unicodedata
-from collections.abc import Iterable
-from functools import lru_cache
+from collections.abc import Callable, Iterable
+from functools import cache, lru_cache
 
 _BRITISH = (
     ("colour", "color"),
@@ -44,9 +45,13 @@ def fold(text: str) -> str:
     return text.replace(" ", "")
 
 
+MOST = 2
+"""Most typing slips allowed in any word."""
+
+
 def budget(term: str) -> int:
     """Typing slips allowed: none up to four letters or with digits, one up to eight, else two."""
-    return 0 if len(term) <= 4 or any(map(str.isdigit, term)) else 1 if len(term) <= 8 else 2
+    return 0 if len(term) <= 4 or any(map(str.isdigit, term)) else 1 if len(term) <= 8 else MOST
 
 
 def slips(first: str, second: str, most: int) -> int:
@@ -57,9 +62,14 @@ def slips(first: str, second: str, most: int) -> int:
     int
         ``most + 1`` if there are more than ``most``.
     """
+    return int(_distance()(first, second, score_cutoff=most))
+
+
+@cache
+def _distance() -> Callable[..., int]:
     from rapidfuzz.distance import OSA  # loaded when a word is not known as it stands
 
-    return int(OSA.distance(first, second, score_cutoff=most))
+    return OSA.distance
 
 
 def nearest_terms(typed: str, terms: Iterable[str]) -> tuple[list[str], int]:
@@ -73,8 +83,10 @@ def nearest_terms(typed: str, terms: Iterable[str]) -> tuple[list[str], int]:
     least = 3
     for term in terms:
         target = fold(term)
-        distance = slips(folded, target, 2)
-        if distance <= budget(target) and distance <= least:
+        if abs(len(target) - len(folded)) > MOST:
+            continue
+        distance = slips(folded, target, MOST)
+        if distance <= least and distance <= budget(target):
             best = [term] if distance < least else [*best, term]
             least = distance
     return best, least
@@ -92,15 +104,18 @@ def another_word(typed: str, term: str, known: Iterable[str]) -> bool:
     An opposite (``un-``, ``de-``, ``an-``), a known word, or two letters replaced.
     """
     word, wanted = fold(typed), fold(term)
-    if word in map(fold, known) or _stem(word) == wanted or _stem(wanted) == word:
+    stem, wanted_stem = _stem(word), _stem(wanted)
+    if stem == wanted or wanted_stem == word or word in map(fold, known):
         return True
-    if word[:2] != wanted[:2] and _stem(word) == _stem(wanted):
+    if word[:2] != wanted[:2] and stem == wanted_stem:
         return True
-    changed = sum(a != b for a, b in zip(word, wanted, strict=False))
-    same_letters = sorted(word) == sorted(wanted)
-    return len(word) == len(wanted) and changed == 2 and not same_letters
+    if len(word) != len(wanted):
+        return False
+    changed = sum(map(operator.ne, word, wanted))
+    return changed == 2 and sorted(word) != sorted(wanted)
 
 
+@lru_cache(maxsize=4096)
 def _stem(word: str) -> str:
     return _PREFIXES.sub("", word)
 

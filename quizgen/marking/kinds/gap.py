@@ -48,8 +48,8 @@ class Spec(Worded, kw_only=True, frozen=True):
         if len(words) != len(gaps):
             raise ReadError("item-count", 1, str(len(words)), [str(len(gaps))])
         cells = [_one(self, gap, word) for gap, word in zip(gaps, words, strict=True)]
-        if len(cells) == 1 and cells[0].credit == 1:
-            return cells[0]
+        if len(cells) == 1:
+            return self._reasoned(cells[0])
         read_as = "; ".join(cell.read_as for cell in cells)
         stopped = next((cell for cell in cells if cell.verdict == "ambiguous"), None)
         if stopped is not None:
@@ -59,9 +59,14 @@ class Spec(Worded, kw_only=True, frozen=True):
             for place, cell in enumerate(cells, 1)
             if cell.credit < 1
         )
-        if len(cells) == 1 and because and cells[0].graded:
-            return structs.replace(cells[0], fields={**cells[0].fields, "because": because})
-        return cells[0] if len(cells) == 1 else _together(cells, read_as, because)
+        return _together(cells, read_as, because)
+
+    def _reasoned(self, only: Verdict) -> Verdict:
+        """The verdict of the only gap, with what a reason can be given for."""
+        if only.credit == 1 or not only.graded:
+            return only
+        because = (self.reason(1, only.read_as),)
+        return structs.replace(only, fields={**only.fields, "because": because})
 
     def reason(self, place: int, word: str) -> str:
         """What a reason can be given for: this word in this gap, else any wrong one in it."""
