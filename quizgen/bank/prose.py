@@ -120,7 +120,11 @@ class Text:
 
 
 TIED = "\u00a0=\u00a0"
-"""``f = 50 mm`` stays on one line: the blanks around an equals sign do not break."""
+"""``f = 50 mm`` stays on one line: the blanks around an equals sign do not break.
+
+This holds in every output, also in plain text; ``question.filling.tied`` holds a formula to what
+follows it where an output could break between them.
+"""
 _SLOT = re.compile(r"\{\{\s*([A-Za-z_][\w']*)\s*\}\}")
 _MATH = re.compile(r"\$([^$\n]+)\$")
 _BANNED = re.compile(r"\{\{|\}\}|\{%|%\}|\{#|#\}")

@@ -44,13 +44,18 @@ class SlotRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     points: float | None = None
 
 
-class Blueprint(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
-    """What a paper consists of."""
+class Authored(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """What a blueprint's file says."""
 
     title: dict[str, str]
     slot: tuple[SlotRule, ...]
     minutes: int | None = None
     reference: tuple[str, ...] = ()
+
+
+class Blueprint(Authored, frozen=True):
+    """What a paper consists of: of slots, or of a topic within a time."""
+
     name: str = ""
     source: str = ""
     topic: str = ""
@@ -138,23 +143,23 @@ def _read(path: Path) -> Blueprint:
 
 def _convert(source: str, name: str, where: Path) -> Blueprint:
     try:
-        blueprint = msgspec.convert(parse_toml(source, where, BlueprintError), Blueprint)
+        found = msgspec.convert(parse_toml(source, where, BlueprintError), Authored)
     except msgspec.ValidationError as error:
         raise BlueprintError(f"{where}: {error}{_allowed(str(error))}") from error
-    _check(blueprint, where)
-    return msgspec.structs.replace(blueprint, name=name, source=source, file=where)
+    _check(found, where)
+    given = msgspec.structs.asdict(found)
+    return Blueprint(**given, name=name, source=source, file=where)
 
 
 def _allowed(message: str) -> str:
     if "unknown field" not in message:
         return ""
-    kind = SlotRule if "$.slot" in message else Blueprint
-    internal = {"name", "source", "topic", "budget", "file"} if kind is Blueprint else set()
-    names = sorted({f.encode_name for f in msgspec.structs.fields(kind)} - internal)
+    kind = SlotRule if "$.slot" in message else Authored
+    names = sorted(field.encode_name for field in msgspec.structs.fields(kind))
     return f" (allowed: {', '.join(names)})"
 
 
-def _check(blueprint: Blueprint, where: Path) -> None:
+def _check(blueprint: Authored, where: Path) -> None:
     if not blueprint.slot:
         raise BlueprintError(f"{where}: at least one [[slot]] is needed")
     for index, slot in enumerate(blueprint.slot, 1):

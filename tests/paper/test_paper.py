@@ -199,6 +199,7 @@ def test_shipped_blueprints_load(name):
     ("text", "message"),
     [
         ("title = {en = 'x'}\n[[slots]]\ncount = 1", "allowed: minutes, reference, slot, title"),
+        ("topic = 'optics'\ntitle = {en = 'x'}\n[[slot]]\ntier = 'A'", "unknown field `topic`"),
         (
             "title = {en = 'x'}\n[[slot]]\nkount = 1",
             "allowed: count, points, templates, tier, topic",
