@@ -1,0 +1,103 @@
+"""How numbers, names and formulas are written for people, against forms typed by hand."""
+
+from __future__ import annotations
+
+import pytest
+
+from quizgen.maths.notation import parse, people, to_text
+
+GAP = "\N{NARROW NO-BREAK SPACE}"
+
+
+@pytest.mark.parametrize(
+    ("machine", "person"),
+    [
+        ("0", "0"),
+        ("2026", "2026"),
+        ("-27", "−27"),
+        ("12345", f"12{GAP}345"),
+        ("1228800", f"1{GAP}228{GAP}800"),
+        ("-1228800.123456", f"−1{GAP}228{GAP}800.123456"),
+        ("1.2288e7", "1.2288·10⁷"),
+        ("2.2e-41", "2.2·10⁻⁴¹"),
+        ("6.0e-08", "6.0·10⁻⁸"),
+        ("-5e+10", "−5·10¹⁰"),
+        ("0.00012", "0.00012"),
+        ("0.000050", "5.0·10⁻⁵"),
+        ("0.00000", "0.00000"),
+        ("-7/1550", "−7/1550"),
+        ("1/12345", f"1/12{GAP}345"),
+        ("-∞", "−∞"),
+        ("5.0·10⁻⁵", "5.0·10⁻⁵"),
+    ],
+)
+def test_a_number(machine, person):
+    assert people.number(machine) == person
+    assert people.number(person.replace(GAP, "")) == person
+
+
+@pytest.mark.parametrize(
+    ("symbol", "person"),
+    [
+        ("f", "f"),
+        ("k1", "k₁"),
+        ("k_1", "k₁"),
+        ("n_12", "n₁₂"),
+        ("p'_x", "p′ₓ"),
+        ("p_x'", "p′ₓ"),
+        ("z''", "z″".replace("″", "′′")),
+        ("sigma", "σ"),
+        ("sigma_1", "σ₁"),
+        ("I_max", "Iₘₐₓ"),
+        ("N_b", "N_b"),
+        ("p'_y", "p′_y"),
+        ("SNR_1", "SNR₁"),
+        ("Delta", "Δ"),
+        ("Deltaz", "Δz"),
+        ("zbar", "z̄"),
+        ("Ghat", "Ĝ"),
+        ("x_plus", "x₊"),
+        ("red", "red"),
+        ("lower right", "lower right"),
+        ("1", "1"),
+    ],
+)
+def test_a_name(symbol, person):
+    assert people.name(symbol) == person
+
+
+@pytest.mark.parametrize(
+    ("typed", "person"),
+    [
+        ("f*X/Z", "f·X/Z"),
+        ("-x^2 - 12345*y", f"−x² − 12{GAP}345·y"),
+        ("x^(-2) + x^12 + x^(1/2) + x^2.5", "x⁻² + x¹² + x^(1/2) + x^2.5"),
+        ("exp(-x^2/(2*sigma_1^2))", "exp(−x²/(2·σ₁²))"),
+        ("sqrt(x) + log2(y) + log10(z) + pi", "√(x) + log₂(y) + log₁₀(z) + π"),
+        ("atan2(y, x) <= 1e-5 and x != 0", "atan2(y, x) ≤ 1·10⁻⁵ and x ≠ 0"),
+        ("u = f*X = (50 mm)*(30 m) ≈ 1.5 m²", "u = f·X = (50 mm)·(30 m) ≈ 1.5 m²"),
+        ("abs((-0.5))", "abs(−0.5)"),
+    ],
+)
+def test_a_formula(typed, person):
+    assert people.formula(typed) == person
+    assert people.formula(person) == person
+
+
+def test_constants_that_need_braces_get_brackets():
+    assert people.formula(to_text(parse("x*{-1/3} + {-2/1} + x^{-2/1}"))) == "x·(−1/3) + (−2) + x⁻²"
+
+
+@pytest.mark.parametrize(
+    ("text", "person"),
+    [
+        ("between -1 and 1", "between −1 and 1"),
+        ("(-1; -2)", "(−1; −2)"),
+        ("256 - 180 = 76", "256 − 180 = 76"),
+        ("a 16-bit image, 0-255, 3x3-5", "a 16-bit image, 0-255, 3x3-5"),
+        ("up to 65535.", f"up to 65{GAP}535."),
+        ("in 2026 the ISO 25600", f"in 2026 the ISO 25{GAP}600"),
+    ],
+)
+def test_a_sentence(text, person):
+    assert people.prose(text) == person
