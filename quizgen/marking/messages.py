@@ -7,6 +7,7 @@ from collections.abc import Mapping
 
 from quizgen.locale import known, table
 from quizgen.marking.echo import safe
+from quizgen.maths.notation import people
 
 _CLAUSE = re.compile("⟨([^⟩]*)⟩")
 """Part of a sentence that is left out where nothing is known to fill it in."""
@@ -46,10 +47,25 @@ def say(lang: str, note: str, fields: Mapping[str, object]) -> str:
     sentence = sentences(lang).get(note, "")
     if "{" not in sentence:
         return sentence
-    shown = _Blanks({key: _shown(lang, v) for key, v in fields.items()})
+    shown = _Blanks({key: _field(lang, key, value) for key, value in fields.items()})
     if "⟨" in sentence:
         sentence = _CLAUSE.sub(lambda clause: _known(clause[1], shown), sentence)
     return sentence.format_map(shown)
+
+
+_NAMES = frozenset({"names", "detail"})
+"""Fields that name quantities."""
+
+
+def _field(lang: str, key: str, value: object) -> str:
+    """What a blank is filled with; names of quantities and powers as people write them."""
+    if key == "power":
+        return people.power_of_ten(str(value))
+    if key in _NAMES and isinstance(value, (tuple, list)):
+        value = tuple(people.name(str(item)) for item in value)
+    elif key in _NAMES:
+        value = people.formula(str(value))
+    return _shown(lang, value)
 
 
 def _known(clause: str, shown: Mapping[str, str]) -> str:

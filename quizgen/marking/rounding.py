@@ -10,7 +10,8 @@ from quizgen.maths.numbers import decimal_text, magnitude, places, round_to
 from quizgen.maths.tolerance import Tolerance
 from quizgen.maths.values import Value
 
-LARGEST_PLAIN = 10**7
+LARGEST_PLAIN = 10**12
+"""Whole numbers below this are written out: a power of ten would hide their digits."""
 LARGEST_SHOWN = fmpq(10) ** 250
 
 
@@ -45,7 +46,15 @@ def exact_or_figures(value: Value, figures: int) -> str:
         needed = places(value)
         if needed is not None and needed < figures:
             return decimal_text(value, minus="-")
-    return with_figures(value, figures)
+    return _without_noughts(with_figures(value, figures), value)
+
+
+def _without_noughts(text: str, value: Value) -> str:
+    """Drop the noughts that end a mantissa which is exact without them: ``9.600e-8``."""
+    mantissa, e, power = text.partition("e")
+    if not e or isinstance(value, arb) or exact_value(text) != value:
+        return text
+    return f"{mantissa.rstrip('0').rstrip('.') if '.' in mantissa else mantissa}e{power}"
 
 
 def shown(tolerance: Tolerance, value: Value, form: str = "") -> str:
@@ -55,11 +64,20 @@ def shown(tolerance: Tolerance, value: Value, form: str = "") -> str:
     if tolerance.decimals is not None:
         return rounded(value, tolerance.decimals)
     if tolerance.sigfigs is not None:
-        return with_figures(value, tolerance.sigfigs)
+        return _with_sigfigs(value, tolerance.sigfigs, strict=tolerance.strict)
     if tolerance.exact and isinstance(value, fmpq):
         decimal = places(value) is not None and value.q != 1
         return exact_or_figures(value, 12) if decimal else str(value)
     return _for_tolerance(tolerance, value)
+
+
+def _with_sigfigs(value: Value, figures: int, *, strict: bool) -> str:
+    """Write as many figures as asked; a whole number that has no more is written out."""
+    text = with_figures(value, figures)
+    if strict or "e" not in text or abs(value) >= LARGEST_PLAIN:
+        return text
+    whole = isinstance(value, fmpq) and value.q == 1 and exact_value(text) == value
+    return str(value) if whole else text
 
 
 def _for_tolerance(tolerance: Tolerance, value: Value) -> str:

@@ -77,7 +77,8 @@ def test_both_readings_are_echoed(typed):
     value = "-123456" if typed[0] == "-" else "123456"
     found = mark({"kind": "number", "value": value, "exact": True}, typed)
     sign = typed[0].strip("+1")
-    first, second = f"{sign}123.456", f"{sign}123456"
+    sign = sign.replace("-", "−")
+    first, second = f"{sign}123.456", f"{sign}123\u202f456"
     assert (found.verdict, found.note) == ("ambiguous", "two-readings")
     assert dict(found.fields) == {"first": first, "second": second}
     assert found.read_as == f"{first} | {second}"
@@ -98,7 +99,7 @@ def test_both_readings_are_echoed(typed):
 )
 def test_a_slip_in_one_number_alone_is_named(key, typed, note):
     found = mark({"kind": "number", "value": key}, typed)
-    assert (found.note, found.credit, found.read_as) == (note, 0, typed)
+    assert (found.note, found.credit, found.read_as) == (note, 0, typed.replace("-", "−"))
 
 
 @pytest.mark.parametrize(

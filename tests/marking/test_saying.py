@@ -118,7 +118,7 @@ def test_slips_that_all_cells_share_are_said():
     verdict = mark(table, "-3 mm; -24")
     assert "The sign is wrong." in verdict.message
     assert "The sign is wrong." in mark(table, "3; -24").message
-    assert "D_2" in mark(table, "3; -24").message
+    assert "D₂" in mark(table, "3; -24").message
     both = chain(
         {"f": "mm", "x": "m", "y": "m", "z": "m"}, ("u", "f*x/z", "mm"), ("v", "f*y/z", "mm")
     )

@@ -20,6 +20,7 @@ from quizgen.marking.rounding import shown
 from quizgen.marking.specs import OneNumber
 from quizgen.marking.verdict import Verdict, with_values, wrong
 from quizgen.maths.constants import Scalar, exact_value
+from quizgen.maths.notation import people
 from quizgen.maths.tolerance import AngleTolerance
 from quizgen.maths.units import shown as shown_unit
 from quizgen.maths.values import Value
@@ -50,7 +51,7 @@ class Spec(OneNumber, kw_only=True, frozen=True):
 
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
-        return f"{shown(self, exact_value(self.value))}°"
+        return f"{people.number(shown(self, exact_value(self.value)))}°"
 
 
 def _resolved(spec: Spec, side: Side, options: Options) -> Verdict:

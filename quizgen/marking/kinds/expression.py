@@ -16,7 +16,7 @@ from quizgen.marking.rounding import exact_or_figures
 from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, ambiguous, correct, wrong
 from quizgen.maths.constants import exact_value
-from quizgen.maths.notation import to_text
+from quizgen.maths.notation import people, to_text
 from quizgen.maths.tree import Expr, names
 from quizgen.maths.values import Value
 
@@ -51,7 +51,7 @@ class Spec(Worded, kw_only=True, frozen=True):
 
     def show(self) -> str:
         """Return the key as it can be typed."""
-        return to_text(author(self.value, tuple(self.symbols)))
+        return people.formula(to_text(author(self.value, tuple(self.symbols))))
 
 
 def _check_domain(name: str, domain: Domain) -> None:
@@ -63,7 +63,7 @@ def _check_domain(name: str, domain: Domain) -> None:
 
 
 def _judge(spec: Spec, tree: Expr, options: Options) -> Verdict:
-    read_as = to_text(tree)
+    read_as = people.formula(to_text(tree))
     key = author(spec.value, tuple(spec.symbols))
     if tree == key:
         return correct(read_as, ground="proved")
@@ -81,7 +81,7 @@ def _judge(spec: Spec, tree: Expr, options: Options) -> Verdict:
 def _choose(spec: Spec, formula: Formula, verdict: Verdict, options: Options) -> Verdict:
     if formula.other is None or formula.doubt is None or (formula.doubt.native and verdict.credit):
         return verdict
-    echoes = (formula.read_as, to_text(formula.other))
+    echoes = (formula.read_as, people.formula(to_text(formula.other)))
     return settle(verdict, _judge(spec, formula.other, options), formula.doubt, echoes)
 
 
@@ -113,5 +113,6 @@ def _missing(spec: Spec, tree: Expr) -> str:
 
 def _short(value: Value) -> str:
     if isinstance(value, fmpq) and value.q < 1000:
-        return str(value)
-    return exact_or_figures(value.mid().fmpq() if isinstance(value, arb) else value, 4)
+        return people.number(str(value))
+    exact = value.mid().fmpq() if isinstance(value, arb) else value
+    return people.number(exact_or_figures(exact, 4))

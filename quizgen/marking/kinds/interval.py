@@ -16,7 +16,7 @@ from quizgen.marking.reading.source import Source
 from quizgen.marking.rounding import exact_or_figures
 from quizgen.marking.specs import Measured
 from quizgen.marking.verdict import HALF, Verdict, correct, partial, wrong
-from quizgen.maths.notation import ReadError
+from quizgen.maths.notation import ReadError, people
 from quizgen.maths.values import Value
 
 
@@ -154,6 +154,7 @@ def _bound(source: Source, decimal: str, side: str) -> Value | None:
 def _echo(interval: Interval) -> str:
     low = "-∞" if interval.low is None else exact_or_figures(interval.low, 12)
     high = "∞" if interval.high is None else exact_or_figures(interval.high, 12)
+    low, high = people.number(low), people.number(high)
     return (
         f"{'[' if interval.closed_low else ']'}{low}; {high}{']' if interval.closed_high else '['}"
     )

@@ -39,7 +39,7 @@ from quizgen.marking.rounding import shown
 from quizgen.marking.specs import OneNumber
 from quizgen.marking.verdict import Verdict, unreadable, with_values, wrong
 from quizgen.maths.constants import exact_value
-from quizgen.maths.notation import ReadError
+from quizgen.maths.notation import ReadError, people
 from quizgen.maths.units import shown as shown_unit
 from quizgen.maths.units import unit
 from quizgen.maths.values import Value
@@ -84,7 +84,7 @@ class Spec(OneNumber, kw_only=True, frozen=True):
         """Return the key as printed and as it can be typed back."""
         value = exact_value(self.value) * (100 if self.percent else 1)
         unit_text = "%" if self.percent else shown_unit(self.unit)
-        return f"{shown(self, value, self.form)} {unit_text}".rstrip()
+        return f"{people.number(shown(self, value, self.form))} {unit_text}".rstrip()
 
 
 def _with_unit(spec: Spec, typed: str, options: Options) -> Verdict:

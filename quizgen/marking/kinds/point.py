@@ -23,7 +23,7 @@ from quizgen.marking.rounding import shown
 from quizgen.marking.specs import Numbers, all_given, all_mistaken
 from quizgen.marking.verdict import Verdict, correct, partial, shared, with_values, wrong
 from quizgen.maths.constants import exact_value
-from quizgen.maths.notation import ReadError
+from quizgen.maths.notation import ReadError, people
 from quizgen.maths.units import shown as shown_unit
 from quizgen.maths.values import Value
 
@@ -67,7 +67,7 @@ class Spec(Numbers, kw_only=True, frozen=True):
 
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
-        inside = "; ".join(shown(self, key) for key in self.keys())
+        inside = "; ".join(people.number(shown(self, key)) for key in self.keys())
         return f"({inside}) {shown_unit(self.unit)}".rstrip()
 
 

@@ -13,7 +13,7 @@ from quizgen.marking.rounding import shown
 from quizgen.marking.specs import Numbers, gives
 from quizgen.marking.verdict import Verdict, correct, shared, wrong
 from quizgen.maths.constants import exact_value
-from quizgen.maths.notation import ReadError
+from quizgen.maths.notation import ReadError, people
 from quizgen.maths.values import Value
 
 
@@ -41,7 +41,7 @@ class Spec(Numbers, kw_only=True, frozen=True):
 
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
-        return "{" + "; ".join(shown(self, key) for key in self.keys()) + "}"
+        return "{" + "; ".join(people.number(shown(self, key)) for key in self.keys()) + "}"
 
 
 _ONE_COMMA = re.compile(r"[^\W\d]?[^,;|\d]*[\[({]? *[-+−–]?\d+,\d+ *[\])}]?[^,;|\d]*")

@@ -17,7 +17,7 @@ from quizgen.marking.reading.source import Source
 from quizgen.marking.specs import Measured, decode
 from quizgen.marking.verdict import Verdict, ambiguous, correct, partial, shared, with_values, wrong
 from quizgen.maths.constants import Scalar
-from quizgen.maths.notation import ReadError
+from quizgen.maths.notation import ReadError, people
 from quizgen.maths.tolerance import RULES
 
 Cell = number.Spec | quantity.Spec | angle.Spec
@@ -61,9 +61,8 @@ class Spec(Measured, kw_only=True, frozen=True):
         placed = _placed(typed, names, options.decimal)
         cells = [_one(self, name, placed.get(name), options) for name in names]
         stopped = next((c for c in cells if c.verdict == "ambiguous"), None)
-        read_as = "; ".join(
-            f"{name} = {c.read_as}" for name, c in zip(names, cells, strict=True) if c.read_as
-        )
+        shown = zip(map(people.name, names), cells, strict=True)
+        read_as = "; ".join(f"{name} = {c.read_as}" for name, c in shown if c.read_as)
         if stopped is not None:
             return ambiguous(stopped.note, stopped.read_as, **stopped.fields)
         trap = _trap(self, placed, options) if any(c.credit < 1 for c in cells) else ""
@@ -73,7 +72,7 @@ class Spec(Measured, kw_only=True, frozen=True):
 
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
-        return "; ".join(f"{name} = {cell(self, name).show()}" for name in self.values)
+        return "; ".join(f"{people.name(n)} = {cell(self, n).show()}" for n in self.values)
 
     def value_units(self) -> list[str]:
         """The unit of each cell."""

@@ -30,7 +30,7 @@ from quizgen.marking.rounding import exact_or_figures
 from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, ambiguous, correct, with_values, wrong
 from quizgen.maths.constants import Scalar, exact_value
-from quizgen.maths.notation import ReadError
+from quizgen.maths.notation import ReadError, people
 from quizgen.maths.operators import CONDITIONS
 from quizgen.maths.precision import working_precision
 from quizgen.maths.tree import Call, Expr
@@ -79,7 +79,7 @@ class Spec(Worded, kw_only=True, frozen=True):
         """Test a typed example."""
         numbers = _numbers(self, typed, options.decimal)
         env = {name: number.value for name, number in numbers.items()}
-        read_as = "; ".join(f"{name} = {number.read_as}" for name, number in numbers.items())
+        read_as = "; ".join(f"{people.name(n)} = {number.read_as}" for n, number in numbers.items())
         with working_precision(BITS):
             verdict = _tested(self, _extended(self, env), read_as)
         return with_values(verdict, *env.values())
@@ -87,8 +87,9 @@ class Spec(Worded, kw_only=True, frozen=True):
     def show(self) -> str:
         """Return one right example if there is one, else what an example must satisfy."""
         if self.example:
-            return "; ".join(f"{name} = {self.example[name]}" for name in self.names())
-        return "; ".join((self.predicate, *self.where))
+            given = {n: people.number(str(self.example[n])) for n in self.names()}
+            return "; ".join(f"{people.name(n)} = {value}" for n, value in given.items())
+        return "; ".join(map(people.formula, (self.predicate, *self.where)))
 
 
 @lru_cache(maxsize=1024)
@@ -133,11 +134,11 @@ def _domains(spec: Spec) -> Iterator[tuple[str, str]]:
         return
     for name, domain in spec.symbols.items():
         if domain == "positive":
-            yield f"{name} > 0", f"{name} > 0"
+            yield f"{name} > 0", people.formula(f"{name} > 0")
         elif isinstance(domain, list):
             low, high = (exact_or_figures(exact_value(bound), 12) for bound in domain)
             relation = f"{_signed(low)} <= {name} <= {_signed(high)}"
-            yield relation, f"{low} ≤ {name} ≤ {high}"
+            yield relation, people.formula(f"{low} ≤ {name} ≤ {high}")
 
 
 def _signed(text: str) -> str:
@@ -164,7 +165,7 @@ def _side(side: Expr, env: dict[str, Any]) -> str | None:
     value = compiled(side)(env)
     if value is None or isinstance(value, (type, bool)):
         return None
-    return exact_or_figures(value, 6)
+    return people.number(exact_or_figures(value, 6))
 
 
 _SEPARATOR = re.compile(rf"[;|\n]|,(?= )|(?<=\)),?|{NAMED_NEXT.pattern}")

@@ -14,7 +14,15 @@ from quizgen.marking.reading.literals import Doubt, pointed, tidied
 from quizgen.marking.reading.rewrites import normalise
 from quizgen.marking.reading.scalars import moved
 from quizgen.marking.reading.source import Rewrite, Source
-from quizgen.maths.notation import ReadError, double_reading, parse, parse_pieces, to_text, tokens
+from quizgen.maths.notation import (
+    ReadError,
+    double_reading,
+    parse,
+    parse_pieces,
+    people,
+    to_text,
+    tokens,
+)
 from quizgen.maths.notation.names import FUNCTIONS, folded
 from quizgen.maths.operators import CONDITIONS
 from quizgen.maths.tree import Call, Expr, Num
@@ -81,6 +89,7 @@ _NAMES, *_MARKS = FORMULA_REWRITES.values()
 
 _EULER = re.compile(r"(?<![^\W_])e ?(?:\^|\*\*) ?(?=[(\w-])")
 _ARGUMENTS = re.compile(rf"{MULTI_ARGUMENT} ?\([^()]*\d,\d")
+_GROUPED = re.compile(r"\d[. ]\d{3}(?!\d)")
 _LITERAL = re.compile(r"(?<![^\W\d_])(?<![\w'])\d+(?:[.,]\d+)*")
 
 
@@ -93,8 +102,8 @@ class Formula(msgspec.Struct, frozen=True):
 
     @property
     def read_as(self) -> str:
-        """Echo in the author's notation."""
-        return to_text(self.tree)
+        """Echo as people write it."""
+        return people.formula(to_text(self.tree))
 
 
 def read_formula(typed: str, symbols: Iterable[str], decimal: str = "auto") -> Formula:
@@ -148,7 +157,7 @@ def _refuse_bare_log(source: Source, declared: frozenset[str]) -> None:
 
 
 def _literals(source: Source, declared: frozenset[str], decimal: str) -> Formula:
-    if "," not in source.text and not re.search(r"\d\.\d{3}(?!\d)", source.text):
+    if "," not in source.text and not _GROUPED.search(source.text):
         return Formula(_tree(source, declared))
     if _ARGUMENTS.search(source.text) and decimal != "comma":
         if decimal == "auto":

@@ -14,6 +14,7 @@ from functools import lru_cache
 from quizgen.marking.reading import latex
 from quizgen.marking.reading.source import Rewrite, Source
 from quizgen.maths.notation import ReadError
+from quizgen.maths.notation.people import BELOW, FROM_BELOW
 from quizgen.maths.superscripts import LOWERED
 
 LONGEST = 200
@@ -29,7 +30,6 @@ _BLANKS = "\t \u00a0\u2000-\u200a\u202f\u205f\u3000"
 BANGLA_LETTERS = str.maketrans("কখগঘঙচছজঝঞ", "ABCDEFGHIJ")
 """Letters that count options in Bangla, and the Latin ones in the same places."""
 
-_SUBSCRIPTS = str.maketrans("₀₁₂₃₄₅₆₇₈₉ₓᵢ", "0123456789xi")
 _APPROXIMATE = r"ca\.|approx(?:\.|imately)?|about|circa|etwa|ungefähr|rund|প্রায়|প্রায়"
 
 _ABOUT = re.compile(rf"^ *(?:≈|~|∼|=|(?:{_APPROXIMATE})(?![^\W\d_])) *", re.IGNORECASE)
@@ -64,6 +64,12 @@ def _fraction(match: re.Match[str]) -> str:
     return f"({match[1]}+{digits})" if match[1] else f"({digits})"
 
 
+def _on_line(match: re.Match[str]) -> str:
+    """A subscript; behind a prime it would be a name of its own."""
+    below = match[0].translate(FROM_BELOW)
+    return f"_{below}" if match.string[match.start() - 1 : match.start()] == "'" else below
+
+
 REWRITES: dict[str, Rewrite] = {
     "direction marks around": (re.compile(f"^[{_DIRECTION}]+|[{_DIRECTION}]+$"), lambda _m: ""),
     "blanks": (re.compile(f"[{_BLANKS}]"), lambda _m: " "),
@@ -89,7 +95,7 @@ REWRITES: dict[str, Rewrite] = {
         re.compile(r"[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+"),
         lambda m: "^" + (f"({t})" if len(t := m[0].translate(LOWERED)) > 1 else t),
     ),
-    "subscripts": (re.compile(r"[₀-₉ₓᵢ]+"), lambda m: m[0].translate(_SUBSCRIPTS)),
+    "subscripts": (re.compile(f"[{BELOW}]+"), _on_line),
     "vulgar fractions": (re.compile(r"(\d*) ?([¼-¾⅐-⅞])"), _fraction),
     "classifiers": (re.compile(r"(?<=\d) ?-?(?:টি|টা|খানা|খানি)(?=[ ;,।.]|$)"), lambda _m: ""),
     "answer": (ANSWER, lambda _m: ""),

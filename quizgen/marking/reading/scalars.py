@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from quizgen.marking.reading.literals import Doubt, doubtful, pointed, tidied
 from quizgen.marking.reading.source import Source
 from quizgen.maths.constants import constant
-from quizgen.maths.notation import ReadError, parse_pieces, to_text, tokens
+from quizgen.maths.notation import ReadError, parse_pieces, people, to_text, tokens
 from quizgen.maths.notation.lexer import LARGEST_EXPONENT, LONGEST_NUMBER, SMALLEST_EXPONENT
 from quizgen.maths.tree import Expr
 from quizgen.maths.values import Value
@@ -29,7 +29,7 @@ class Number(msgspec.Struct, frozen=True):
     value : flint.fmpq or flint.arb
         Exact while rational. With ``percent`` it is the number before the sign.
     read_as : str
-        Echo in point notation.
+        Echo in point notation, as people write it.
     form : str
         ``integer``, ``decimal``, ``scientific``, ``fraction``, ``mixed`` or ``expression``.
     places : int
@@ -131,20 +131,24 @@ def quick(typed: str, decimal: str) -> Readings | None:
 
 def _decimal(sign: str, whole: str, digits: str) -> Number:
     top = int(whole + digits)
-    value = fmpq(-top if sign == "-" else top, 10 ** len(digits))
+    value = fmpq(-top if sign else top, 10 ** len(digits))
+    shown = whole if len(whole) <= people.LONGEST_UNGROUPED else people.grouped(whole)
+    if sign:
+        shown = people.MINUS + shown
     if digits:
         significant = len((whole + digits).lstrip("0")) or len(digits)
         return Number(
-            value, f"{sign}{whole}.{digits}", "decimal", len(digits), (significant, significant)
+            value, f"{shown}.{digits}", "decimal", len(digits), (significant, significant)
         )
     least = len(whole.strip("0")) or 1
-    return Number(value, sign + whole, "integer", 0, (least, len(whole.lstrip("0")) or 1))
+    return Number(value, shown, "integer", 0, (least, len(whole.lstrip("0")) or 1))
 
 
 def _quotient(sign: str, top: str, bottom: str) -> Number:
     value = fmpq(int(top), int(bottom))
     lowest = int(bottom) == value.q
-    return Number(-value if sign else value, f"{sign}{top}/{bottom}", "fraction", lowest=lowest)
+    read_as = f"{people.MINUS if sign else ''}{people.grouped(top)}/{people.grouped(bottom)}"
+    return Number(-value if sign else value, read_as, "fraction", lowest=lowest)
 
 
 def read_source(source: Source, decimal: str) -> Readings:
@@ -203,7 +207,7 @@ def _raised(number: Number, power: int) -> Number:
     least, most = number.figures
     return Number(
         number.value * fmpq(10) ** power,
-        f"{number.read_as}·10^{power}",
+        f"{number.read_as}·{people.power_of_ten(power)}",
         "scientific",
         max(0, number.places - power),
         (least if number.form == "decimal" else most, most),
@@ -216,7 +220,7 @@ def _ten(text: str) -> Number | None:
         return None
     power = _power(match["p"])
     sign = -1 if match["sign"] == "-" else 1
-    read_as = f"{'-' if sign < 0 else ''}10^{power}"
+    read_as = f"{people.MINUS if sign < 0 else ''}{people.power_of_ten(power)}"
     return Number(sign * fmpq(10) ** power, read_as, "scientific", max(0, -power), (1, 1))
 
 
@@ -229,8 +233,13 @@ def _fraction(text: str) -> Number | None:
     value = fmpq(int(match["top"]), int(match["bottom"]))
     negative = (match["sign"] == "-") != (match["minus"] == "-")
     lowest = int(match["bottom"]) == value.q and not match["minus"]
-    read_as = f"{match['sign'].strip('+')}{match['top']}/{match['minus']}{match['bottom']}"
+    top, bottom = people.grouped(match["top"]), people.grouped(match["bottom"])
+    read_as = f"{_signed(match['sign'])}{top}/{_signed(match['minus'])}{bottom}"
     return Number(-value if negative else value, read_as, "fraction", lowest=lowest)
+
+
+def _signed(sign: str) -> str:
+    return people.MINUS if sign == "-" else ""
 
 
 def _mixed(text: str) -> Number | None:
@@ -243,7 +252,7 @@ def _mixed(text: str) -> Number | None:
     part = fmpq(int(top), int(bottom))
     value = int(whole) + part
     lowest = part.q == int(bottom) and part < 1
-    read_as = f"{sign.strip('+')}{whole} {top}/{bottom}"
+    read_as = f"{_signed(sign)}{whole} {top}/{bottom}"
     return Number(-value if sign == "-" else value, read_as, "mixed", lowest=lowest)
 
 
@@ -268,7 +277,7 @@ def constant_number(tree: Expr) -> Number:
     value = constant(tree)
     if abs(value) > LARGEST_VALUE:
         raise ReadError("too-large", 1)
-    return Number(value, to_text(tree), "expression")
+    return Number(value, people.formula(to_text(tree)), "expression")
 
 
 def moved(error: ReadError, source: Source) -> ReadError:
