@@ -19,7 +19,7 @@ from quizgen.bank.rules import Scalar
 from quizgen.bank.template import Template
 from quizgen.errors import DrawError
 from quizgen.maths.chain import ChainStep
-from quizgen.maths.numbers import exact_text, rational, rounded_text
+from quizgen.maths.numbers import at_a_glance, exact_text, rational, rounded_text
 from quizgen.maths.precision import working_precision
 from quizgen.maths.systems import compile_expr, exact
 from quizgen.maths.units import factor
@@ -80,15 +80,17 @@ class Draw:
         return plan_of(self.template)
 
     def text(self, name: str) -> str:
-        """A quantity's number as it is shown: exact if that is short, else rounded."""
+        """A quantity's number as it is shown: exact if drawn or read at a glance, else rounded."""
         if name not in self._texts:
             value = self.shown_values[name]
-            self._texts[name] = exact_text(value) or rounded_text(value, figures=SHOWN_FIGURES)
+            exactly = None if self.is_rounded(name) else exact_text(value)
+            self._texts[name] = exactly or rounded_text(value, figures=SHOWN_FIGURES)
         return self._texts[name]
 
     def is_rounded(self, name: str) -> bool:
         """Whether a quantity's text is not its exact value."""
-        return exact_text(self.shown_values[name]) is None
+        value = self.shown_values[name]
+        return not at_a_glance(value) and (name not in self.shown or exact_text(value) is None)
 
     def computed(self, formula: str) -> Value:
         """Value of a formula of ``template.toml`` over the quantities in shown units."""

@@ -13,7 +13,7 @@ from functools import cache
 from typing import Any, Protocol
 
 from quizgen.errors import BankError, FormulaError
-from quizgen.maths.notation import parse
+from quizgen.maths.notation import parse, people
 from quizgen.maths.tree import Expr
 
 
@@ -60,9 +60,18 @@ class Printed(Protocol):
     def typed(self) -> str:
         """How it would be typed."""
 
+    @property
+    def text(self) -> str:
+        """How it is written in plain text, for people."""
 
-Inline = Words | Slot | Formula | Code | Styled | Printed
-"""A piece of a sentence; once filled, without ``Slot`` and ``Formula``."""
+
+@dataclass(frozen=True, slots=True)
+class About:
+    """Says that what follows is rounded: an equals sign in front of it becomes ≈."""
+
+
+Inline = Words | Slot | Formula | Code | Styled | About | Printed
+"""A piece of a sentence; once filled, without ``Slot``, ``Formula`` and ``About``."""
 Value = Callable[[Slot | Formula], tuple[Inline, ...]]
 """What a slot or a formula is replaced by."""
 
@@ -125,6 +134,7 @@ TIED = "\u00a0=\u00a0"
 This holds in every output, also in plain text; ``question.filling.tied`` holds a formula to what
 follows it where an output could break between them.
 """
+_EQUALS = re.compile(r"=(?=\s*$)")
 _SLOT = re.compile(r"\{\{\s*([A-Za-z_][\w']*)\s*\}\}")
 _MATH = re.compile(r"\$([^$\n]+)\$")
 _BANNED = re.compile(r"\{\{|\}\}|\{%|%\}|\{#|#\}")
@@ -240,7 +250,7 @@ def _inlines(tokens: Iterator[Any], until: str | None) -> Iterator[Inline]:
 def _plain(text: str) -> Words:
     if _BANNED.search(text):
         raise BankError(f"only {{{{ name }}}} may stand in double braces: {text.strip()!r}")
-    return Words(text.replace(" = ", TIED))
+    return Words(people.prose(text).replace(" = ", TIED))
 
 
 def _formula(text: str) -> Formula:
@@ -268,7 +278,13 @@ def slots(parts: Iterable[Block | Inline]) -> Iterator[str]:
 
 def fill(parts: tuple[Inline, ...], value: Value) -> tuple[Inline, ...]:
     """Put what ``value`` gives in the place of the slots and formulas of a sentence."""
-    return tuple(done for part in parts for done in _filled(part, value))
+    done: list[Inline] = []
+    for one in (one for part in parts for one in _filled(part, value)):
+        if not isinstance(one, About):
+            done.append(one)
+        elif done and isinstance(before := done[-1], Words):
+            done[-1] = Words(_EQUALS.sub("≈", before.text))
+    return tuple(done)
 
 
 def _filled(part: Inline, value: Value) -> tuple[Inline, ...]:

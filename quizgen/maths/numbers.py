@@ -19,7 +19,15 @@ from quizgen.maths.values import Value
 MINUS = "\u2212"
 LONGEST_DECIMAL = 6
 """A terminating decimal with more places than this is shown as a fraction or rounded."""
-LARGEST_DENOMINATOR = 9999
+LONGEST_SMALL = 24
+SMALL_DIGITS = 4
+"""Significant digits of a small number, such as 2.5·10⁻⁷, that is shown exactly all the same."""
+LARGEST_IN_FRACTION = 9999
+"""Fractions of larger numbers are not shown."""
+EASY = 20
+"""Numbers below this make a fraction that is read at a glance."""
+LARGEST_UNIT_FRACTION = 10_000
+"""Exposure times are written as 1/n."""
 LONGEST_NUMBER = 4000
 """Characters, and size of the power of ten, of a number that is read."""
 _WRITTEN = re.compile(
@@ -147,18 +155,30 @@ def fraction_text(value: fmpq, *, minus: str = MINUS) -> str:
 
 
 def short_decimal(value: Value) -> bool:
-    """Whether a value is a rational with a short terminating decimal."""
+    """Whether a value is a terminating decimal that is short, or small and of few digits."""
     if not is_exact(value):
         return False
     count = places(value)
-    return count is not None and count <= LONGEST_DECIMAL
+    if count is None or count > LONGEST_SMALL:
+        return False
+    return count <= LONGEST_DECIMAL or bool(abs(value) * fmpq(10) ** count < 10**SMALL_DIGITS)
+
+
+def at_a_glance(value: Value) -> bool:
+    """Whether the exact value says something: a short decimal, 2/3, 16/9, 1/125 but not 70/11."""
+    if short_decimal(value):
+        return True
+    if not is_exact(value):
+        return False
+    top, bottom = abs(int(value.p)), int(value.q)
+    return max(top, bottom) < EASY or (top == 1 and bottom < LARGEST_UNIT_FRACTION)
 
 
 def exact_text(value: Value, *, minus: str = MINUS) -> str | None:
     """The exact value as text: a short decimal, else a readable fraction, else None."""
     if short_decimal(value):
         return decimal_text(value, minus=minus)
-    if is_exact(value) and int(value.q) <= LARGEST_DENOMINATOR:
+    if is_exact(value) and max(abs(int(value.p)), int(value.q)) <= LARGEST_IN_FRACTION:
         return fraction_text(value, minus=minus)
     return None
 

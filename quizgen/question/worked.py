@@ -12,13 +12,14 @@ from typing import NamedTuple
 from quizgen import typeset
 from quizgen.bank.draw import Draw
 from quizgen.maths.chain import ChainStep
-from quizgen.maths.notation import to_text
+from quizgen.maths.notation import people, to_text
 from quizgen.maths.numbers import exact_text, rounded_text, short_decimal
 from quizgen.maths.precision import working_precision
 from quizgen.maths.systems import exact, taken_branch
 from quizgen.maths.tree import Expr, Sym, names
 from quizgen.maths.units import shown as unit_shown
-from quizgen.question.filling import Maths, quantity_text, with_unit
+from quizgen.question.filling import quantity_text, with_unit
+from quizgen.question.shown import Maths
 
 
 class Side(NamedTuple):
@@ -42,7 +43,8 @@ def worked(drawn: Draw, step: ChainStep) -> Maths:
     sides = [Side("=", typeset.layout(expr), to_text(expr))]
     if names(expr):
         sides.append(_with_numbers(drawn, expr))
-    sides += [side for side in _values(drawn, step) if side.typed != sides[-1].typed]
+    values = _values(drawn, step, about=sides[-1].sign == "≈")
+    sides += [side for side in values if side.typed != sides[-1].typed]
     signs = [side.sign for side in sides]
     nodes = [typeset.name(step.name), *(side.node for side in sides)]
     typed = "".join(f" {side.sign} {side.typed}" for side in sides)
@@ -66,14 +68,17 @@ def _node(drawn: Draw, name: str) -> typeset.Node:
 def _typed(drawn: Draw, name: str) -> str:
     """A quantity inside a typed formula: in brackets unless it is a number alone."""
     text = quantity_text(drawn, name)
-    return text if re.fullmatch(r"[0-9.]+", text) else f"({text})"
+    return text if re.fullmatch(rf"[0-9.{people.GAP}]+", text) else f"({text})"
 
 
-def _values(drawn: Draw, step: ChainStep) -> list[Side]:
-    """The exact value if it can be shown, and the rounded one if that says more."""
+def _values(drawn: Draw, step: ChainStep, *, about: bool) -> list[Side]:
+    """The exact value if it can be shown, and the rounded one if that says more.
+
+    Behind rounded numbers (``about``) nothing is equal, and only a short exact value says more.
+    """
     value, unit = drawn.shown_values[step.name], unit_shown(step.unit)
-    exactly = exact_text(value)
-    texts = [] if exactly is None else [("=", exactly)]
+    exactly = None if about and not short_decimal(value) else exact_text(value)
+    texts = [] if exactly is None else [("≈" if about else "=", exactly)]
     if not short_decimal(value):
         texts.append(("≈", rounded_text(value)))
     return [

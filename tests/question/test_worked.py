@@ -18,6 +18,7 @@ from quizgen.maths.notation import parse
 from quizgen.maths.numbers import rational
 from quizgen.question.compose import put_into_words
 from quizgen.question.filling import Filler, plain
+from quizgen.question.shown import Maths
 from quizgen.question.worked import worked
 
 BLANK = "\u00a0"
@@ -141,3 +142,29 @@ def test_the_solution_may_show_it():
     one = drawn(LENS, [("u", "f*X/Z", "mm")])
     shown = Filler(one, "en").blocks(parse_text("# T\nIt is {{ u }} wide.").stem)
     assert plain(shown[0].children).replace(BLANK, " ") == "It is 2.5 mm wide."
+
+
+def test_a_fraction_of_long_numbers_gives_way_to_its_decimal():
+    """70/11 says nothing to a reader, 2/3 does; behind a rounded number nothing is equal."""
+    given = {"a": ("mm", "70"), "b": ("", "11")}
+    one = drawn(given, [("u", "a/b", "mm"), ("w", "3*u", "mm"), ("s", "b*u", "mm")])
+    assert typed(one, "u")[0] == "u = a/b = (70 mm)/11 = 70/11 mm ≈ 6.364 mm"
+    assert typed(one, "w")[0] == "w = 3*u ≈ 3*(6.36364 mm) ≈ 19.09 mm"
+    assert typed(one, "s")[0] == "s = b*u ≈ 11*(6.36364 mm) ≈ 70 mm"
+    small = drawn({"a": ("", "2"), "b": ("", "3")}, [("u", "a/b", ""), ("w", "3*u", "")])
+    assert typed(small, "w")[0] == "w = 3*u = 3*(2/3) = 2"
+
+
+def test_a_rounded_value_is_never_said_to_be_equal():
+    one = drawn({"a": ("", "70"), "b": ("", "11")}, [("u", "a/b", ""), ("w", "3/2", "")])
+    shown = Filler(one, "en").blocks(parse_text("# T\n$u$ = {{ u }}, $w$ = {{ w }}.").stem)
+    assert plain(shown[0].children).replace(BLANK, " ") == "u ≈ 6.364, w = 1.5."
+
+
+def test_long_and_small_numbers_of_a_sentence_are_typeset():
+    one = drawn({"a": ("B", "1228800"), "b": ("", "1/4000000")}, [("u", "a*b", "B")])
+    (shown,) = Filler(one, "en").blocks(parse_text("# T\nOf {{ a }}, {{ b }}.").stem)
+    assert plain(shown.children) == "Of 1\u202f228\u202f800\u00a0B, 2.5·10⁻⁷."
+    assert [typeset.latex(part.node) for part in shown.children if isinstance(part, Maths)] == [
+        r"2.5 \cdot 10^{- 7}"
+    ]
