@@ -25,7 +25,7 @@ LAYERS = {
     "typeset": "errors locale maths",
     "bank": "errors outside files locale maths",
     "camera": "errors outside files png maths arrays",
-    "figures": "errors png locale arrays camera",
+    "figures": "errors png locale maths arrays camera",
     "marking": "errors outside locale maths",
     "question": "errors outside locale maths typeset bank figures marking",
     "paper": "errors outside files locale maths bank marking question",

@@ -28,7 +28,7 @@ from quizgen import typeset
 from quizgen.errors import BankError, FormulaError, RenderError
 from quizgen.maths.notation import parse, to_text
 from quizgen.maths.tree import Call, Expr, names
-from quizgen.question.filling import Maths
+from quizgen.question.shown import Maths
 from quizgen.typeset.layout import SIGNS
 from quizgen.typeset.nodes import ATOM, PRODUCT, Big, Func, Ident, Number, Op, Row, Scripts
 

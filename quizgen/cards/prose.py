@@ -17,7 +17,8 @@ from typing import Any, TypeGuard
 from quizgen import typeset
 from quizgen.bank.prose import Code, CodeBlock, Inline, Items, Paragraph, Styled, Table, Words
 from quizgen.figures import Figure
-from quizgen.question.filling import Maths, tied
+from quizgen.question.filling import tied
+from quizgen.question.shown import Maths
 from quizgen.typeset.nodes import RELATION, Node, Row
 
 _TITLE = re.compile(rb"<title>.*?</title>", re.DOTALL)
@@ -281,7 +282,7 @@ def _(part: Label, lang: str, *, ask: bool | None = None) -> str:
 
 @singledispatch
 def plain(part: object, *, ask: bool = False) -> str:
-    """One block, inline or tuple of them as text; formulas as they would be typed.
+    """One block, inline or tuple of them as text; formulas as Unicode can write them.
 
     Parameters
     ----------
@@ -312,7 +313,7 @@ def _(part: Words | Code, *, ask: bool = False) -> str:
 @plain.register
 def _(part: Maths, *, ask: bool = False) -> str:
     del ask
-    return part.typed
+    return part.text
 
 
 @plain.register
@@ -345,12 +346,12 @@ def _(part: Table, *, ask: bool = False) -> str:
 @plain.register
 def _(part: Display, *, ask: bool = False) -> str:
     del ask
-    return f"{part.maths.typed}\n"
+    return f"{part.maths.text}\n"
 
 
 @plain.register
 def _(part: Hole, *, ask: bool = False) -> str:
-    return f"{part.shown.typed} {'[...]' if ask else part.hidden.typed}\n"
+    return f"{part.shown.text} {'[...]' if ask else part.hidden.text}\n"
 
 
 @plain.register

@@ -216,7 +216,7 @@ class Conversation:
 
     def _solution(self, task: Task) -> None:
         for line in task.solved.lines:
-            say(line.maths.typed, "   ", "      ")
+            say(inline(line.maths), "   ", "      ")
             say(inline(line.why), "      ", "      ")
         say(self.words["answer"].format(answer=task.solved.answer), bold=True)
         solved = task.solved

@@ -16,6 +16,7 @@ from functools import lru_cache
 from quizgen.errors import BankError
 from quizgen.figures._parameters import Parameter, complete
 from quizgen.locale import languages
+from quizgen.maths.notation import people
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,7 +101,7 @@ def _render(name: str, items: tuple[tuple[str, float], ...], quiz: bool, lang: s
 
     module = figure_module(name)
     body, width, height = _body(name, items, quiz)
-    words = module.alt(dict(items), lang, quiz=quiz)
+    words = people.names_in(module.alt(dict(items), lang, quiz=quiz))
     return Figure(with_title(body, width, height, words, lang), words, width, height, module.DARK)
 
 

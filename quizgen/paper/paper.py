@@ -14,7 +14,7 @@ from quizgen.bank.prose import Block, CodeBlock
 from quizgen.bank.template import Template
 from quizgen.errors import BlueprintError, CodeError, DrawError
 from quizgen.locale import chosen
-from quizgen.maths.superscripts import RAISED
+from quizgen.maths.notation import people
 from quizgen.outside import located
 from quizgen.paper.blueprint import Blueprint, SlotRule, named_blueprint
 from quizgen.paper.choose import choose, variety, weights
@@ -81,11 +81,10 @@ class Paper:
 
     @property
     def variety_text(self) -> str:
-        """The number of possible papers, short: 40, or 3.1 × 10^27."""
+        """The number of possible papers, short: 40, or 3.1·10²⁷."""
         if self.variety < 10**6:
-            return str(self.variety)
-        mantissa, _, exponent = f"{Decimal(self.variety):.1e}".partition("e+")
-        return f"{mantissa} × 10{exponent.translate(RAISED)}"
+            return people.number(str(self.variety))
+        return people.number(f"{Decimal(self.variety):.1e}")
 
     @property
     def minutes(self) -> int:

@@ -26,9 +26,10 @@ from quizgen.maths.numbers import key_text, to_float, written
 from quizgen.maths.units import factor
 from quizgen.outside import located
 from quizgen.question.contract import Built, Control, Named
-from quizgen.question.filling import Filler
+from quizgen.question.filling import Filler, plain
 from quizgen.question.kinds import KINDS, build
 from quizgen.question.markup import blocks, inline
+from quizgen.question.shown import listed, pieces
 from quizgen.question.solution import Solution, solve
 
 Choice = tuple[str, tuple[Inline, ...]]
@@ -45,8 +46,8 @@ class Field:
         Name in the answer form, for example ``3b``.
     control : Control
         How it is answered.
-    hints : tuple of str
-        What to type, in the question's language.
+    asks : tuple of inlines
+        Sentences that say what to type, in the question's language.
     options : tuple of (str, inlines)
         Lettered choices, or the left side of a matching.
     targets : tuple of (str, inlines)
@@ -55,9 +56,19 @@ class Field:
 
     id: str
     control: Control
-    hints: tuple[str, ...]
+    asks: tuple[tuple[Inline, ...], ...]
     options: tuple[Choice, ...] = ()
     targets: tuple[Choice, ...] = ()
+
+    @property
+    def hints(self) -> tuple[str, ...]:
+        """What to type, as text."""
+        return tuple(map(plain, self.asks))
+
+    @property
+    def hint(self) -> tuple[Inline, ...]:
+        """What to type, as one run of sentences."""
+        return listed(self.asks, " ")
 
 
 @dataclass(frozen=True)
@@ -77,7 +88,7 @@ class Part:
             for mark, text in (*self.field.options, *self.field.targets)
         )
         listed = Markup("<ul>{}</ul>").format(choices) if choices else Markup("")
-        hints = Markup("<p><small>{}</small></p>").format(" ".join(self.field.hints))
+        hints = Markup("<p><small>{}</small></p>").format(inline(self.field.hint, lang))
         return Markup("").join((label, blocks(self.body, lang), listed, hints))
 
 
@@ -230,7 +241,7 @@ def _part(filler: Filler, index: int, number: str, built: Built[Any]) -> Part:
     field = Field(
         id=f"{number}{label}",
         control=built.control,
-        hints=KINDS[built.spec.kind].hints(built.spec, filler.lang),
+        asks=tuple(map(pieces, KINDS[built.spec.kind].hints(built.spec, filler.lang))),
         options=_choices(filler, built.options),
         targets=_choices(filler, built.targets),
     )

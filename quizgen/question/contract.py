@@ -12,6 +12,7 @@ from typing import Generic, Literal, Protocol, TypeVar
 
 from quizgen.bank.draw import Draw
 from quizgen.marking.specs import AnySpec
+from quizgen.question.shown import Shown
 
 S = TypeVar("S", bound=AnySpec)
 
@@ -95,8 +96,8 @@ class QuestionKind(Protocol[S]):
             If the authored answer is not complete.
         """
 
-    def hints(self, spec: S, lang: str) -> tuple[str, ...]:
+    def hints(self, spec: S, lang: str) -> tuple[Shown, ...]:
         """Sentences that tell the learner how to type the answer, from how it is marked."""
 
-    def printed(self, spec: S, lang: str) -> str:
+    def printed(self, spec: S, lang: str) -> Shown:
         """The key as the solution states it; empty where sentences tell it."""

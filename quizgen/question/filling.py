@@ -5,15 +5,14 @@ from __future__ import annotations
 import re
 from collections import deque
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from functools import lru_cache
 
 from quizgen import typeset
 from quizgen.bank.draw import Draw
 from quizgen.bank.prose import (
+    About,
     Block,
     Case,
-    Code,
     Formula,
     Inline,
     Slot,
@@ -24,27 +23,19 @@ from quizgen.bank.prose import (
     fill_text,
 )
 from quizgen.errors import BankError
-from quizgen.maths.notation import to_text
-from quizgen.maths.numbers import exact_text
-from quizgen.maths.superscripts import RAISED
+from quizgen.maths.notation import people, to_text
+from quizgen.maths.numbers import exact_text, rounded_text
 from quizgen.maths.tree import Expr
 from quizgen.maths.units import shown as unit_shown
 from quizgen.maths.values import Values
 from quizgen.question.contract import Named
+from quizgen.question.shown import Maths, pieces
 
 NBSP = "\u00a0"
 SHORT = 16
 """Characters up to which a formula is held together with what stands beside it."""
 _TAIL = re.compile(r"[^ \n]*(?: [=≈<>≤≥≠] [^ \n]*)?")
 """What belongs to a formula: punctuation, and the value that it is said to have."""
-
-
-@dataclass(frozen=True, slots=True)
-class Maths:
-    """A formula ready for printing: its layout, and how it would be typed."""
-
-    node: typeset.Node
-    typed: str
 
 
 class Filler:
@@ -129,7 +120,10 @@ class Filler:
             return self.sentence("words", name)
         if name not in self.known:
             raise BankError(self._complaint(f"{{{{ {name} }}}} is not a drawn quantity"))
-        return (Words(quantity_text(drawn, name)),)
+        if not drawn.is_rounded(name):
+            return pieces(quantity_text(drawn, name))
+        rounded = rounded_text(self.known[name])
+        return (About(), *pieces(with_unit(rounded, drawn.template.units.get(name, ""))))
 
     def _program(self, text: str) -> str:
         return in_program(text, self.drawn, self.known)
@@ -208,12 +202,11 @@ def quantity_text(drawn: Draw, name: str) -> str:
 def with_unit(text: str, unit: str) -> str:
     """A number and its unit; only the degree sign stands close."""
     shown = unit_shown(unit)
-    readable = re.sub(r"e(-?\d+)$", lambda m: f"·10{m[1].translate(RAISED)}", text)
-    return f"{readable}{'' if shown in {'', '°'} else NBSP}{shown}"
+    return f"{people.number(text)}{'' if shown in {'', '°'} else NBSP}{shown}"
 
 
 def plain(parts: Iterable[Inline]) -> str:
-    """Text of a filled sentence, with formulas as they are typed.
+    """Text of a filled sentence, for people.
 
     Raises
     ------
@@ -224,10 +217,20 @@ def plain(parts: Iterable[Inline]) -> str:
 
 
 def _plain(part: Inline) -> str:
-    if isinstance(part, Words | Code):
-        return part.text
     if isinstance(part, Styled):
         return plain(part.children)
-    if isinstance(part, Slot | Formula):
+    if isinstance(part, Slot | Formula | About):
         raise BankError("a sentence was used before its blanks were filled")
-    return part.typed
+    return part.text
+
+
+def as_typed(parts: Iterable[Inline]) -> str:
+    """Text of a filled sentence as it would be typed, to compare with what was."""
+    return "".join(
+        as_typed(part.children)
+        if isinstance(part, Styled)
+        else part.typed
+        if isinstance(part, Maths)
+        else _plain(part)
+        for part in parts
+    )

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+from typing import TypeVar
+
+from quizgen.bank.prose import Inline
 from quizgen.locale import word
 from quizgen.marking.specs import Measured
 from quizgen.maths.constants import exact_value
+from quizgen.maths.notation import people
 from quizgen.maths.numbers import to_float
 from quizgen.maths.units import shown
 from quizgen.question.specs import Numbers, texts_of
 
+T = TypeVar("T", bound=str | tuple[Inline, ...])
 
-def said(*sentences: str) -> tuple[str, ...]:
+
+def given(*sentences: T) -> tuple[T, ...]:
     """The sentences that are not empty."""
     return tuple(sentence for sentence in sentences if sentence)
 
@@ -31,8 +37,12 @@ def rounding(spec: Measured, key: Numbers, lang: str) -> str:
     if rule == "exact":
         return word(lang, "ask.whole" if _whole(spec, key) else "ask.exact")
     if rule == "rel":
-        return word(lang, "ask.rel", percent=f"{to_float(exact_value(number) * 100):g}")
-    return word(lang, "ask.abs", abs=number) if rule == "abs" else ""
+        return word(lang, "ask.rel", percent=_percent(str(number)))
+    return word(lang, "ask.abs", abs=people.number(str(number))) if rule == "abs" else ""
+
+
+def _percent(share: str) -> str:
+    return people.number(f"{to_float(exact_value(share) * 100):g}")
 
 
 def _whole(spec: Measured, key: Numbers) -> bool:

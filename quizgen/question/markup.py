@@ -19,7 +19,8 @@ from quizgen.bank.prose import (
     Table,
     Words,
 )
-from quizgen.question.filling import Maths, tied
+from quizgen.question.filling import tied
+from quizgen.question.shown import Maths
 
 
 @singledispatch

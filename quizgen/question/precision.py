@@ -11,6 +11,7 @@ from quizgen.maths.numbers import fraction, rounded_text
 from quizgen.maths.systems import NumberSystem, compile_expr, floats, singles
 from quizgen.maths.units import unit
 from quizgen.question.filling import with_unit
+from quizgen.question.shown import pieces
 
 FIGURES = 9
 """Significant figures that tell float32 from float64."""
@@ -26,7 +27,7 @@ def precision_table(drawn: Draw, lang: str) -> tuple[Block, ...]:
     for name in chosen:
         of = f"{name}: " if len(chosen) > 1 else ""
         for way, text in _ways(drawn, name):
-            rows.append(((Words(f"{of}{word(lang, f'precision.{way}')}"),), (Words(text),)))
+            rows.append(((Words(f"{of}{word(lang, f'precision.{way}')}"),), pieces(text)))
     return (Table(head, tuple(rows)),)
 
 
@@ -47,4 +48,4 @@ def _rounded_at_each_step(drawn: Draw, name: str, shown: str, numbers: NumberSys
         text = f"{env[name] / float(unit(shown).factor):.{FIGURES}g}"
     except (ZeroDivisionError, ValueError, OverflowError):
         return "-"
-    return with_unit(text.replace("e-0", "e-"), shown)
+    return with_unit(text, shown)

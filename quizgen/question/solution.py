@@ -11,12 +11,20 @@ from typing import Any
 
 from quizgen.bank.draw import Draw
 from quizgen.bank.prose import Block, Inline, Words
+from quizgen.marking.mark import show
+from quizgen.marking.specs import AnySpec, Numbers, OneNumber
 from quizgen.question.contract import Built
-from quizgen.question.filling import Filler, Maths
+from quizgen.question.filling import NBSP, Filler, plain
 from quizgen.question.kinds import KINDS
 from quizgen.question.precision import precision_table
-from quizgen.question.specs import mistake_text
+from quizgen.question.shown import Maths, Shown, pieces
+from quizgen.question.specs import written_down
 from quizgen.question.worked import worked
+
+
+def as_text(shown: tuple[Inline, ...]) -> str:
+    """Pieces as text with ordinary blanks before units."""
+    return plain(shown).replace(NBSP, " ")
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +41,12 @@ class Mistake:
 
     name: str
     sentence: tuple[Inline, ...]
-    value: str
+    shown: tuple[Inline, ...]
+
+    @property
+    def value(self) -> str:
+        """The answer that it gives, as text."""
+        return as_text(self.shown)
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,11 +59,16 @@ class PartSolution:
 
     label: str
     lines: tuple[Line, ...]
-    answer: str
+    shown: tuple[Inline, ...]
     mistakes: tuple[Mistake, ...]
     options: tuple[tuple[Inline, ...], ...] = ()
     reasons: tuple[Mistake, ...] = ()
     why: tuple[Inline, ...] = ()
+
+    @property
+    def answer(self) -> str:
+        """The key as text, as it can be typed back; empty where sentences tell it."""
+        return as_text(self.shown)
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,7 +116,7 @@ def _part(filler: Filler, index: int, built: Built[Any]) -> PartSolution:
             Line(worked(drawn, step), filler.sentence("steps", step.name))
             for step in drawn.steps(index)
         ),
-        answer=KINDS[spec.kind].printed(spec, filler.lang),
+        shown=pieces(KINDS[spec.kind].printed(spec, filler.lang)),
         mistakes=tuple(_mistakes(filler, built)),
         options=tuple(
             (*_right(filler, section, name), *_cited(built.source)) for section, name in built.right
@@ -110,8 +128,16 @@ def _part(filler: Filler, index: int, built: Built[Any]) -> PartSolution:
 
 def _mistakes(filler: Filler, built: Built[Any]) -> Iterator[Mistake]:
     for trap, wrong in built.mistakes.items():
-        text = mistake_text(wrong, built.spec.traps[trap])
-        yield Mistake(trap, filler.sentence("traps", trap), text)
+        spec = written_down(wrong, built.spec.traps[trap])
+        shown = pieces(_rounded(spec, filler.lang))
+        yield Mistake(trap, filler.sentence("traps", trap), shown)
+
+
+def _rounded(wrong: AnySpec, lang: str) -> Shown:
+    """A wrong answer; of numbers nobody wants to see the exact value."""
+    if isinstance(wrong, OneNumber | Numbers):
+        return show(wrong, lang)
+    return KINDS[wrong.kind].printed(wrong, lang)
 
 
 def _reasons(filler: Filler, built: Built[Any]) -> Iterator[Mistake]:
@@ -119,7 +145,7 @@ def _reasons(filler: Filler, built: Built[Any]) -> Iterator[Mistake]:
     right = {name for _, name in built.right}
     for mark, name in built.reasons:
         if name not in right:
-            yield Mistake(name, filler.sentence("reasons", name), mark)
+            yield Mistake(name, filler.sentence("reasons", name), (Words(mark),))
 
 
 def _cited(source: str) -> tuple[Inline, ...]:

@@ -19,7 +19,7 @@ from quizgen.maths.numbers import key_text, rational, short_decimal
 from quizgen.maths.units import SIMPLE
 from quizgen.maths.values import Value
 from quizgen.question.contract import Built, Named, S
-from quizgen.question.filling import Filler, plain
+from quizgen.question.filling import Filler, as_typed, plain
 
 LETTERS = "ABCDEFGHIJKL"
 OWN_KEYS = frozenset(
@@ -198,7 +198,7 @@ def synonyms(drawn: Draw, name: str) -> list[str]:
     """
     found: list[str] = []
     for lang in drawn.template.texts:
-        words = plain(Filler(drawn, lang).unfilled("gaps", name))
+        words = as_typed(Filler(drawn, lang).unfilled("gaps", name))
         found += [word.strip() for word in words.split("|")]
     return list(dict.fromkeys(found))
 
@@ -214,7 +214,7 @@ def exact_first(spec: T, key: Numbers, lang: str) -> str:
         ),
         lang,
     )
-    return exactly if exactly == rounded else f"{exactly} ≈ {rounded}"
+    return f"{exactly} ≈ {rounded}" if "/" in exactly else rounded
 
 
 def readable_fractions(key: Numbers) -> bool:
@@ -225,8 +225,8 @@ def readable_fractions(key: Numbers) -> bool:
     )
 
 
-def mistake_text(wrong: AnySpec, answer: Numbers) -> str:
-    """A wrong answer as it would be written down: like the key, rounded where it is exact.
+def written_down(wrong: AnySpec, answer: Numbers) -> AnySpec:
+    """A wrong answer as it would be given: like the key, rounded where that is exact.
 
     Parameters
     ----------
@@ -236,13 +236,13 @@ def mistake_text(wrong: AnySpec, answer: Numbers) -> str:
         The wrong answer.
     """
     if not isinstance(wrong, Measured):
-        return show(wrong)
+        return wrong
     freed: dict[str, object] = {"accept": None}
     if "form" in wrong.__struct_fields__:
         freed["form"] = ""
     if wrong.exact and not all(short_decimal(rational(text)) for text in texts_of(answer)):
         freed |= {"exact": False, "sigfigs": ROUNDED_MISTAKE}
-    return show(msgspec.structs.replace(wrong, **freed))
+    return msgspec.structs.replace(wrong, **freed)
 
 
 def texts_of(key: Numbers) -> list[str]:

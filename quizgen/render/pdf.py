@@ -25,8 +25,9 @@ from quizgen.errors import RenderError
 from quizgen.locale import in_script, marks, word
 from quizgen.paper.paper import Item, Paper
 from quizgen.question.compose import Field, Part, Question
-from quizgen.question.filling import Maths, tied
-from quizgen.question.solution import Line, PartSolution, Solution
+from quizgen.question.filling import tied
+from quizgen.question.shown import Maths
+from quizgen.question.solution import Line, Mistake, PartSolution, Solution
 from quizgen.render import fonts
 
 STANDARD: Final = "ua-1"
@@ -254,7 +255,7 @@ class _Sheet:
 
     def _field(self, questions: tuple[Question, ...], index: int) -> str:
         fields = [q.parts[index].field for q in questions]
-        hints = [f"#{string(' '.join(f.hints))};" if f.hints else "" for f in fields]
+        hints = [inline(f.hint, lang) for f, lang in zip(fields, self.langs, strict=True)]
         shown = f"#hint[{_each(self.langs, hints)}]" if any(hints) else ""
         return f"{self._options(questions, index)}\n{shown}\n#space({fields[0].control.lines})"
 
@@ -293,7 +294,7 @@ class _Sheet:
 
     def _answer(self, part: PartSolution, lang: str) -> str:
         name = word(lang, "solution.answer")
-        said = f"#strong({string(name + ':')}); #{string(part.answer)};"
+        said = f"#strong({string(name + ':')}); {inline(part.shown, lang)}"
         options = [inline(option, lang) for option in part.options]
         if len(options) == 1:
             return f'{said}#" - ";{options[0]}'
@@ -315,10 +316,9 @@ class _Sheet:
 
     def _mistakes(self, solution: Solution) -> str:
         rows = [
-            f"#mistake({string(f'({part.label}) ' if part.label else '')}, {string(m.value)}, "
-            f"[{inline(m.sentence, solution.lang)}])"
+            _mistake(part.label, mistake, solution.lang)
             for part in solution.parts
-            for m in part.mistakes
+            for mistake in part.mistakes
         ]
         if not rows:
             return ""
@@ -328,11 +328,13 @@ class _Sheet:
 def _reasons(part: PartSolution, lang: str) -> str:
     """Why the answer of a part is right, and why each other choice is wrong."""
     why = [f"#block(inset: (left: 0.7em))[{inline(part.why, lang)}]"] if part.why else []
-    wrong = [
-        f"#mistake({string('')}, {string(m.value)}, [{inline(m.sentence, lang)}])"
-        for m in part.reasons
-    ]
+    wrong = [_mistake("", reason, lang) for reason in part.reasons]
     return "\n".join([*why, *wrong])
+
+
+def _mistake(label: str, mistake: Mistake, lang: str) -> str:
+    name = string(f"({label}) " if label else "")
+    return f"#mistake({name}, [{inline(mistake.shown, lang)}], [{inline(mistake.sentence, lang)}])"
 
 
 def _heading(section: str, lang: str) -> str:

@@ -19,13 +19,13 @@ from quizgen.bank.prose import (
 )
 from quizgen.locale import word
 from quizgen.paper.paper import Item
-from quizgen.question.filling import Maths
+from quizgen.question.shown import Maths
 from quizgen.question.solution import PartSolution
 
 
 @singledispatch
 def inline(part: Inline | tuple[Inline, ...]) -> str:
-    """Inlines as text; formulas as they would be typed."""
+    """Inlines as text; formulas as Unicode can write them."""
     raise TypeError(type(part).__name__)
 
 
@@ -46,7 +46,7 @@ def _styled(part: Styled) -> str:
 
 @inline.register
 def _maths(part: Maths) -> str:
-    return part.typed
+    return part.text
 
 
 def blocks(parts: Iterable[Block]) -> Iterator[str]:
@@ -100,7 +100,7 @@ def question_text(item: Item) -> str:
 def _solution(part: PartSolution, lang: str) -> Iterator[str]:
     yield f"{word(lang, 'solution.steps')}:"
     for line in part.lines:
-        yield f"   {line.maths.typed}"
+        yield f"   {inline(line.maths)}"
         yield f"      {inline(line.why)}"
     yield f"{word(lang, 'solution.answer')}: {part.answer}".rstrip()
     yield from (f"   - {inline(option)}" for option in part.options)

@@ -7,7 +7,9 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from quizgen.errors import RenderError
+from quizgen.maths.notation import people
 from quizgen.maths.numbers import places
+from quizgen.maths.superscripts import LOWERED
 from quizgen.typeset.nodes import (
     NEGATIVE,
     PRODUCT,
@@ -27,7 +29,8 @@ RELATIONS = frozenset(["=", "≠", "<", "≤", ">", "≥", "≈", "∝", "→", 
 _DIGITS = r"\d[\d\u0020\u00a0\u2009\u202f]*(?:[.,]\d+)?"
 _NUMBER = re.compile(
     rf"(?P<sign>[-−+]?)(?P<digits>{_DIGITS})"
-    rf"(?:/(?P<bottom>{_DIGITS})|(?:[eE]|\s*[·×*]\s*10\^)(?P<power>[-−+]?\d+))?"
+    rf"(?:/(?P<bottom>{_DIGITS})|(?:[eE]|\s*[·×*]\s*10\^)(?P<power>[-−+]?\d+)"
+    r"|·10(?P<raised>[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+))?"
 )
 
 
@@ -38,7 +41,7 @@ def number(value: Fraction | int | str, lang: str = "en") -> Node:
     ----------
     value : Fraction, int or str
         A rational is shown exactly (as an integer or a fraction). A text keeps its digits:
-        ``2.50``, ``-3``, ``20/3``, ``1.2e-5``.
+        ``2.50``, ``-3``, ``20/3``, ``1.2e-5``. Long ones are grouped either way.
     lang : str
         Language of the reader. English and Bangla both write Western digits and a point.
 
@@ -53,17 +56,23 @@ def number(value: Fraction | int | str, lang: str = "en") -> Node:
     match = _NUMBER.fullmatch(value.strip())
     if match is None:
         raise RenderError(f"cannot show {value!r} as a number")
-    node: Node = Number(match["digits"].strip())
+    node: Node = _digits(match["digits"])
     if match["bottom"]:
-        node = Frac(node, Number(match["bottom"].strip()))
-    elif match["power"]:
-        node = Row((node, Op("·"), power_of_ten(int(match["power"].replace("−", "-")))), PRODUCT)
+        node = Frac(node, _digits(match["bottom"]))
+    elif power := match["power"] or match["raised"]:
+        exponent = power.translate(LOWERED).replace("−", "-")
+        node = Row((node, Op("·"), power_of_ten(int(exponent))), PRODUCT)
     return negative(node) if match["sign"] in {"-", "−"} else node
 
 
+def _digits(text: str) -> Number:
+    """Digits in groups, however they were grouped before."""
+    return Number(people.grouped("".join(text.split())))
+
+
 def _rational(value: Fraction) -> Node:
-    top: Node = Number(str(abs(value.numerator)))
-    node = top if value.denominator == 1 else Frac(top, Number(str(value.denominator)))
+    top: Node = _digits(str(abs(value.numerator)))
+    node = top if value.denominator == 1 else Frac(top, _digits(str(value.denominator)))
     return negative(node) if value < 0 else node
 
 

@@ -157,13 +157,13 @@ def test_csv_gives_every_text_back(deck):
     assert row[3] == row[4] == text
 
 
-def test_csv_has_a_row_per_card_and_typed_formulas(deck):
+def test_csv_has_a_row_per_card_and_formulas_in_plain_text(deck):
     rows = list(csv.DictReader(io.StringIO(as_csv(deck).decode("utf-8-sig"), newline="")))
     sides = sum(1 if note.form == "cloze" else len(note.cards()) for note in deck.notes)
     assert len(rows) == sides
     assert len({row["id"] for row in rows}) == sides
-    projection = next(row for row in rows if "p'_x = f*p_x/p_z" in row["back"])
-    assert "p'_x = [...]" in projection["front"]
+    projection = next(row for row in rows if "p′ₓ = f·pₓ/p_z" in row["back"])
+    assert "p′ₓ = [...]" in projection["front"]
     assert not any(re.search(r"\\\(|<p>|<div", row["front"] + row["back"]) for row in rows)
 
 

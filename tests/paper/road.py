@@ -74,10 +74,17 @@ def typed(field: Printed, printed: str, side: int = 0) -> str:
 
 
 def _place(field: Printed, name: str) -> int:
-    """Where a name stands in the hint."""
-    found = re.search(rf"(?<!\w){re.escape(name)}(?!\w)", field.hint)
+    """Where a name stands in the hint, which shows how to type it where names are typed."""
+    hint, name = _on_line(field.hint), _on_line(name)
+    found = re.search(rf"(?<!\w){re.escape(name)}(?!\w)", hint)
     assert found, f"{field.template}: the hint does not name {name}: {field.hint}"
     return found.start()
+
+
+def _on_line(text: str) -> str:
+    """A text without subscripts, as a person at a keyboard reads it."""
+    plain = text.translate(str.maketrans("₀₁₂₃₄₅₆₇₈₉ₓ′", "0123456789x'"))
+    return plain.replace("_", "")
 
 
 class Desk:

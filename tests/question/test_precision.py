@@ -13,7 +13,7 @@ from quizgen.question.precision import precision_table
 
 
 def shown(text: str) -> float:
-    mantissa, _, power = text.partition("·10")
+    mantissa, _, power = text.replace("\u202f", "").partition("·10")
     digits = power.translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789"))
     return float(mantissa) * 10.0 ** int(digits or 0)
 

@@ -7,7 +7,8 @@ import pytest
 from quizgen import typeset
 from quizgen.bank.prose import Words
 from quizgen.maths.notation import parse
-from quizgen.question.filling import Maths, plain, tied
+from quizgen.question.filling import plain, tied
+from quizgen.question.shown import Maths
 
 
 def maths(text):
@@ -22,7 +23,7 @@ def maths(text):
         ((maths("u"), Words(" = "), maths("v"), Words(". So")), ["u = v.", " So"]),
         ((maths("u"), maths("v")), ["u", "v"]),
         ((maths("u"), Words(" and "), maths("v")), ["u", " and ", "v"]),
-        ((maths("x^2 + y^2 + z^2 + w^2"), Words(" = 3")), ["x^2 + y^2 + z^2 + w^2", " = 3"]),
+        ((maths("x^2 + y^2 + z^2 + w^2"), Words(" = 3")), ["x² + y² + z² + w²", " = 3"]),
         ((), []),
     ],
 )

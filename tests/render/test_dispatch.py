@@ -6,10 +6,10 @@ from typing import get_args
 
 import pytest
 
-from quizgen.bank.prose import Block, CodeBlock, Formula, Inline, Printed, Slot, Words
+from quizgen.bank.prose import About, Block, CodeBlock, Formula, Inline, Printed, Slot, Words
 from quizgen.errors import RenderError
 from quizgen.question import markup
-from quizgen.question.filling import Maths
+from quizgen.question.shown import Maths
 from quizgen.render import pdf, text
 from quizgen.typeset import latex, mathml, nodes, spoken, typst
 
@@ -34,7 +34,7 @@ def test_a_stranger_is_refused_by_name(printer):
 
 @pytest.mark.parametrize("inline", [markup.inline, pdf.inline, text.inline])
 def test_every_piece_of_a_filled_sentence_has_a_rule(inline):
-    filled = set(get_args(Inline)) - {Slot, Formula, Printed} | {Maths, tuple}
+    filled = set(get_args(Inline)) - {Slot, Formula, About, Printed} | {Maths, tuple}
     assert inline.registry.keys() - {object} == filled
     with pytest.raises(TypeError, match="Slot"):
         inline(Slot("f"), *["en"] * (inline is not text.inline))

@@ -12,8 +12,8 @@ import pytest
 from quizgen import typeset
 from quizgen.bank.prose import Words
 from quizgen.maths.notation import parse
-from quizgen.question.filling import Maths
 from quizgen.question.markup import inline
+from quizgen.question.shown import Maths
 from quizgen.render import fonts
 from quizgen.render.html import _style
 

@@ -12,7 +12,7 @@ from quizgen.cards.note import Note
 from quizgen.cards.prose import Hole
 from quizgen.cards.wish import Wish
 from quizgen.errors import BankError
-from quizgen.question.filling import Maths
+from quizgen.question.shown import Maths
 from quizgen.typeset.nodes import Row
 
 

@@ -134,11 +134,12 @@ def answer(part: PartSolution) -> Blocks:
 
 
 def _keyed(part: PartSolution, options: tuple[Any, ...]) -> Blocks:
-    label = f"({part.label}) " if part.label else ""
-    said: list[Any] = [Styled("strong", (Words(f"{label}{part.answer}".rstrip()),))]
+    label = f"({part.label})" if part.label else ""
+    lead = (Words(f"{label} " if part.shown else label),) if label else ()
+    said: list[Any] = [Styled("strong", (*lead, *part.shown))]
     for option in options:
-        said += [Words(" – " if part.answer else " "), *option]
-    return (Paragraph(tuple(said)),) if label or part.answer or options else ()
+        said += [Words(" – " if part.shown else " "), *option]
+    return (Paragraph(tuple(said)),) if label or part.shown or options else ()
 
 
 def steps(keys: list[Key], index: int) -> Iterator[Any]:
@@ -160,7 +161,7 @@ def _more(key: Key, index: int) -> Blocks:
     if solution.check:
         found.append(Fold(word(lang, "solution.check"), solution.check))
     mistakes = tuple(
-        (Paragraph((Words(f"{mistake.value} – "), *mistake.sentence)),)
+        (Paragraph((*mistake.shown, Words(" – "), *mistake.sentence)),)
         for mistake in (*part.reasons, *part.mistakes)
     )
     if mistakes:

@@ -6,7 +6,7 @@ from quizgen.bank.draw import Draw
 from quizgen.locale import word
 from quizgen.marking.kinds.angle import Spec
 from quizgen.question.contract import Built
-from quizgen.question.hints import rounding, said
+from quizgen.question.hints import given, rounding
 from quizgen.question.kinds.number import only
 from quizgen.question.specs import exact_first, numeric
 
@@ -18,7 +18,7 @@ def build(drawn: Draw, index: int) -> Built[Spec]:
 
 def hints(spec: Spec, lang: str) -> tuple[str, ...]:
     """Degrees and rounding."""
-    return said(word(lang, "ask.degrees"), rounding(spec, spec.value, lang))
+    return given(word(lang, "ask.degrees"), rounding(spec, spec.value, lang))
 
 
 def printed(spec: Spec, lang: str) -> str:

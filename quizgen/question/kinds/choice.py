@@ -8,7 +8,7 @@ from quizgen.locale import word
 from quizgen.marking.kinds.choice import Spec
 from quizgen.marking.mark import show as printed
 from quizgen.question.contract import Built, Control
-from quizgen.question.filling import Filler, plain
+from quizgen.question.filling import Filler, as_typed
 from quizgen.question.specs import (
     answer_of,
     complaint,
@@ -34,7 +34,7 @@ def offered(drawn: Draw, index: int, control: Control) -> Built[Spec]:
     order = mixed(drawn, index, taken(drawn, index).names)
     right = [place for place, name in enumerate(order, 1) if holds(drawn, conditions[name])]
     filler = Filler(drawn, drawn.template.languages[0])
-    wordings = [plain(filler.sentence("options", name)) for name in order]
+    wordings = [as_typed(filler.sentence("options", name)) for name in order]
     options = lettered(order)
     given = {"options": wordings, "correct": right, "why": why(drawn, options)}
     return Built(

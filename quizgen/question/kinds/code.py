@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from quizgen.bank.draw import Draw
+from quizgen.bank.prose import Code
 from quizgen.locale import word
 from quizgen.marking.kinds.code import Spec
-from quizgen.marking.mark import show as printed
+from quizgen.marking.mark import show
 from quizgen.question.contract import Built, Control
 from quizgen.question.filling import in_program
+from quizgen.question.shown import Shown
 from quizgen.question.specs import answer_of, mistaken, notes, specification
 
 
@@ -32,4 +34,6 @@ def hints(_spec: Spec, lang: str) -> tuple[str, ...]:
     return (word(lang, "ask.code"),)
 
 
-__all__ = ["build", "hints", "printed"]
+def printed(spec: Spec, lang: str) -> Shown:
+    """The output as it stands in a terminal."""
+    return (Code(show(spec, lang)),)

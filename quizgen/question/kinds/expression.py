@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from quizgen import typeset
 from quizgen.bank.draw import Draw
-from quizgen.locale import word
+from quizgen.bank.prose import Code
 from quizgen.marking.kinds.expression import Spec
-from quizgen.marking.mark import show as printed
+from quizgen.marking.reading.formulas import author
+from quizgen.maths.notation import to_text
 from quizgen.question.contract import Built
+from quizgen.question.shown import Maths, Shown, said
 from quizgen.question.specs import answer_of, mistaken, notes, specification
+
+EXAMPLE = "f*X/Z"
+"""A formula as it is typed."""
 
 
 def build(drawn: Draw, index: int) -> Built[Spec]:
@@ -17,9 +23,12 @@ def build(drawn: Draw, index: int) -> Built[Spec]:
     return Built(spec, mistakes=mistaken(spec, "value"))
 
 
-def hints(_spec: Spec, lang: str) -> tuple[str, ...]:
+def hints(_spec: Spec, lang: str) -> tuple[Shown, ...]:
     """How a formula is typed."""
-    return (word(lang, "ask.expression"),)
+    return (said(lang, "ask.expression", example=(Code(EXAMPLE),)),)
 
 
-__all__ = ["build", "hints", "printed"]
+def printed(spec: Spec, _lang: str) -> Shown:
+    """The formula as it is written by hand."""
+    formula = author(spec.value, tuple(spec.symbols))
+    return (Maths(typeset.layout(formula, inline=True), to_text(formula)),)

@@ -7,7 +7,7 @@ from quizgen.locale import word
 from quizgen.marking.kinds.interval import Spec
 from quizgen.marking.mark import show as printed
 from quizgen.question.contract import Built
-from quizgen.question.hints import rounding, said
+from quizgen.question.hints import given, rounding
 from quizgen.question.specs import mistaken, specification
 
 
@@ -19,7 +19,7 @@ def build(drawn: Draw, index: int) -> Built[Spec]:
 
 def hints(spec: Spec, lang: str) -> tuple[str, ...]:
     """How an interval is typed, and rounding."""
-    return said(word(lang, "ask.interval"), rounding(spec, spec.value, lang))
+    return given(word(lang, "ask.interval"), rounding(spec, spec.value, lang))
 
 
 __all__ = ["build", "hints", "printed"]

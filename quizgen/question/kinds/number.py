@@ -9,7 +9,7 @@ from quizgen.marking.mark import show
 from quizgen.maths.numbers import key_text
 from quizgen.maths.values import Value
 from quizgen.question.contract import Built
-from quizgen.question.hints import rounding, said, unit
+from quizgen.question.hints import given, rounding, unit
 from quizgen.question.specs import exact_first, numeric
 
 
@@ -27,7 +27,7 @@ def build(drawn: Draw, index: int) -> Built[Spec]:
 def hints(spec: Spec, lang: str) -> tuple[str, ...]:
     """Percent, unit and rounding."""
     percent = word(lang, "ask.percent") if spec.percent else ""
-    return said(percent, unit(spec.unit, lang), rounding(spec, spec.value, lang))
+    return given(percent, unit(spec.unit, lang), rounding(spec, spec.value, lang))
 
 
 def printed(spec: Spec, lang: str) -> str:

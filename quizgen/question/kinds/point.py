@@ -9,7 +9,7 @@ from quizgen.maths.constants import Scalar
 from quizgen.maths.numbers import key_text
 from quizgen.maths.values import Value
 from quizgen.question.contract import Built
-from quizgen.question.hints import rounding, said, unit
+from quizgen.question.hints import given, rounding, unit
 from quizgen.question.specs import exact_first, numeric
 
 
@@ -26,7 +26,7 @@ def build(drawn: Draw, index: int) -> Built[Spec]:
 def hints(spec: Spec, lang: str) -> tuple[str, ...]:
     """Shape, unit and rounding."""
     name = "ask.point3" if len(spec.values) > len(("x", "y")) else "ask.point"
-    return said(word(lang, name), unit(spec.unit, lang), rounding(spec, spec.values, lang))
+    return given(word(lang, name), unit(spec.unit, lang), rounding(spec, spec.values, lang))
 
 
 def printed(spec: Spec, lang: str) -> str:

@@ -8,7 +8,7 @@ from quizgen.locale import word
 from quizgen.marking.kinds.quantity import Spec
 from quizgen.maths.units import shown
 from quizgen.question.contract import Built
-from quizgen.question.hints import rounding, said
+from quizgen.question.hints import given, rounding
 from quizgen.question.kinds.number import only
 from quizgen.question.specs import answer_of, exact_first, numeric
 
@@ -23,7 +23,7 @@ def build(drawn: Draw, index: int) -> Built[Spec]:
 def hints(spec: Spec, lang: str) -> tuple[str, ...]:
     """Unit and rounding."""
     unit = word(lang, "ask.unit" if spec.bare else "ask.quantity", unit=shown(spec.unit))
-    return said(unit, rounding(spec, spec.value, lang))
+    return given(unit, rounding(spec, spec.value, lang))
 
 
 def printed(spec: Spec, lang: str) -> str:

@@ -5,16 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from quizgen.bank.draw import Draw
+from quizgen.bank.prose import Inline, Words
 from quizgen.bank.traps import answer_names
-from quizgen.locale import word
-from quizgen.marking.kinds.table import Spec
-from quizgen.marking.mark import show as printed
+from quizgen.marking.kinds.table import Spec, cell
+from quizgen.marking.mark import show
 from quizgen.maths.constants import Scalar
 from quizgen.maths.numbers import key_text
 from quizgen.maths.units import shown
 from quizgen.maths.values import Value
 from quizgen.question.contract import Built
-from quizgen.question.hints import rounding, said
+from quizgen.question.hints import given, rounding
+from quizgen.question.shown import Shown, assigned, listed, named, said
 from quizgen.question.specs import answer_of, numeric
 
 
@@ -33,11 +34,16 @@ def build(drawn: Draw, index: int) -> Built[Spec]:
     return numeric(Spec, drawn, index, "values", write, of=named, units=stated)
 
 
-def hints(spec: Spec, lang: str) -> tuple[str, ...]:
+def hints(spec: Spec, lang: str) -> tuple[Shown, ...]:
     """Names with their units, and rounding."""
-    units = spec.units
-    names = [f"{name} ({shown(units[name])})" if name in units else name for name in spec.values]
-    return said(word(lang, "ask.table", names=", ".join(names)), rounding(spec, spec.values, lang))
+    names = listed((_with_unit(name, spec.units.get(name, "")) for name in spec.values), ", ")
+    return given(said(lang, "ask.table", names=names), rounding(spec, spec.values, lang))
 
 
-__all__ = ["build", "hints", "printed"]
+def _with_unit(name: str, unit: str) -> tuple[Inline, ...]:
+    return (named(name), Words(f" ({shown(unit)})")) if unit else (named(name),)
+
+
+def printed(spec: Spec, lang: str) -> Shown:
+    """The cells by their names."""
+    return assigned((name, show(cell(spec, name), lang)) for name in spec.values)

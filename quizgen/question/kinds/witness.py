@@ -5,13 +5,14 @@ from __future__ import annotations
 from fractions import Fraction
 
 from quizgen.bank.draw import Draw
-from quizgen.locale import word
+from quizgen.bank.prose import Code
 from quizgen.marking.kinds.witness import Spec
-from quizgen.marking.mark import show as printed
-from quizgen.maths.notation import parse, to_text
+from quizgen.marking.mark import show
+from quizgen.maths.notation import parse, people, to_text
 from quizgen.maths.numbers import exact_text, key_text
 from quizgen.maths.tree import Num, substitute
 from quizgen.question.contract import Built, Control
+from quizgen.question.shown import Shown, assigned, said
 from quizgen.question.specs import answer_of, specification
 
 
@@ -43,10 +44,14 @@ def _short(drawn: Draw, formula: str | int) -> str:
     return exact_text(value, minus="-") or key_text(value)
 
 
-def hints(spec: Spec, lang: str) -> tuple[str, ...]:
-    """Which names to give."""
+def hints(spec: Spec, lang: str) -> tuple[Shown, ...]:
+    """Which names to give, as they are typed."""
     names = "; ".join(f"{name} = ..." for name in spec.symbols)
-    return (word(lang, "ask.witness", names=names),)
+    return (said(lang, "ask.witness", names=(Code(names),)),)
 
 
-__all__ = ["build", "hints", "printed"]
+def printed(spec: Spec, lang: str) -> Shown:
+    """One right example, else what an example must satisfy."""
+    if not spec.example:
+        return show(spec, lang)
+    return assigned((name, people.number(str(spec.example[name]))) for name in spec.names())

@@ -1,0 +1,84 @@
+"""Answers, hints and values as pieces of a sentence: what Unicode can only hint at is typeset."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from quizgen import typeset
+from quizgen.bank.prose import Inline, Words
+from quizgen.locale import word
+from quizgen.maths.notation import people
+from quizgen.maths.notation.names import NAME
+from quizgen.typeset.nodes import Word
+
+
+@dataclass(frozen=True, slots=True)
+class Maths:
+    """A formula ready for printing: its layout, and how it would be typed."""
+
+    node: typeset.Node
+    typed: str
+
+    @property
+    def text(self) -> str:
+        """How it is written in plain text, for people."""
+        return people.formula(self.typed)
+
+
+Shown = str | tuple[Inline, ...]
+"""A text for people, or pieces of a sentence."""
+
+_BEFORE_UNIT = re.compile(r"(?<=[\d⁰¹²³⁴⁵⁶⁷⁸⁹]) (?=(?![A-Z]\d)[^\W\d]|%)")
+
+
+def pieces(shown: Shown) -> tuple[Inline, ...]:
+    """Pieces of a sentence; in a text powers of ten are typeset, and units stay with numbers."""
+    if not isinstance(shown, str):
+        return shown
+    return tuple(_with_powers(_BEFORE_UNIT.sub("\u00a0", shown)))
+
+
+def _with_powers(text: str) -> Iterator[Inline]:
+    last = 0
+    for found in people.POWER.finditer(text):
+        yield from _words(text[last : found.start()])
+        yield Maths(typeset.number(found[0]), found[0])
+        last = found.end()
+    yield from _words(text[last:])
+
+
+def _words(text: str) -> tuple[Inline, ...]:
+    return (Words(text),) if text else ()
+
+
+def named(symbol: str) -> Inline:
+    """The name of a quantity, typeset; a label in words stays text."""
+    if not NAME.fullmatch(symbol) or isinstance(node := typeset.name(symbol), Word):
+        return Words(symbol)
+    return Maths(node, symbol)
+
+
+def listed(rows: Iterable[Iterable[Inline]], between: str) -> tuple[Inline, ...]:
+    """Several things of a kind with a sign between them."""
+    found: list[Inline] = []
+    for row in rows:
+        found += [Words(between), *row] if found else row
+    return tuple(found)
+
+
+def assigned(values: Iterable[tuple[str, str]]) -> tuple[Inline, ...]:
+    """Names with their values: ``n₁ = 128; n₂ = 3``."""
+    return listed(((named(name), *pieces(f" = {text}")) for name, text in values), "; ")
+
+
+def said(lang: str, key: str, **blanks: tuple[Inline, ...]) -> tuple[Inline, ...]:
+    """A sentence of the interface with pieces in its blanks."""
+    marks = {name: f"\0{name}\0" for name in blanks}
+    cut = word(lang, key, **marks).split("\0")
+    texts, names = cut[::2], cut[1::2]
+    found: list[Inline] = list(_words(texts[0]))
+    for name, text in zip(names, texts[1:], strict=True):
+        found += [*blanks[name], *_words(text)]
+    return tuple(found)

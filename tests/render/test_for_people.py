@@ -1,0 +1,114 @@
+"""Every template, read as a person does: no programmer's numbers, names or hyphens are left."""
+
+from __future__ import annotations
+
+import html
+import re
+
+import pytest
+
+from quizgen.bank.folder import builtin
+from quizgen.bank.prose import Code
+from quizgen.marking.mark import mark
+from quizgen.question.compose import compose
+from quizgen.question.markup import blocks, inline
+from quizgen.render.text import inline as in_terminal
+
+LANGS = ("en", "bn")
+SEEDS = (1, 2)
+
+POWER = re.compile(r"\d[eE][-+]?\d")
+HYPHEN = re.compile(r"(?<![\w)\]}-])-\s?\d")
+RUN = re.compile(r"(?<![\d.])\d{5,}")
+NAME = re.compile(r"[^\W\d_]+['′]*_\w+")
+STAR = re.compile(r"[\w)]\*[\w(]|\^\d+(?![.\d])")
+FRACTION = re.compile(r"(?<![\d./·])(\d+)/(\d+)(?![\d./])(?:[^\S\n]*[^\d\s≈=;,]*)([^\S\n]*≈)?")
+TAGS = re.compile(r"<[^>]+>")
+UNTYPESET = (POWER, HYPHEN, RUN, STAR, NAME)
+WITHOUT_LETTER = re.compile(r"_[^₀-₉]*[b-dfgqwyzA-Z\u0370-\u03ff]")
+"""A subscript for which Unicode has no letter may keep its underscore, in plain text only."""
+
+
+def words_of(page: str) -> str:
+    """Text of a piece of HTML outside formulas and programs."""
+    bare = re.sub(r"<(math|code|pre)\b.*?</\1>", " ", page, flags=re.DOTALL)
+    return html.unescape(TAGS.sub(" ", bare))
+
+
+def sentences(question, key):
+    """Runs of inlines that a question and its solution consist of."""
+    for part in question.parts:
+        yield part.field.hint
+        yield from (text for _, text in (*part.field.options, *part.field.targets))
+    for part in key.solution.parts:
+        yield part.shown
+        yield from (line.why for line in part.lines)
+        yield from part.options
+        for mistake in part.mistakes:
+            yield from (mistake.shown, mistake.sentence)
+
+
+def sections(question, key):
+    """Blocks that a question and its solution consist of."""
+    solution = key.solution
+    yield from (question.stem, *(part.body for part in question.parts))
+    yield from (solution.why, solution.check, solution.note, solution.precision)
+
+
+def strange(text: str, patterns=UNTYPESET) -> list[str]:
+    """What nobody writes by hand, with its surroundings."""
+    return [
+        text[max(0, found.start() - 20) : found.end() + 10]
+        for pattern in patterns
+        for found in pattern.finditer(text)
+        if pattern is not NAME or not WITHOUT_LETTER.search(found[0])
+    ]
+
+
+def unreadable(text: str) -> list[str]:
+    """Fractions of long numbers without their decimal value."""
+    return [
+        found[0]
+        for found in FRACTION.finditer(text)
+        if max(len(found[1]), len(found[2])) >= 3 and found[1] != "1" and not found[3]
+    ]
+
+
+@pytest.mark.parametrize("lang", LANGS)
+@pytest.mark.parametrize("name", builtin().paths)
+def test_a_page_is_written_for_people(name, lang):
+    for seed in SEEDS:
+        question, key = compose(builtin().template(name), seed, lang, figures=False)
+        shown = [str(inline(run, lang)) for run in sentences(question, key)]
+        shown += [str(blocks(part, lang)) for part in sections(question, key)]
+        for text in map(words_of, shown):
+            assert strange(text) + unreadable(text) == []
+            assert NAME.findall(text) == []
+
+
+@pytest.mark.parametrize("lang", LANGS)
+@pytest.mark.parametrize("name", builtin().paths)
+def test_a_terminal_is_written_for_people(name, lang):
+    template = builtin().template(name)
+    for seed in SEEDS:
+        question, key = compose(template, seed, lang, figures=False)
+        runs = [without_code(run) for run in sentences(question, key)]
+        worked = [in_terminal(line.maths) for part in key.solution.parts for line in part.lines]
+        for text in (*map(in_terminal, runs), *worked):
+            assert strange(text) == []
+
+
+def without_code(run):
+    return tuple(part for part in run if not isinstance(part, Code))
+
+
+@pytest.mark.parametrize("lang", LANGS)
+@pytest.mark.parametrize("name", builtin().paths)
+def test_what_is_said_of_mistakes_is_written_for_people(name, lang):
+    """Each mistake of a question typed back: what was read, and what is said."""
+    _, key = compose(builtin().template(name), 1, lang, figures=False)
+    for spec, part in zip(key.specs, key.solution.parts, strict=True):
+        if spec.kind != "code":
+            for mistake in part.mistakes:
+                verdict = mark(spec, mistake.value, lang=lang)
+                assert strange(verdict.read_as) + strange(verdict.message) == []
