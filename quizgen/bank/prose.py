@@ -134,6 +134,7 @@ TIED = "\u00a0=\u00a0"
 This holds in every output, also in plain text; ``question.filling.tied`` holds a formula to what
 follows it where an output could break between them.
 """
+_POWER = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?[eE][-+]?\d+)(?![\w.]*\w)")
 _EQUALS = re.compile(r"=(?=\s*$)")
 _SLOT = re.compile(r"\{\{\s*([A-Za-z_][\w']*)\s*\}\}")
 _MATH = re.compile(r"\$([^$\n]+)\$")
@@ -231,7 +232,7 @@ def _inlines(tokens: Iterator[Any], until: str | None) -> Iterator[Inline]:
             return
         if token.type == "text":
             if token.content:
-                yield _plain(token.content)
+                yield from _plain(token.content)
         elif token.type in {"softbreak", "hardbreak"}:
             yield Words(" ")
         elif token.type == "slot":
@@ -247,10 +248,16 @@ def _inlines(tokens: Iterator[Any], until: str | None) -> Iterator[Inline]:
             raise BankError(f"Markdown {token.type!r} is not part of the subset")
 
 
-def _plain(text: str) -> Words:
+def _plain(text: str) -> Iterator[Inline]:
+    """Words; a number such as ``6e-8`` in them is set as mathematics."""
     if _BANNED.search(text):
         raise BankError(f"only {{{{ name }}}} may stand in double braces: {text.strip()!r}")
-    return Words(people.prose(text).replace(" = ", TIED))
+    pieces = _POWER.split(text)
+    for index, piece in enumerate(pieces):
+        if index % 2:
+            yield Formula(parse(piece))
+        elif piece:
+            yield Words(people.prose(piece).replace(" = ", TIED))
 
 
 def _formula(text: str) -> Formula:
