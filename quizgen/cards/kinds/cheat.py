@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from quizgen.cards.content import Cheat, entries, passage
+from quizgen.cards.kinds._authored import noted
 from quizgen.cards.note import Note
 from quizgen.cards.wish import Wish
 
@@ -12,17 +13,8 @@ from quizgen.cards.wish import Wish
 def notes(wish: Wish) -> Iterator[Note]:
     """One note per entry of the cheat sheet."""
     for entry in entries(wish.bank, Cheat):
-        yield Note(
-            key=f"cheat/{entry.id}",
-            kind="cheat",
-            form="basic",
-            topic=entry.topic,
-            tier=entry.tier,
-            section=entry.section,
-            refs=entry.refs,
-            langs=wish.langs,
-            words={
-                "Front": {lang: passage(entry, "ask", lang) for lang in wish.langs},
-                "Back": {lang: passage(entry, "answer", lang) for lang in wish.langs},
-            },
-        )
+        sides = {
+            "Front": {lang: passage(entry, "ask", lang) for lang in wish.langs},
+            "Back": {lang: passage(entry, "answer", lang) for lang in wish.langs},
+        }
+        yield noted(wish, entry, "cheat", sides, entry.refs)

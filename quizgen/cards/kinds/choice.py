@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from quizgen.bank.prose import Paragraph, Styled, Words
 from quizgen.cards.content import Term, entries, passage, sentence, words
+from quizgen.cards.kinds._authored import noted
 from quizgen.cards.note import Blocks, Note
 from quizgen.cards.prose import Label
 from quizgen.cards.wish import Wish
@@ -22,20 +23,11 @@ def notes(wish: Wish) -> Iterator[Note]:
         return
     for entry in terms:
         options = choices(entry, terms)
-        yield Note(
-            key=f"choice/{entry.id}",
-            kind="choice",
-            form="basic",
-            topic=entry.topic,
-            tier=entry.tier,
-            section=entry.section,
-            refs=(f"V{entry.number:02}",),
-            langs=wish.langs,
-            words={
-                "Front": {lang: _front(entry, options, lang) for lang in wish.langs},
-                "Back": {lang: _back(entry, options, lang) for lang in wish.langs},
-            },
-        )
+        sides = {
+            "Front": {lang: _front(entry, options, lang) for lang in wish.langs},
+            "Back": {lang: _back(entry, options, lang) for lang in wish.langs},
+        }
+        yield noted(wish, entry, "choice", sides, (f"V{entry.number:02}",))
 
 
 def choices(entry: Term, terms: Sequence[Term]) -> list[Term]:

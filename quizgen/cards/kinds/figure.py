@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from quizgen import figures
 from quizgen.cards.content import FigureEntry, entries, passage
+from quizgen.cards.kinds._authored import noted
 from quizgen.cards.note import Note
 from quizgen.cards.prose import Picture
 from quizgen.cards.wish import Wish
@@ -15,24 +17,16 @@ from quizgen.errors import BankError
 def notes(wish: Wish) -> Iterator[Note]:
     """One note per figure: the quiz version on the front, the full one on the back."""
     for entry in entries(wish.bank, FigureEntry):
-        yield Note(
-            key=f"figure/{entry.id}",
-            kind="figure",
-            form="basic",
-            topic=entry.topic,
-            tier=entry.tier,
-            section=entry.section,
-            refs=(entry.id, *entry.refs),
-            langs=wish.langs,
-            words={
-                "Front": {lang: passage(entry, "ask", lang) for lang in wish.langs},
-                "Back": {lang: passage(entry, "answer", lang) for lang in wish.langs},
-            },
-            shared={
-                "Figure": (_picture(entry, wish.langs, quiz=True),),
-                "Answer figure": (_picture(entry, wish.langs, quiz=False),),
-            },
-        )
+        sides = {
+            "Front": {lang: passage(entry, "ask", lang) for lang in wish.langs},
+            "Back": {lang: passage(entry, "answer", lang) for lang in wish.langs},
+        }
+        pictures = {
+            "Figure": (_picture(entry, wish.langs, quiz=True),),
+            "Answer figure": (_picture(entry, wish.langs, quiz=False),),
+        }
+        refs = (entry.id, *entry.refs)
+        yield replace(noted(wish, entry, "figure", sides, refs), shared=pictures)
 
 
 def _picture(entry: FigureEntry, langs: tuple[str, ...], *, quiz: bool) -> Picture:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from quizgen import typeset
 from quizgen.bank.prose import Paragraph
 from quizgen.cards.content import FormulaEntry, entries, passage, sentence
 from quizgen.cards.equations import sides
-from quizgen.cards.note import Note
+from quizgen.cards.kinds._authored import noted
+from quizgen.cards.note import Note, Words
 from quizgen.cards.prose import Hole
 from quizgen.cards.wish import Wish
 from quizgen.errors import BankError
@@ -19,26 +21,15 @@ from quizgen.typeset.nodes import Row
 def notes(wish: Wish) -> Iterator[Note]:
     """One note per formula; a formula of several lines hides them together or one by one."""
     for entry in entries(wish.bank, FormulaEntry):
-        yield Note(
-            key=f"formula/{entry.id}",
-            kind="formula",
-            form="cloze",
-            topic=entry.topic,
-            tier=entry.tier,
-            section=entry.section,
-            refs=(entry.id, *entry.refs),
-            langs=wish.langs,
-            words={
-                "Title": {
-                    lang: (Paragraph(sentence(entry, "title", lang)),) for lang in wish.langs
-                },
-                "Extra": {
-                    lang: (*passage(entry, "about", lang), *passage(entry, "beware", lang))
-                    for lang in wish.langs
-                },
+        said: dict[str, Words] = {
+            "Title": {lang: (Paragraph(sentence(entry, "title", lang)),) for lang in wish.langs},
+            "Extra": {
+                lang: (*passage(entry, "about", lang), *passage(entry, "beware", lang))
+                for lang in wish.langs
             },
-            shared={"Text": tuple(_holes(entry))},
-        )
+        }
+        note = noted(wish, entry, "formula", said, (entry.id, *entry.refs))
+        yield replace(note, form="cloze", shared={"Text": tuple(_holes(entry))})
 
 
 def _holes(entry: FormulaEntry) -> Iterator[Hole]:

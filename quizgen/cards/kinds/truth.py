@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from quizgen.bank.prose import Paragraph, Styled, Words
 from quizgen.cards.content import Statement, entries, passage, words
+from quizgen.cards.kinds._authored import noted
 from quizgen.cards.note import Blocks, Note
 from quizgen.cards.prose import Label
 from quizgen.cards.wish import Wish
@@ -14,23 +15,14 @@ from quizgen.cards.wish import Wish
 def notes(wish: Wish) -> Iterator[Note]:
     """One note per statement."""
     for entry in entries(wish.bank, Statement):
-        yield Note(
-            key=f"truth/{entry.id}",
-            kind="truth",
-            form="basic",
-            topic=entry.topic,
-            tier=entry.tier,
-            section=entry.section,
-            refs=entry.refs,
-            langs=wish.langs,
-            words={
-                "Front": {
-                    lang: (Label(words(lang)["truth"]), *passage(entry, "text", lang))
-                    for lang in wish.langs
-                },
-                "Back": {lang: _verdict(entry, lang) for lang in wish.langs},
+        sides = {
+            "Front": {
+                lang: (Label(words(lang)["truth"]), *passage(entry, "text", lang))
+                for lang in wish.langs
             },
-        )
+            "Back": {lang: _verdict(entry, lang) for lang in wish.langs},
+        }
+        yield noted(wish, entry, "truth", sides, entry.refs)
 
 
 def _verdict(entry: Statement, lang: str) -> Blocks:

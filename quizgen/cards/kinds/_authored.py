@@ -1,0 +1,38 @@
+"""What every authored entry gives to its note."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from quizgen.cards.content import Entry
+from quizgen.cards.note import Note, Words
+from quizgen.cards.wish import Wish
+
+
+def noted(
+    wish: Wish, entry: Entry, kind: str, words: Mapping[str, Words], refs: tuple[str, ...]
+) -> Note:
+    """A plain note.
+
+    Parameters
+    ----------
+    wish : Wish
+    entry : Entry
+    kind : str
+        The kind of card, which is also the first half of its key.
+    words : mapping
+        Field to language to blocks.
+    refs : tuple of str
+        Curriculum ids.
+    """
+    return Note(
+        key=f"{kind}/{entry.id}",
+        kind=kind,
+        form="basic",
+        topic=entry.topic,
+        tier=entry.tier,
+        section=entry.section,
+        refs=refs,
+        langs=wish.langs,
+        words=words,
+    )
