@@ -141,6 +141,7 @@ def _judge_as(spec: Spec, number: Number, value: Value, options: Options) -> Ver
 
 _TIMES = re.compile(r" ?-? ?(?<![^\W\d_])(?:times|fold|fach|mal|[xX*]|গুণ|বার|টি|টা)$", re.IGNORECASE)
 _PER_HUNDRED = re.compile(r"^শতকরা (.+)$")
+_REMARK = re.compile(r"(-?\d[\d.,/]*) \((?:[=≈] ?)?([^()]*\d[^()]*)\)")
 _LENS = re.compile(r"[fFƒ] ?/? ?(?=\d)|1 ?: ?(?=\d)")
 _RATIO = re.compile(r"(?<=\d) ?: ?(?=\d)")
 
@@ -148,6 +149,8 @@ _RATIO = re.compile(r"(?<=\d) ?: ?(?=\d)")
 def _read(spec: Spec, source: Source, options: Options) -> list[Side]:
     """Read a number; several if equal things are chained."""
     source = without_counted(source, spec.counts)
+    if found := _with_remark(source, options):
+        return found
     try:
         return [Side(TypedQuantity(source, None), read_source(source, options.decimal))]
     except ReadError as error:
@@ -155,6 +158,16 @@ def _read(spec: Spec, source: Source, options: Options) -> list[Side]:
         if not found:
             raise
     return found
+
+
+def _with_remark(source: Source, options: Options) -> list[Side]:
+    """``6.67 (20/3)``: no product where both are the same number, but one and a remark on it."""
+    if not _REMARK.fullmatch(source.text):
+        return []
+    try:
+        return _sides(source.sub(_REMARK, lambda m: f"{m[1]} = {m[2]}"), options)
+    except ReadError:
+        return []
 
 
 def _sides(source: Source, options: Options) -> list[Side]:

@@ -22,15 +22,16 @@ from quizgen.marking.reading.lists import (
     read_list,
     unbracketed,
 )
-from quizgen.marking.reading.named import find_name, name_key, split_name
+from quizgen.marking.reading.named import NAME, find_name, name_key, split_name
 from quizgen.marking.reading.rewrites import normalise
-from quizgen.marking.reading.scalars import Number
+from quizgen.marking.reading.scalars import Number, as_fraction, as_percent
 from quizgen.marking.reading.source import Source
 from quizgen.marking.rounding import exact_or_figures
 from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, ambiguous, correct, with_values, wrong
 from quizgen.maths.constants import Scalar, exact_value
 from quizgen.maths.notation import ReadError, people
+from quizgen.maths.notation.names import FUNCTIONS
 from quizgen.maths.operators import CONDITIONS
 from quizgen.maths.precision import working_precision
 from quizgen.maths.tree import Call, Expr
@@ -168,6 +169,7 @@ def _side(side: Expr, env: dict[str, Any]) -> str | None:
     return people.number(exact_or_figures(value, 6))
 
 
+_FRONT = re.compile(rf"({NAME}) ?(?=[(\[])")
 _SEPARATOR = re.compile(rf"[;|\n]|,(?= )|(?<=\)),?|{NAMED_NEXT.pattern}")
 
 
@@ -176,7 +178,7 @@ def _numbers(spec: Spec, typed: str, decimal: str) -> dict[str, Number]:
     lines = filter(None, map(str.strip, typed.split("\n")))
     source = even(normalise("; ".join(lines), longest=400))
     names, placed = list(spec.names()), dict[str, Number]()
-    items = list(_items(source, decimal))
+    items = list(_items(source, names, decimal))
     if len(items) == 1 and not items[0][0]:
         items = [("", piece) for piece in _alone(items[0][1], len(names))]
     for label, item in items:
@@ -199,13 +201,15 @@ def _alone(item: Source, count: int) -> list[Source]:
 
 
 def _number(piece: Source, decimal: str) -> Number:
-    readings = sharpest(read_sides(piece, decimal)).readings
+    side = sharpest(read_sides(piece, decimal))
+    readings, unit = side.readings, side.quantity.unit
     if readings.other is not None and readings.doubt is not None and not readings.doubt.native:
         raise ReadError("two-readings", piece.column(0), piece.text)
-    return readings.main
+    percent = readings.main.percent or (unit is not None and unit.text == "%")
+    return as_fraction(as_percent(readings.main)) if percent else readings.main
 
 
-def _items(source: Source, decimal: str) -> Iterator[tuple[str, Source]]:
+def _items(source: Source, names: list[str], decimal: str) -> Iterator[tuple[str, Source]]:
     fronts, rest = fronted(source)
     if fronts:
         items, _ = read_list(rest.text, len(fronts), decimal)
@@ -215,8 +219,20 @@ def _items(source: Source, decimal: str) -> Iterator[tuple[str, Source]]:
     source = inner if inner.text[:1] == "(" else source
     for piece in _cut(source, _SEPARATOR):
         label, rest = split_name(piece)
+        label, rest = (label, rest) if label else _named_point(piece, names)
         if label or rest.text:
             yield label, rest
+
+
+def _named_point(piece: Source, names: list[str]) -> tuple[str, Source]:
+    """``A(0.5|0)``: the name before a bracket; a word that names nothing is passed over."""
+    match = _FRONT.match(piece.text)
+    if match is None or match[1] in FUNCTIONS:
+        return "", piece
+    typed, keys = name_key(match[1]), [name_key(name) for name in names]
+    known = {key[: len(typed)] for key in keys if key.lower().startswith(typed.lower())}
+    label = typed if typed in known else known.pop() if len(known) == 1 else ""
+    return label, piece.cut(match.end())
 
 
 def _cut(source: Source, separator: re.Pattern[str]) -> list[Source]:

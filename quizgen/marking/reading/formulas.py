@@ -45,6 +45,7 @@ _SYNONYMS = {
     "Sqrt": "sqrt",
     "wurzel": "sqrt",
     "Wurzel": "sqrt",
+    "বর্গমূল": "sqrt",
     "Abs": "abs",
     "betrag": "abs",
     "sgn": "sign",

@@ -35,6 +35,7 @@ _WRAPPERS = (
 _ARGUMENT = r" ?(?:\{([^{}]*)\}|(\w))"
 
 _ONCE: tuple[Rewrite, ...] = (
+    (re.compile(rf"(?<=[\w}}])(?=\\(?:{_FUNCTIONS})(?![A-Za-z]))"), lambda _m: " "),
     (re.compile(r"\\[()\[\]]"), lambda _m: ""),
     (re.compile(r"\\begin ?\{[a-zA-Z]*matrix\}"), lambda _m: "("),
     (re.compile(r"\\end ?\{[a-zA-Z]*matrix\}"), lambda _m: ")"),

@@ -38,7 +38,7 @@ _IS = r"(?: *(?:is|ist|lautet|হলো|হল|হচ্ছে)(?![^\W_]) *[:=]?
 ANSWER = re.compile(
     r"^ *(?:(?:the|my|die|das|meine) )?"
     rf"(?:(?:answer|ans|antwort|উত্তর)(?![^\W_])\.?(?:{_IS}| +)"
-    rf"|(?:lösung|ergebnis|result|solution|ফলাফল|ফল|সমাধান)(?![^\W_]){_IS})(?=\S)",
+    rf"|(?:lösung|ergebnis|result|solution|formula|formel|ফলাফল|ফল|সমাধান|সূত্র)(?![^\W_]){_IS})(?=\S)",
     re.IGNORECASE,
 )
 """What stands before an answer that is a sentence."""

@@ -196,6 +196,7 @@ _LOWER = {word.lower(): name for word, name in WORDS.items() if len(word) > 3}
 _POWER_OF_UNIT = re.compile(r"(?<=[^\W\d_])\^?\(?(-?\d)\)?(?!\d)")
 _POINTS = re.compile(r"\. ?")
 _BRACKETS = re.compile(r"[(\[]([^()\[\]*/· ]+)[)\]]")
+_SQUARE = re.compile(r"(?:square |quadrat|বর্গ ?)([^\W\d_][^*/· ]*)", re.IGNORECASE)
 _PART = re.compile(r"[*/·]|[^*/·]+")
 
 
@@ -260,6 +261,7 @@ def _compound(text: str) -> str:
     text = re.sub(r"^(?:per|pro)\s+", "1/", text)
     text = re.sub(r"\s+(?:per|pro)\s+|\s*প্রতি\s*", "/", text)
     text = re.sub(r" *([*/·]) *", r"\1", text)
+    text = _SQUARE.sub(r"\1^2", text)
     pieces = _PART.findall(text)
     return "".join(piece if piece in "*/·" else _product(piece) for piece in pieces)
 
