@@ -22,6 +22,7 @@ _BRITISH = (
 )
 _UMLAUTS = (("ä", "ae"), ("ö", "oe"), ("ü", "ue"), ("ß", "ss"))
 _ARTICLES = re.compile(r"^(?:the|an|a|der|die|das|ein|eine|it is|its) (?=\S)")
+_DASH = re.compile(r"[-‐‑‒–—−_/]")
 _DASHES = re.compile(r"(?<=[^\W_])[-‐‑‒–—−_/]|[-‐‑‒–—−_/](?!\d)")
 """Hyphens and dashes, but not the sign of a number."""
 
@@ -37,7 +38,8 @@ def fold(text: str) -> str:
     text = unicodedata.normalize("NFKC", text).casefold()
     if not text.isascii():
         text = "".join(str(unicodedata.decimal(c, c)) for c in text)
-    text = _DASHES.sub(" ", text).replace("−", "-")
+    if _DASH.search(text):
+        text = _DASHES.sub(" ", text).replace("−", "-")
     text = " ".join(text.split()).strip(" .,;:!?\"'()।")
     text = _ARTICLES.sub("", text)
     for old, new in (*_UMLAUTS, *_BRITISH):
@@ -49,6 +51,7 @@ MOST = 2
 """Most typing slips allowed in any word."""
 
 
+@lru_cache(maxsize=4096)
 def budget(term: str) -> int:
     """Typing slips allowed: none up to four letters or with digits, one up to eight, else two."""
     return 0 if len(term) <= 4 or any(map(str.isdigit, term)) else 1 if len(term) <= 8 else MOST

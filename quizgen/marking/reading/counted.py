@@ -29,7 +29,7 @@ def check_counted(words: list[str]) -> None:
 
 def without_counted(source: Source, words: Iterable[str]) -> Source:
     """Drop the word for what is counted, behind or before the number."""
-    named = tuple(word for word in words if word not in SIMPLE)
+    named = tuple(word for word in words if word not in SIMPLE) if words else ()
     if not named:
         return source
     behind, before = _patterns(named)
