@@ -112,3 +112,15 @@ def test_what_is_said_of_mistakes_is_written_for_people(name, lang):
             for mistake in part.mistakes:
                 verdict = mark(spec, mistake.value, lang=lang)
                 assert strange(verdict.read_as) + strange(verdict.message) == []
+
+
+@pytest.mark.parametrize("lang", LANGS)
+def test_the_example_of_how_to_type_a_formula_answers_no_question(lang):
+    for name in builtin().paths:
+        if any(part.answer["kind"] == "expression" for part in builtin().rules(name).part):
+            question, key = compose(builtin().template(name), 1, lang, figures=False)
+            for spec, part in zip(key.specs, question.parts, strict=True):
+                typed = [one.text for one in part.field.hint if isinstance(one, Code)]
+                assert not any(mark(spec, text).credit for text in typed)
+                if spec.kind == "expression":  # nor is it one with its letters changed
+                    assert typed == ["(a+b)^2/2"]

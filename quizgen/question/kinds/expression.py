@@ -12,8 +12,8 @@ from quizgen.question.contract import Built
 from quizgen.question.shown import Maths, Shown, said
 from quizgen.question.specs import answer_of, mistaken, notes, specification
 
-EXAMPLE = "f*X/Z"
-"""A formula as it is typed."""
+EXAMPLE = "(a+b)^2/2"
+"""A formula as it is typed, and no answer to any question."""
 
 
 def build(drawn: Draw, index: int) -> Built[Spec]:
