@@ -23,28 +23,29 @@ def typed(values):
     return "; ".join(str(v) for v in values)
 
 
-def test_hsv_value_fails_additivity_exactly_without_a_common_largest_channel(bank):
-    spec, _ = spec_of(bank, "hsv-nonlinearity-counterexample")
-    tenths = [Fraction(i, 10) for i in range(6)]
+@pytest.mark.parametrize("seed", ["reference", *range(12)])
+def test_hsv_value_fails_additivity_exactly_without_a_common_largest_channel(bank, seed):
+    spec, one = spec_of(bank, "hsv-nonlinearity-counterexample", seed)
+    a = [Fraction(int(one.shown[f"a_{i}"].p), int(one.shown[f"a_{i}"].q)) for i in (1, 2, 3)]
     chosen = random.Random(5)
-    for _ in range(300):
-        a, b = ([chosen.choice(tenths) for _ in range(3)] for _ in range(2))
+    for _ in range(60):
+        b = [Fraction(chosen.randint(0, 10), 10) * (1 - channel) for channel in a]
         largest = [{i for i, v in enumerate(c) if v == max(c)} for c in (a, b)]
         refutes = not largest[0] & largest[1]
-        verdict = mark(spec, typed([*a, *b]))
+        verdict = mark(spec, typed(b))
         assert (verdict.verdict == "correct") == refutes
         assert refutes or verdict.note == "predicate"
 
 
-def test_a_colour_and_its_multiple_refute_nothing(bank):
+def test_a_multiple_of_the_colour_refutes_nothing(bank):
     spec, _ = spec_of(bank, "hsv-nonlinearity-counterexample")
-    verdict = mark(spec, "a = (0.4; 0.2; 0.1); b = (0.2; 0.1; 0.05)")
+    verdict = mark(spec, "b = (0; 0; 0)")
     assert (verdict.verdict, verdict.note) == ("wrong", "predicate")
 
 
 def test_colours_out_of_range_are_told_so(bank):
     spec, _ = spec_of(bank, "hsv-nonlinearity-counterexample")
-    assert mark(spec, "a = (1; 0; 0); b = (0.5; 1; 0)").note == "constraint"
+    assert mark(spec, "b = (0.5; 1; 0)").note == "constraint"
 
 
 def bent(points, k):
