@@ -52,7 +52,7 @@ def test_piped_there_is_one_line_of_cells_for_each_template(monkeypatch):
     assert [row[0] for row in found] == list(builtin().paths)
     assert {len(row) for row in found} == {6}
     cells = {row[0]: row for row in found}["bayer-site-counts"]
-    assert cells == ["bayer-site-counts", "B", "sensor", "400", "en,bn", "Counting photosites"]
+    assert cells == ["bayer-site-counts", "B", "sensor", "2800", "en,bn", "Counting photosites"]
 
 
 def test_the_command_prints_name_topic_and_title():
