@@ -48,8 +48,8 @@ FULL = {
     ("bayer-site-counts", "a"): "9; 12; 4|9 photosites; 12 photosites; 4 photosites|R=9, G=12, B=4|9 px, 12 px, 4 px"
     "|৯টি ফটোসাইট; ১২টি ফটোসাইট; ৪টি ফটোসাইট",
     ("demosaic-blue-and-green-site", "b"): "65|65 grey levels|R = 65|65 DN|৬৫",
-    ("quantisation-levels-and-error", "a"): "64; 0.01587|64 levels; 0.01587|64 levels; 1/63|৬৪টি স্তর; ১/৬৩|64; 1.587 %",
-    ("quantisation-levels-and-error", "b"): "55|level 55|k = 55|স্তর ৫৫|55 levels",
+    ("quantisation-levels-and-error", "a"): "8; 0.1429|8 levels; 0.1429|8 levels; 1/7|৮টি স্তর; ১/৭|8; 14.29 %",
+    ("quantisation-levels-and-error", "b"): "7|level 7|k = 7|স্তর ৭|7 levels",
     ("rgb-to-hsv", "a"): "0.8; 0.6; 0.75|80 %; 60 %; 75 %|80%, 60%, 75%|0.8; 0.6; 75 percent|৮০ শতাংশ; ৬০ শতাংশ; ৭৫ শতাংশ"
     "|V = 80 %, Δ = 60 %, S = 75 %|4/5; 3/5; 3/4",
     ("rgb-to-hsv", "b"): "140|140°|140 degrees|140 deg|১৪০ ডিগ্রি|7π/9 rad|H = 140°",
@@ -92,7 +92,7 @@ OTHER = {
     ("gaussian-peak-and-tail-shares", "c", "২৭০০ বাইট"),
     ("photon-snr-and-decibels", "b", "40 B"),
     ("thin-lens-image-distance", "a", "66.67 px"),
-    ("quantisation-levels-and-error", "b", "55 px"),
+    ("quantisation-levels-and-error", "b", "7 px"),
 }
 """The right number of something else: said to be another unit."""
 
