@@ -100,6 +100,21 @@ def test_the_page_of_a_paper_is_checked_as_printed(tmp_path):
     assert shell(line, tmp_path).returncode == 0
 
 
+@pytest.mark.skipif(not shutil.which("uv"), reason="uv is not installed")
+@pytest.mark.parametrize("lang", ["en", "bn"])
+def test_what_the_page_says_after_saving_works_beside_the_key_as_typed(tmp_path, lang):
+    made = shell(f"quizgen exam --topic eye --minutes 4 --lang {lang} --format html --out o",
+                 tmp_path)  # fmt: skip
+    code = re.search(r"Code: (\S+)", made.stdout)[1]
+    page = (tmp_path / "o" / "exam.html").read_text(encoding="utf-8")
+    told = re.search(r'id="saved" data-text="([^"]*)"', page)[1]
+    line = re.search(r"uv run quizgen check key\.json answers\.json", told)[0]
+    assert "Next" in told, "who did not start with uv finds the command where it was printed"
+    (tmp_path / "o" / "answers.json").write_text(json.dumps({"code": code, "answers": {}}))
+    done = with_uv(line, tmp_path / "o")
+    assert done.returncode == 0, done.stderr
+
+
 def test_after_uv_run_the_commands_begin_with_it(tmp_path, monkeypatch):
     from quizgen.cli.command import command
 
