@@ -11,7 +11,7 @@ from quizgen.locale import known, word
 from quizgen.marking.echo import safe
 from quizgen.marking.judging.wording import fold
 from quizgen.marking.options import Options
-from quizgen.marking.reading.rewrites import BANGLA_LETTERS, normalise
+from quizgen.marking.reading.rewrites import BANGLA_LETTERS, PICTURES, normalise
 from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, correct, partial, wrong
 from quizgen.maths.notation import ReadError
@@ -38,11 +38,6 @@ _FILLING = re.compile(r"^(?:option|অপশন) ", re.IGNORECASE)
 _IT_IS = re.compile(r"^(?:it is|this is|that is|es ist|das ist|এটা|এটি) ", re.IGNORECASE)
 _PIECES = re.compile(r"[;\n]|,(?=\s*[\[(]?[A-Za-zক-ঞ\d][\])]?\s*[).:=-])")
 _BENGALI = re.compile(r"[\u0980-\u09ff]")
-_PICTURES = re.compile(
-    r"(?:(?<=[\s,;])|^)(?:picture|photo|image|figure|version|number|no\.?|nr\.?|bild|foto|ছবি|চিত্র|নম্বর|নং)s?(?=\s|$)",
-    re.IGNORECASE,
-)
-"""Words before the number of a picture, which is its place among the options."""
 _UNFINISHED = re.compile(r"[+/&|(\[{][\s*+/&|(\[{]*$")
 """A sign behind which more was to come: no answer yet."""
 _FILLERS = re.compile(r"\b(?:and|und|or|option|answer|ans|এবং|ও|উত্তর)\b", re.IGNORECASE)
@@ -168,7 +163,7 @@ def _by_text(spec: Spec, typed: str) -> int:
 
 def _positions(spec: Spec, typed: str) -> list[int]:
     source = normalise(re.sub(r"[\r\n]+", ",", typed.strip()), keep_x=True, longest=1000)
-    text = _PICTURES.sub(" ", source.text).translate(BANGLA_LETTERS)
+    text = PICTURES.sub(" ", source.text).translate(BANGLA_LETTERS)
     marks = re.findall(r"[A-Za-z]+|\d+|[^\s,;.&+()/|:!\[\]{}\"'*_।॥“”«»]", _FILLERS.sub(" ", text))
     found = [position for mark in marks for position in _mark(spec, mark)]
     if not found or _UNFINISHED.search(text):

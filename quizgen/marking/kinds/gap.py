@@ -12,7 +12,7 @@ from quizgen.locale import FIRST, in_letters_of, known
 from quizgen.marking.echo import safe
 from quizgen.marking.judging.wording import another_word, fold, nearest_terms
 from quizgen.marking.options import Options
-from quizgen.marking.reading.rewrites import ANSWER, refuse_invisible, rewrite
+from quizgen.marking.reading.rewrites import ANSWER, PICTURES, refuse_invisible, rewrite
 from quizgen.marking.reading.source import Source
 from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, ambiguous, correct, shared, unreadable, wrong
@@ -44,16 +44,16 @@ class Spec(Worded, kw_only=True, frozen=True):
     def judge(self, typed: str, _options: Options, /) -> Verdict:
         """Judge typed words, one per gap."""
         gaps = self.gaps()
-        words = _digits(typed, gaps) or _words(typed, len(gaps))
+        words = _digits(typed, gaps) or _words(typed, gaps)
         if len(words) != len(gaps):
             raise ReadError("item-count", 1, str(len(words)), [str(len(gaps))])
         cells = [_one(self, gap, word) for gap, word in zip(gaps, words, strict=True)]
         if len(cells) == 1:
             return self._reasoned(cells[0])
         read_as = "; ".join(cell.read_as for cell in cells)
-        stopped = next((cell for cell in cells if cell.verdict == "ambiguous"), None)
+        stopped = next((cell for cell in cells if not cell.graded), None)
         if stopped is not None:
-            return ambiguous(stopped.note, read_as, **stopped.fields)
+            return structs.replace(stopped, read_as=read_as)
         because = tuple(
             self.reason(place, cell.read_as)
             for place, cell in enumerate(cells, 1)
@@ -109,10 +109,14 @@ LONG = 6
 _ENDS = " \t\r\n,;"
 _QUOTES = "[]{}“”„‘’«»\"'"
 _JOINED = re.compile(r"\s(?:and|und|এবং|ও)$")
+_MEASURE = re.compile(r"\d+ ?[a-zµ]{2,3}")
+_PICTURE = "\N{FRAME WITH PICTURE}"
+_PICTURE_IS = re.compile(rf"{_PICTURE} *\d+ *(?:[:=→⇒]|-+>)")
+"""Something said of a picture, where its number is what is asked."""
 _LABEL = re.compile(r"\s*[^\W\d_]{1,12}\s*[:=]\s*\S")
 
 
-def _words(typed: str, count: int) -> list[str]:
+def _words(typed: str, gaps: list[list[str]]) -> list[str]:
     if len(typed) > 1000:
         raise ReadError("too-long", 1001, "1000")
     if not typed.strip():
@@ -120,10 +124,21 @@ def _words(typed: str, count: int) -> list[str]:
     refuse_invisible(Source.of(typed.strip("\u200e\u200f\ufeff \r\n")), "\r\n\t" + _JOINERS)
     typed = typed.strip()
     if " " in typed or ":" in typed:
-        typed = ANSWER.sub("", typed)
+        typed = _unnamed(ANSWER.sub("", typed), gaps)
+    count = len(gaps)
     if count == 1:
         return [_NUMBERED.sub("", typed).strip(_ENDS + _QUOTES)]
     return _by_number(rewrite("digits", typed), count) or _in_a_row(typed, count)
+
+
+def _unnamed(typed: str, gaps: list[list[str]]) -> str:
+    """``photo 3`` without its word, if each gap takes a number; ``photo 1: 2`` has two readings."""
+    if not all(any(word.isdigit() for word in gap) for gap in gaps):
+        return typed
+    text = rewrite("digits", typed)
+    if _PICTURE_IS.search(PICTURES.sub(_PICTURE, text)):
+        raise ReadError("words-around", 1, typed)
+    return PICTURES.sub(" ", text).strip()
 
 
 def _digits(typed: str, gaps: list[list[str]]) -> list[str]:
@@ -216,7 +231,9 @@ def _inflected(word: str, right: set[str]) -> bool:
 
 
 def _holds_a_term(word: str, terms: list[str]) -> bool:
-    """Whether a known term stands among other words."""
+    """Whether a known term stands among other words; in another unit a number is wrong."""
+    if _MEASURE.fullmatch(word):
+        return False
     words = [fold(piece) for piece in re.split(r"[\s,;/]+", word) if fold(piece)]
     return len(words) > 1 and any(fold(term) in words for term in terms)
 

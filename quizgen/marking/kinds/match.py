@@ -10,14 +10,23 @@ import msgspec
 from quizgen.marking.echo import safe
 from quizgen.marking.judging.wording import fold
 from quizgen.marking.options import Options
-from quizgen.marking.reading.rewrites import BANGLA_LETTERS, normalise
+from quizgen.marking.reading.rewrites import (
+    BANGLA_LETTERS,
+    LONE_LETTER,
+    PICTURES,
+    normalise,
+)
 from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, correct, shared
 from quizgen.maths.notation import ReadError
 
 _SEPARATORS = re.compile(r"[\s,;.|\[\]{}।॥]+")
 _ARROWS = re.compile(r"\s*(?:->|=>|<->|--|[-:=>()→↔⇒⇔⟶⟷↦])+\s*")
-_FILLERS = frozenset({"and", "und", "with", "mit", "to", "zu", "এবং", "ও"})
+_FILLERS = frozenset(
+    {"and", "und", "with", "mit", "to", "zu", "is", "ist", "goes", "belongs"}
+    | {"gehoert", "passt", "এবং", "ও", "হলো", "হল", "এর", "সাথে", "সঙ্গে"}
+)
+"""Words between the two sides of a pair, folded."""
 
 
 class Spec(Worded, kw_only=True, frozen=True):
@@ -77,7 +86,8 @@ def _trap(spec: Spec, found: dict[str, str]) -> str:
 
 def _pairs(spec: Spec, typed: str) -> dict[str, str]:
     source = normalise(re.sub(r"[\r\n]+", " ", typed.strip()), keep_x=True, longest=1000)
-    text = source.text.translate(BANGLA_LETTERS)
+    text = PICTURES.sub(" ", source.text)
+    text = LONE_LETTER.sub(lambda letter: letter[0].translate(BANGLA_LETTERS), text)
     left = {fold(label): label for label in spec.pairs}
     right = {fold(label): label for label in spec.pairs.values()}
     found: dict[str, str] = {}

@@ -30,6 +30,15 @@ _BLANKS = "\t \u00a0\u2000-\u200a\u202f\u205f\u3000"
 BANGLA_LETTERS = str.maketrans("কখগঘঙচছজঝঞ", "ABCDEFGHIJ")
 """Letters that count options in Bangla, and the Latin ones in the same places."""
 
+LONE_LETTER = re.compile("(?<![\u0980-\u09ff])[ক-ঞ](?![\u0980-\u09ff])")
+"""A Bangla letter that is no part of a word."""
+
+PICTURES = re.compile(
+    r"(?:(?<=[\s,;])|(?<=[:=()→–-])|^)(?:picture|photo|image|figure|version|number|no\.?|nr\.?|bild|foto|ছবি|চিত্র|নম্বর|নং)s?(?=\s|$)",
+    re.IGNORECASE,
+)
+"""Words before the number of a picture, which is its place or its label."""
+
 _APPROXIMATE = r"ca\.|approx(?:\.|imately)?|about|circa|etwa|ungefähr|rund|প্রায়|প্রায়"
 
 _ABOUT = re.compile(rf"^ *(?:≈|~|∼|=|(?:{_APPROXIMATE})(?![^\W\d_])) *", re.IGNORECASE)
