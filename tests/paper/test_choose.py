@@ -131,15 +131,12 @@ def test_a_slot_that_cannot_be_filled_is_located(tmp_path, slot, said):
 
 
 @pytest.mark.parametrize(
-    "slots",
-    [(SlotRule(count=2, tier="D", topic="optics"),
-      SlotRule(templates=("thin-lens-image-distance", "thin-lens-limits"))),
-     (SlotRule(count=2, tier="C", topic="optics"),)],
+    ("table", "slots"),
+    [({"image": {"pool": 9}, "limits": {"pool": 1}, "source": {"pool": 9}},
+      (SlotRule(count=2), SlotRule(templates=("image", "limits")))),
+     ({"disc": {"pool": 9, "apart": ("limits",)}, "limits": {"pool": 1}}, (SlotRule(count=2),))],
     ids=["used before", "the other gives it away"],
 )  # fmt: skip
-def test_a_question_without_numbers_stands_in_a_paper_once(bank, slots):
-    blueprint = Blueprint({"en": "Lenses"}, slots)
+def test_a_question_without_numbers_stands_in_a_paper_once(table, slots):
     for seed in range(60):
-        chosen = choose(bank, blueprint, seed)
-        assert chosen.count("thin-lens-limits") <= 1
-        assert chosen.count("blur-disc-derivation-order") <= 1
+        assert choose(Shelf(table), plan(*slots), seed).count("limits") <= 1

@@ -41,8 +41,8 @@ FULL = {
     ("gaussian-peak-and-tail-shares", "b"): "4.55|4.55 %|0.0455|4.55 percent|4.55 per cent|4,55 Prozent|৪.৫৫ শতাংশ"
     "|শতকরা ৪.৫৫|5 %",
     ("gaussian-peak-and-tail-shares", "c"): "2700|2700 px|2700 pixels|2.7 kpx|২৭০০ পিক্সেল|২৭০০টি পিক্সেল|2 700 pixels",
-    ("salt-and-pepper-counts", "a"): "8000; 8000; 784000|8000 px; 8000 px; 784000 px|8000 pixels, 8000 pixels, 784000 pixels"
-    "|৮০০০টি; ৮০০০টি; ৭৮৪০০০টি|N_b = 8000 px; N_w = 8000 px; N_0 = 784 kpx",
+    ("salt-and-pepper-counts", "a"): "64000; 64000; 1152000|64000 px; 64000 px; 1152000 px"
+    "|64000 pixels, 64000 pixels, 1152000 pixels|৬৪০০০টি; ৬৪০০০টি; ১১৫২০০০টি|N_b = 64000 px; N_w = 64 kpx; N_0 = 1152 kpx",
     ("salt-and-pepper-thresholds", ""): "250; 750|250 750|250 pixels; 750 pixels|250 values, 750 values|(250, 750)",
     ("channel-counts", ""): "1; 3; 4; 4|1 channel, 3 channels, 4 channels, 4 channels|১টি; ৩টি; ৪টি; ৪টি|1 3 4 4",
     ("bayer-site-counts", "a"): "9; 12; 4|9 photosites; 12 photosites; 4 photosites|R=9, G=12, B=4|9 px, 12 px, 4 px"
