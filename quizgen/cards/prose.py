@@ -144,7 +144,9 @@ WORD_JOINER = "\u2060"
 
 def text(words: str, *, quote: bool = False) -> str:
     """Words as HTML that no reader of the card takes for anything but words."""
-    return escape(_MARKS.sub(rf"\g<0>{WORD_JOINER}", words), quote=quote)
+    if _MARKS.search(words):
+        words = _MARKS.sub(lambda mark: mark[0] + WORD_JOINER, words)
+    return escape(words, quote=quote)
 
 
 @singledispatch

@@ -140,6 +140,9 @@ def tied(parts: Iterable[Inline]) -> Iterator[tuple[Inline, ...]]:
     rest = deque(parts)
     while rest:
         group = [rest.popleft()]
+        if not isinstance(group[0], Maths):
+            yield (group[0],)
+            continue
         while isinstance(last := group[-1], Maths) and len(last.typed) <= SHORT:
             tail = _tail(rest)
             if not tail:
