@@ -67,6 +67,7 @@ HOSTILE = {
     "quotes": "'\"" * 100,
     "beyond-floats": "0.11x10^352",
     "beyond-floats-below": "-1x10^-352",
+    "truth-raised": "(not N)²",
     "formats": "{found} {column}",
 }
 

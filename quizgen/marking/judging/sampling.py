@@ -93,8 +93,8 @@ def _answering(function: Compiled) -> Callable[[Env], Any]:
             return Undecided
         except TooLargeError:
             return TooLargeError
-        except (MathError, ZeroDivisionError, OverflowError, ValueError, TypeError):
-            return None
+        except (MathError, ArithmeticError, ValueError, TypeError, AttributeError):
+            return None  # the last two where a truth is reckoned with
 
     return evaluate
 
