@@ -11,9 +11,6 @@ import re
 from quizgen.marking.reading.source import Rewrite, Source
 from quizgen.maths.notation.names import GREEK
 
-MARKS = re.compile(r"[\\${]")
-"""A text without one of these holds no LaTeX."""
-
 DEEPEST = 40
 """Rounds from the innermost braces outwards."""
 
@@ -103,7 +100,7 @@ _LAST: tuple[Rewrite, ...] = ((re.compile(r"\\([%{}&#])"), lambda m: m[1]),)
 
 
 def plain(source: Source) -> Source:
-    """Rewrite a text that holds one of ``MARKS``.
+    """Rewrite a text that may hold LaTeX.
 
     Dollar signs go in pairs only; a lone one is no LaTeX.
     """

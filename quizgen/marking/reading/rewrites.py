@@ -11,7 +11,6 @@ import unicodedata
 from collections.abc import Callable
 from functools import lru_cache
 
-from quizgen.marking.reading import latex
 from quizgen.marking.reading.source import Rewrite, Source
 from quizgen.maths.notation import ReadError
 from quizgen.maths.notation.people import BELOW, FROM_BELOW
@@ -123,6 +122,9 @@ _RAISED = re.compile(r"[-+−–]?\d+·(?!10)\d{2,}")
 _STOPS = ".;।॥"
 _UNFINISHED = re.compile(r"[-+]?(?:\d+;|\d{1,3}(?:\.\d{3}){2,}\.)")
 _EXOTIC = re.compile(r"[^ -~]")
+_LATEX = re.compile(r"[\\${]")
+"""A text without one of these holds no LaTeX; its many patterns are made when it is first met."""
+
 _CONTROL = frozenset({"Cc", "Cf", "Co", "Cs", "Cn", "Zl", "Zp"})
 
 
@@ -154,8 +156,10 @@ def normalise(typed: str, *, keep_x: bool = False, longest: int = LONGEST) -> So
     source = Source.of(typed)
     if _EXOTIC.search(typed):
         source = _fold(source)
-    if latex.MARKS.search(source.text):
-        source = latex.plain(source)
+    if _LATEX.search(source.text):
+        from quizgen.marking.reading.latex import plain
+
+        source = plain(source)
     if not source.text[:1].isdigit():
         source = source.sub(*REWRITES["answer"]).sub(*REWRITES["about"])
     if not keep_x:
