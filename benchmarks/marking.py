@@ -120,13 +120,13 @@ def rate(
 
 
 LINES = [
-    ("number", numbers, 5000, None, 20_000),
+    ("number", numbers, 5000, None, 40_000),
     ("quantity", quantities, 5000, None, 20_000),
     ("point", points, 3000, None, 10_000),
     ("table", tables, 3000, None, 10_000),
     ("gap", gaps, 3000, None, 10_000),
-    ("expression", formulas, 1500, None, 3_000),
-    ("full diagnosis", wrong, 500, _context, 500),
+    ("expression", formulas, 1500, None, 4_500),
+    ("full diagnosis", wrong, 500, _context, 6_000),
 ]
 
 
