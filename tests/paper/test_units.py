@@ -66,8 +66,8 @@ FULL = {
     ("thin-lens-image-distance", "a"): "66.67 mm|66,67 mm|200/3 mm|6.667 cm|66.67 Millimeter|৬৬.৬৭ মি.মি.|66.67\\,\\text{mm}|z' = 66.67 mm",
     ("blur-disc-diameter", "a"): "100 µm|100 um|100 micrometres|100 microns|0.1 mm|১০০ মাইক্রোমিটার|১০০ মাইক্রন|100 μm",
     ("blur-and-light-factors", "e"): "0.128 s|128 ms|0.128 seconds|0,128 Sek.|০.১২৮ সেকেন্ড|16/125 s|0.128 sec|128 milliseconds",
-    ("rods-cones-and-peaks", "b"): "one; 507; 48|one; 507 nm; 48 nm|1, 507 nm, 50 nm|(1) one (2) 507 nm (3) 48 nm"
-    "|এক; ৫০৭ ন্যানোমিটার; ৪৮ ন্যানোমিটার|1; 507nm; 48nm",
+    ("rods-cones-and-peaks", "b"): "one; rods; 507|one; rods; 507 nm|1, rods, 507 nm|(1) one (2) rods (3) 507 nm"
+    "|এক; রড; ৫০৭ ন্যানোমিটার|1; rods; 507nm",
 }  # fmt: skip
 """Template and part to answers that get full marks, between bars; ``¦`` is a bar that is typed."""
 
