@@ -3,12 +3,13 @@
 Source: OpenCV documentation, "Color conversions", RGB to HSV for 8-bit images.
 """
 
-from sympy import Eq, Max, Min, Piecewise, evaluate, symbols
+from sympy import Eq, Max, Min, Piecewise, Rational, evaluate, floor, symbols
 
 from quizgen.maths.model import Model, Step
 
 R, G, B = symbols("R G B", real=True)
-V, m, Delta, H_0, H, c = symbols("V m Delta H_0 H c", real=True)
+V, m, Delta, H_0, H = symbols("V m Delta H_0 H", real=True)
+c = symbols("c", integer=True)
 
 with evaluate(False):
     MODEL = Model(
@@ -31,7 +32,7 @@ with evaluate(False):
         ),
         traps={
             "degrees": Step(c, H),
-            "full-range": Step(c, H * 255 / 360),
+            "full-range": Step(c, floor(H * 256 / 360 + Rational(1, 2))),
             "channels-exchanged": Step(
                 H_0,
                 Piecewise(
