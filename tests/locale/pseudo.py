@@ -55,7 +55,7 @@ def write_language(folder):
 
 def prose(line):
     """A line of a template; names of sections and entries are no prose."""
-    head = re.match(r"## .*|- [^\s:]+: ", line)
+    head = re.match(r"## .*|- [^:\[]+( \[.*?\])?: ", line)
     cut = head.end() if head else 0
     return line[:cut] + accented(line[cut:])
 
