@@ -13,15 +13,17 @@ from fractions import Fraction
 import pytest
 from fontTools.ttLib import TTFont
 
+from quizgen.bank.entries import load
 from quizgen.bank.folder import builtin
 from quizgen.cards import build, content, looks
-from quizgen.cards.content import KINDS, Cheat, Statement, Term, load, passage
-from quizgen.cards.equations import inline, side, sides
+from quizgen.cards.content import KINDS, Cheat, Statement, Term
 from quizgen.cards.kinds.choice import choices
 from quizgen.cards.note import field_names
 from quizgen.cards.versions import digest_of, registry
 from quizgen.errors import BankError
 from quizgen.maths.notation import parse
+from quizgen.question.authored import passage
+from quizgen.question.equations import inline, side, sides
 from quizgen.render.fonts import bangla_file
 from quizgen.typeset import latex
 

@@ -14,13 +14,13 @@ from pathlib import Path
 from values import as_json, bent, damaged, mutated, toml
 
 from quizgen.bank import plan as planning
+from quizgen.bank.entries import load as load_cards
+from quizgen.bank.entries import passages
 from quizgen.bank.folder import Bank, builtin
 from quizgen.camera.plan import Prepared, plan
 from quizgen.camera.reading import load as load_scene
 from quizgen.camera.simulate import run as photograph
 from quizgen.cards.content import KINDS as CARDS
-from quizgen.cards.content import load as load_cards
-from quizgen.cards.content import passage, passages
 from quizgen.cards.mistakes import from_marks
 from quizgen.paper.blueprint import load_blueprint
 from quizgen.paper.choose import choose, variety
@@ -30,6 +30,7 @@ from quizgen.paper.marking import mark_paper
 from quizgen.paper.paper import build, single
 from quizgen.paper.report import class_csv, table_lines
 from quizgen.png import encode
+from quizgen.question.authored import passage
 from quizgen.render import render_paper
 from quizgen.render.text import question_text
 

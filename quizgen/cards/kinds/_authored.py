@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from quizgen.cards.content import Entry
+from quizgen.bank.entries import Entry
 from quizgen.cards.note import Note, Words
 from quizgen.cards.wish import Wish
 

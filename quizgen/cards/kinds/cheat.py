@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from quizgen.cards.content import Cheat, entries, passage
+from quizgen.cards.content import Cheat, entries
 from quizgen.cards.kinds._authored import noted
 from quizgen.cards.note import Note
 from quizgen.cards.wish import Wish
+from quizgen.question.authored import passage
 
 
 def notes(wish: Wish) -> Iterator[Note]:

@@ -6,12 +6,13 @@ import hashlib
 from collections.abc import Iterator, Sequence
 
 from quizgen.bank.prose import Paragraph, Styled, Words
-from quizgen.cards.content import Term, entries, passage, sentence, words
+from quizgen.cards.content import Term, entries, words
 from quizgen.cards.kinds._authored import noted
 from quizgen.cards.note import Blocks, Note
 from quizgen.cards.prose import Label
 from quizgen.cards.wish import Wish
 from quizgen.locale import FIRST
+from quizgen.question.authored import passage, sentence
 
 LETTERS = "ABCD"
 

@@ -6,12 +6,13 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from quizgen import figures
-from quizgen.cards.content import FigureEntry, entries, passage
+from quizgen.cards.content import FigureEntry, entries
 from quizgen.cards.kinds._authored import noted
 from quizgen.cards.note import Note
 from quizgen.cards.prose import Picture
 from quizgen.cards.wish import Wish
 from quizgen.errors import BankError
+from quizgen.question.authored import passage
 
 
 def notes(wish: Wish) -> Iterator[Note]:

@@ -6,21 +6,22 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from quizgen import typeset
+from quizgen.bank.formulas import FormulaEntry, formulas
 from quizgen.bank.prose import Paragraph
-from quizgen.cards.content import FormulaEntry, entries, passage, sentence
-from quizgen.cards.equations import sides
 from quizgen.cards.kinds._authored import noted
 from quizgen.cards.note import Note, Words
 from quizgen.cards.prose import Hole
 from quizgen.cards.wish import Wish
 from quizgen.errors import BankError
+from quizgen.question.authored import passage, sentence
+from quizgen.question.equations import sides
 from quizgen.question.shown import Maths
 from quizgen.typeset.nodes import Row
 
 
 def notes(wish: Wish) -> Iterator[Note]:
     """One note per formula; a formula of several lines hides them together or one by one."""
-    for entry in entries(wish.bank, FormulaEntry):
+    for entry in formulas(wish.bank):
         said: dict[str, Words] = {
             "Title": {lang: (Paragraph(sentence(entry, "title", lang)),) for lang in wish.langs},
             "Extra": {

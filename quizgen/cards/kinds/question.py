@@ -6,9 +6,10 @@ from collections.abc import Iterator
 from typing import Any
 
 from quizgen.bank.folder import Bank
+from quizgen.bank.formulas import formulas
 from quizgen.bank.prose import Items, Paragraph, Styled, Words
 from quizgen.bank.template import Template
-from quizgen.cards.content import FormulaEntry, Term, entries, words
+from quizgen.cards.content import Term, entries, words
 from quizgen.cards.note import Blocks, Note
 from quizgen.cards.prose import Display, Fold, Label, Picture, Said
 from quizgen.cards.versions import template_version
@@ -68,8 +69,8 @@ def of_template(template: Template, wish: Wish) -> Iterator[Note]:
 
 def section_of(bank: Bank, covers: tuple[str, ...], topic: str) -> str:
     """Section of the notes that a question belongs to: that of its formula, else of its topic."""
-    formulas = {entry.id: entry.section for entry in entries(bank, FormulaEntry)}
-    found = [formulas[ref] for ref in covers if ref in formulas]
+    sections = {entry.id: entry.section for entry in formulas(bank)}
+    found = [sections[ref] for ref in covers if ref in sections]
     by_topic = [entry.section for entry in entries(bank, Term) if entry.topic == topic]
     return str((found or by_topic or [""])[0])
 

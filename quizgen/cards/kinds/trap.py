@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from quizgen.cards.content import Trap, entries, passage, words
+from quizgen.cards.content import Trap, entries, words
 from quizgen.cards.kinds._authored import noted
 from quizgen.cards.note import Note, Words
 from quizgen.cards.prose import Label
 from quizgen.cards.wish import Wish
+from quizgen.question.authored import passage
 
 
 def notes(wish: Wish) -> Iterator[Note]:

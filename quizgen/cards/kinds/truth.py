@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from quizgen.bank.prose import Paragraph, Styled, Words
-from quizgen.cards.content import Statement, entries, passage, words
+from quizgen.cards.content import Statement, entries, words
 from quizgen.cards.kinds._authored import noted
 from quizgen.cards.note import Blocks, Note
 from quizgen.cards.prose import Label
 from quizgen.cards.wish import Wish
+from quizgen.question.authored import passage
 
 
 def notes(wish: Wish) -> Iterator[Note]:

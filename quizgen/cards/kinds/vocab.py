@@ -6,11 +6,12 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from quizgen.bank.prose import Paragraph
-from quizgen.cards.content import Term, entries, passage, sentence
+from quizgen.cards.content import Term, entries
 from quizgen.cards.kinds._authored import noted
 from quizgen.cards.note import Note, Words
 from quizgen.cards.wish import Wish
 from quizgen.locale import FIRST
+from quizgen.question.authored import passage, sentence
 
 
 def notes(wish: Wish) -> Iterator[Note]:

@@ -25,15 +25,13 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import pairwise
 
 from quizgen import typeset
+from quizgen.bank.formulas import Piece
 from quizgen.errors import BankError, FormulaError, RenderError
 from quizgen.maths.notation import parse, to_text
 from quizgen.maths.tree import Call, Expr, names
 from quizgen.question.shown import Maths
 from quizgen.typeset.layout import SIGNS
 from quizgen.typeset.nodes import ATOM, PRODUCT, Big, Func, Ident, Number, Op, Row, Scripts
-
-Piece = Mapping[str, str | tuple[str, ...]]
-"""What describes a piece: one of the words above to a text or several."""
 
 Inside = Mapping[str, Piece]
 """Letter in a line to the piece it stands for."""

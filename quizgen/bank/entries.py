@@ -1,0 +1,111 @@
+"""What people write about a bank beside its templates: TOML files of entries, checked.
+
+Each file is one array of tables, ``[[entry]]``. Errors name the file, the entry and the key.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Literal, TypeVar
+
+import msgspec
+
+from quizgen.bank.folder import Bank
+from quizgen.errors import BankError
+from quizgen.outside import parse_toml, read_text
+
+Tier = Literal["A", "B", "C", "D"]
+
+_FROM = "/file"
+"""Under what name an entry is told its file; no key of a file is taken for it."""
+
+Passage = dict[str, str]
+"""One sentence or passage: language to text."""
+
+
+class Entry(msgspec.Struct, forbid_unknown_fields=True, frozen=True, kw_only=True):
+    """What every entry has, and the file that it was read from."""
+
+    id: str
+    topic: str
+    tier: Tier
+    section: str
+    refs: tuple[str, ...] = ()
+    file: str = msgspec.field(default="", name=_FROM)
+
+    @property
+    def place(self) -> str:
+        """Where it stands, for errors."""
+        return f"{self.file}: entry {self.id!r}"
+
+
+E = TypeVar("E", bound=Entry)
+
+
+def load(source: str, kind: type[E], where: str, langs: tuple[str, ...] = ()) -> tuple[E, ...]:
+    """Read entries.
+
+    Parameters
+    ----------
+    source : str
+        TOML with one array of tables, ``[[entry]]``.
+    kind : type
+        What the entries are.
+    where : str
+        Name of the file, for errors.
+    langs : tuple of str
+        Languages that every passage must have.
+
+    Raises
+    ------
+    BankError
+        Naming file, entry and key.
+    """
+    table = parse_toml(source, where, BankError)
+    rows = table.get("entry")
+    if set(table) != {"entry"} or not isinstance(rows, list):
+        raise BankError(f"{where}: expected [[entry]] and nothing else, found {sorted(table)}")
+    for place, row in enumerate(rows, 1):
+        if not isinstance(row, dict):
+            raise BankError(f"{where}: entry {place} is no table")
+    found = tuple(_entry(row, kind, where, langs) for row in rows)
+    names = [entry.id for entry in found]
+    for name in names:
+        if names.count(name) > 1:
+            raise BankError(f"{where}: two entries have the id {name!r}")
+    return found
+
+
+def _entry(row: dict[str, object], kind: type[E], where: str, langs: tuple[str, ...]) -> E:
+    try:
+        entry = msgspec.convert({**row, _FROM: where}, kind)
+    except msgspec.ValidationError as error:
+        names = {field.encode_name for field in msgspec.structs.fields(kind)}
+        allowed = ", ".join(sorted(names - {_FROM}))
+        hint = f" (allowed: {allowed})" if "unknown field" in str(error) else ""
+        raise BankError(f"{where}: entry {row.get('id', '?')!r}: {error}{hint}") from error
+    for name in filter(row.__contains__, passages(kind)):
+        for lang in langs:
+            if lang not in getattr(entry, name):
+                raise BankError(f"{where}: entry {entry.id!r}: {name}.{lang} is missing")
+    return entry
+
+
+def passages(kind: type[Entry]) -> list[str]:
+    """Names of the fields that are written in every language."""
+    return [field.name for field in msgspec.structs.fields(kind) if field.type == Passage]
+
+
+@cache
+def authored(bank: Bank, name: str, kind: type[E]) -> tuple[E, ...]:
+    """Entries of one file of a bank, read once; none if the bank has no such file.
+
+    Raises
+    ------
+    BankError
+        Naming file, entry and key.
+    """
+    if name not in bank.cards:
+        return ()
+    file = bank.cards[name]
+    return load(read_text(file, BankError), kind, str(file), bank.languages)

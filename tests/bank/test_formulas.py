@@ -1,0 +1,80 @@
+"""The formulas of a bank: each once, complete where it says something, and who asks for them."""
+
+from __future__ import annotations
+
+import json
+import re
+
+import pytest
+
+from quizgen.bank.entries import load
+from quizgen.bank.folder import Bank
+from quizgen.bank.formulas import FormulaEntry, asked_in, formulas
+from quizgen.errors import BankError
+
+ENTRY = """
+[[entry]]
+id = "K1"
+topic = "optics"
+tier = "A"
+section = "1"
+title = { en = "Power", bn = "ক্ষমতা" }
+lines = ["P = 1/f"]
+about = { en = "In dioptres.", bn = "ডায়প্টারে।" }
+beware = { en = "In metres.", bn = "মিটারে।" }
+"""
+
+
+def test_every_formula_of_the_inventory_is_there_once(bank):
+    assert [entry.id for entry in formulas(bank)] == [f"F{n:02}" for n in range(1, 47)]
+
+
+def test_letters_with_a_unit_stand_in_the_formula(bank):
+    for entry in formulas(bank):
+        written = set(
+            re.findall(
+                r"[^\W\d]\w*'*(?:_\w+)?", json.dumps([entry.lines, entry.inside, entry.about["en"]])
+            )
+        )
+        for letters in entry.units.values():
+            assert set(letters) <= written, entry.id
+
+
+@pytest.mark.parametrize(
+    ("formula", "condition"),
+    [
+        ("F05", "p_z > 0"), ("F11", "I_max != I_min"), ("F12", "I_max != I_min"),
+        ("F20", "1 + 3*k_1*r^2 + 5*k_2*r^4 > 0"), ("F23", "V != 0"), ("F24", "Delta != 0"),
+        ("F31", "D > 0"), ("F33", "z'_p > 0"), ("F39", "F > 0"), ("F42", "z != f"),
+        ("F44", "d < zbar"),
+    ],
+)  # fmt: skip
+def test_where_a_formula_would_divide_by_zero_or_fold_it_says_so(bank, formula, condition):
+    (entry,) = (entry for entry in formulas(bank) if entry.id == formula)
+    assert all(condition in entry.holds[lang] for lang in bank.languages)
+
+
+@pytest.mark.parametrize("name", ["holds", "limits"])
+def test_a_note_that_may_be_missing_is_there_in_every_language_or_in_none(name):
+    assert load(ENTRY, FormulaEntry, "f.toml", ("en", "bn"))[0].holds == {}
+    half = f'{ENTRY}{name}.en = "Always."\n'
+    with pytest.raises(BankError, match=rf"f\.toml: entry 'K1': {name}\.bn is missing"):
+        load(half, FormulaEntry, "f.toml", ("en", "bn"))
+
+
+def test_a_required_passage_cannot_be_empty():
+    empty = ENTRY.replace('about = { en = "In dioptres.", bn = "ডায়প্টারে।" }', "about = {}")
+    with pytest.raises(BankError, match=r"f\.toml: entry 'K1': about\.en is missing"):
+        load(empty, FormulaEntry, "f.toml", ("en", "bn"))
+
+
+def test_templates_are_found_by_the_formulas_that_they_cover(bank):
+    asked = asked_in(bank)
+    assert "point-to-image-plane" in asked["F05"]
+    assert [name for name, found in asked.items() if not found] == []
+
+
+def test_a_bank_without_formulas_has_none(tmp_path):
+    (tmp_path / "templates").mkdir()
+    assert formulas(Bank(tmp_path)) == ()
+    assert asked_in(Bank(tmp_path)) == {}
