@@ -40,6 +40,35 @@ def _style() -> str:
     return line_heights(":lang({})") + page
 
 
+def page(layout: str, langs: tuple[str, ...], style: str = "", **content: object) -> bytes:
+    """A whole page with its fonts.
+
+    Parameters
+    ----------
+    layout : str
+        A file of ``pages``.
+    langs : tuple of str
+        Languages on the page, the leading one first.
+    style : str
+        What its style has beyond that of a paper.
+    content : object
+        What stands on it.
+    """
+    bangla = set(langs) & set(in_script("Beng"))
+    made = (
+        _environment()
+        .get_template(layout)
+        .render(
+            main=langs[0],
+            style=Markup(_style() + style),
+            maths_font=fonts.maths_uri(),
+            bangla_fonts={400: fonts.bangla_uri(), 700: fonts.bangla_uri("Bold")} if bangla else {},
+            **content,
+        )
+    )
+    return made.encode()
+
+
 def render(paper: Paper, kind: str) -> bytes:
     """Render a paper as an HTML page.
 
@@ -49,18 +78,4 @@ def render(paper: Paper, kind: str) -> bytes:
     kind : str
         ``exam`` or ``solutions``.
     """
-    page = (
-        _environment()
-        .get_template("paper.html.j2")
-        .render(
-            paper=paper,
-            kind=kind,
-            main=paper.langs[0],
-            style=Markup(_style()),
-            maths_font=fonts.maths_uri(),
-            bangla_fonts={400: fonts.bangla_uri(), 700: fonts.bangla_uri("Bold")}
-            if set(paper.langs) & set(in_script("Beng"))
-            else {},
-        )
-    )
-    return page.encode()
+    return page("paper.html.j2", paper.langs, paper=paper, kind=kind)

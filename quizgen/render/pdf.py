@@ -2,143 +2,25 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterable
-from datetime import UTC, datetime
-from functools import cache, singledispatch
-from importlib.resources import files
-from typing import Any, Final
+from typing import Any
 
-from quizgen import typeset
-from quizgen.bank.prose import (
-    Block,
-    Code,
-    CodeBlock,
-    Inline,
-    Items,
-    Paragraph,
-    Styled,
-    Table,
-    Words,
-)
-from quizgen.errors import RenderError
-from quizgen.locale import in_script, marks, word
+from quizgen.locale import marks, word
 from quizgen.paper.paper import Item, Paper
 from quizgen.question.compose import Field, Part, Question
-from quizgen.question.filling import tied
-from quizgen.question.shown import Maths
 from quizgen.question.solution import Line, Mistake, PartSolution, Solution
-from quizgen.render import fonts
-
-STANDARD: Final = "ua-1"
-MOMENT = datetime(2000, 1, 1, tzinfo=UTC)
-"""The date written into every file: the same paper is the same bytes on any day."""
-
-
-def string(text: str) -> str:
-    """A Typst string literal: nothing in it is ever read as markup."""
-    return json.dumps(text, ensure_ascii=False).replace("\\/", "/")
-
-
-@singledispatch
-def inline(part: Inline | tuple[Inline, ...], lang: str) -> str:
-    """Inlines as Typst markup."""
-    raise TypeError(f"no Typst for {type(part).__name__} ({lang})")
-
-
-@inline.register(tuple)
-def _inlines(parts: tuple[Inline, ...], lang: str) -> str:
-    return "".join(_together(group, lang) for group in tied(parts))
-
-
-def _together(group: tuple[Inline, ...], lang: str) -> str:
-    body = "".join(inline(part, lang) for part in group)
-    return f"#box[{body}];" if len(group) > 1 else body
-
-
-@inline.register
-def _plain(part: Words, _lang: str) -> str:
-    return f"#{string(part.text)};"
-
-
-@inline.register
-def _maths(part: Maths, lang: str) -> str:
-    return equation(part, lang, block=False)
-
-
-@inline.register
-def _code(part: Code, _lang: str) -> str:
-    return f"#raw({string(part.text)});"
-
-
-@inline.register
-def _styled(part: Styled, lang: str) -> str:
-    name = "emph" if part.style == "em" else "strong"
-    return f"#{name}[{inline(part.children, lang)}];"
-
-
-def equation(maths: Maths, lang: str, *, block: bool) -> str:
-    """A formula with its spoken alternative."""
-    spoken = string(typeset.spoken(maths.node, lang))
-    space = " " if block else ""
-    body = f"${space}{typeset.typst(maths.node, lang)}{space}$"
-    return f"#math.equation(alt: {spoken}, block: {str(block).lower()}, {body});"
-
-
-def blocks(parts: Iterable[Block], lang: str) -> str:
-    """Blocks as Typst markup."""
-    return "\n\n".join(_block(part, lang) for part in parts)
-
-
-@singledispatch
-def _block(part: Block, lang: str) -> str:
-    raise TypeError(f"no Typst for {type(part).__name__} ({lang})")
-
-
-@_block.register
-def _paragraph(part: Paragraph, lang: str) -> str:
-    return inline(part.children, lang)
-
-
-@_block.register
-def _code_block(part: CodeBlock, _lang: str) -> str:
-    return f"#raw({string(part.text)}, block: true);"
-
-
-@_block.register
-def _items(part: Items, lang: str) -> str:
-    name = "enum" if part.ordered else "list"
-    return f"#{name}({', '.join(f'[{blocks(item, lang)}]' for item in part.items)});"
-
-
-@_block.register
-def _table(part: Table, lang: str) -> str:
-    cells = [cell for row in (part.head, *part.rows) for cell in row]
-    head = ", ".join(f"[{inline(cell, lang)}]" for cell in part.head)
-    rest = ", ".join(f"[{inline(cell, lang)}]" for cell in cells[len(part.head) :])
-    return f"#table(columns: {len(part.head)}, table.header({head}), {rest});"
-
-
-def _in(lang: str, body: str) -> str:
-    return f"#spoken({string(lang)})[{body}];"
-
-
-def _say(lang: str, body: str) -> str:
-    return f"#say({string(lang)})[{body}];"
-
-
-def _each(langs: Iterable[str], bodies: Iterable[str]) -> str:
-    """The same thing in each language: the second one set off by a rule."""
-    spoken = [_in(lang, body) for lang, body in zip(langs, bodies, strict=True) if body]
-    return "\n".join([*spoken[:1], *(f"#bilingual[{body}];" for body in spoken[1:])])
-
-
-def _joined(langs: tuple[str, ...], texts: Iterable[str]) -> str:
-    return '#" / ";'.join(_say(lang, text) for lang, text in zip(langs, texts, strict=True))
-
-
-def _words(langs: tuple[str, ...], key: str, **values: object) -> str:
-    return _joined(langs, [f"#{string(word(lang, key, **values))};" for lang in langs])
+from quizgen.render.typ import (
+    blocks,
+    compiled,
+    document,
+    each,
+    equation,
+    inline,
+    joined,
+    say,
+    string,
+    within,
+    words,
+)
 
 
 class _Sheet:
@@ -173,25 +55,25 @@ class _Sheet:
 
     def _cover(self) -> str:
         paper, main = self.paper, self.main
-        head = f"#heading(level: 1)[{_say(main, f'#{string(self._title(main))};')}]"
+        head = f"#heading(level: 1)[{say(main, f'#{string(self._title(main))};')}]"
         others = [
-            _in(lang, f"#text(14pt, {string(self._title(lang))});") for lang in self.langs[1:]
+            within(lang, f"#text(14pt, {string(self._title(lang))});") for lang in self.langs[1:]
         ]
         total = (
             f"{marks(paper.points, main)}, {paper.minutes} {word(main, 'paper.minutes')}, "
             f"{len(paper.items)} {word(main, 'paper.contents')}"
         )
         facts = (
-            f"#facts(([{_words(self.langs, 'paper.code')}], raw({string(paper.code)})), "
-            f"([{_words(self.langs, 'paper.total')}], {string(total)}))"
+            f"#facts(([{words(self.langs, 'paper.code')}], raw({string(paper.code)})), "
+            f"([{words(self.langs, 'paper.total')}], {string(total)}))"
         )
         if self.kind == "solutions":
             return "\n".join([head, *others, "#v(0.6em)", facts, "#v(0.6em)"])
         lines = [
-            f"#write-line([{_words(self.langs, f'paper.{name}')}])"
+            f"#write-line([{words(self.langs, f'paper.{name}')}])"
             for name in ("name", "matriculation")
         ]
-        rules = _each(self.langs, [f"#{string(word(lang, 'paper.rules'))};" for lang in self.langs])
+        rules = each(self.langs, [f"#{string(word(lang, 'paper.rules'))};" for lang in self.langs])
         gap = "#v(1.1em)"
         return "\n".join(
             [head, *others, gap, facts, gap, *(f"{line}\n#v(0.5em)" for line in lines), gap,
@@ -205,8 +87,8 @@ class _Sheet:
             for item in self.paper.items
         ]
         head = (
-            f"table.header([], [{_words(self.langs, 'paper.question')}], "
-            f"[{_words(self.langs[:1], 'paper.points')}], [])"
+            f"table.header([], [{words(self.langs, 'paper.question')}], "
+            f"[{words(self.langs[:1], 'paper.points')}], [])"
         )
         return (
             "#{set text(9pt); table(columns: (auto, 1fr, auto, 4em), inset: 3.5pt, "
@@ -214,10 +96,10 @@ class _Sheet:
         )
 
     def _titles(self, item: Item) -> str:
-        return _joined(self.langs, [f"#{string(q.title)};" for q in item.questions])
+        return joined(self.langs, [f"#{string(q.title)};" for q in item.questions])
 
     def _item(self, item: Item) -> str:
-        stem = _each(self.langs, [blocks(q.stem, q.lang) for q in item.questions])
+        stem = each(self.langs, [blocks(q.stem, q.lang) for q in item.questions])
         if self.kind == "exam":
             picture = self._picture(item, [q.figure for q in item.questions])
         else:
@@ -247,7 +129,7 @@ class _Sheet:
         label = f"({first.label}) " if first.label else ""
         worth = f"#worth({string(label + marks(first.points, self.main))})" if label else ""
         texts = [blocks(q.parts[index].body, q.lang) for q in questions]
-        body = f"{worth}\n{_each(self.langs, texts)}"
+        body = f"{worth}\n{each(self.langs, texts)}"
         if self.kind == "exam":
             return f"#part[{body}\n{self._field(questions, index)}]"
         options = self._options(questions, index)
@@ -256,7 +138,7 @@ class _Sheet:
     def _field(self, questions: tuple[Question, ...], index: int) -> str:
         fields = [q.parts[index].field for q in questions]
         hints = [inline(f.hint, lang) for f, lang in zip(fields, self.langs, strict=True)]
-        shown = f"#hint[{_each(self.langs, hints)}]" if any(hints) else ""
+        shown = f"#hint[{each(self.langs, hints)}]" if any(hints) else ""
         return f"{self._options(questions, index)}\n{shown}\n#space({fields[0].control.lines})"
 
     def _options(self, questions: tuple[Question, ...], index: int) -> str:
@@ -272,21 +154,21 @@ class _Sheet:
             ]
             box = self.kind == "exam" and fields[0].control.ticked
             name = "tick" if box else "option"
-            rows.append(f"#{name}({string(mark)}, [{_joined(self.langs, texts)}])")
+            rows.append(f"#{name}({string(mark)}, [{joined(self.langs, texts)}])")
         return rows
 
     def _solution(self, item: Item, index: int) -> str:
         parts = [key.solution.parts[index] for key in item.keys]
         steps = [self._step([p.lines[i] for p in parts]) for i in range(len(parts[0].lines))]
-        answer = _joined(self.langs, [self._answer(p, lang) for p, lang in self._with_lang(parts)])
+        answer = joined(self.langs, [self._answer(p, lang) for p, lang in self._with_lang(parts)])
         reasons = [_reasons(part, lang) for part, lang in self._with_lang(parts)]
-        return "\n".join([*steps, f"#result[{answer}]", _each(self.langs, reasons)])
+        return "\n".join([*steps, f"#result[{answer}]", each(self.langs, reasons)])
 
     def _with_lang(self, parts: list[PartSolution]) -> list[tuple[PartSolution, str]]:
         return list(zip(parts, self.langs, strict=True))
 
     def _step(self, lines: list[Line]) -> str:
-        why = _each(
+        why = each(
             self.langs,
             [inline(line.why, lang) for line, lang in zip(lines, self.langs, strict=True)],
         )
@@ -312,7 +194,7 @@ class _Sheet:
 
     def _remark(self, solution: Solution, section: str) -> str:
         body, lang = getattr(solution, section), solution.lang
-        return _in(lang, f"{_heading(section, lang)}\n{blocks(body, lang)}") if body else ""
+        return within(lang, f"{_heading(section, lang)}\n{blocks(body, lang)}") if body else ""
 
     def _mistakes(self, solution: Solution) -> str:
         rows = [
@@ -322,7 +204,7 @@ class _Sheet:
         ]
         if not rows:
             return ""
-        return _in(solution.lang, "\n".join([_heading("mistakes", solution.lang), *rows]))
+        return within(solution.lang, "\n".join([_heading("mistakes", solution.lang), *rows]))
 
 
 def _reasons(part: PartSolution, lang: str) -> str:
@@ -342,28 +224,10 @@ def _heading(section: str, lang: str) -> str:
     return f"#heading(level: 3)[#{string(word(lang, key))};]"
 
 
-@cache
-def _fonts() -> Any:
-    """One font collection per process: only pinned fonts, never the machine's own."""
-    import typst
-
-    return typst.Fonts(
-        include_system_fonts=False,
-        include_embedded_fonts=True,
-        font_paths=[str(fonts.bangla_folder())],
-    )
-
-
-@cache
-def _layout() -> str:
-    return (files("quizgen.render") / "pages" / "paper.typ").read_text(encoding="utf-8")
-
-
 def source(paper: Paper, kind: str) -> tuple[str, dict[str, bytes]]:
     """Typst source and pictures of a sheet."""
     sheet = _Sheet(paper, kind)
-    bangla = "".join(f"{string(lang)}," for lang in in_script("Beng"))
-    return f"#let bangla = ({bangla})\n{_layout()}\n{sheet.source()}", sheet.pictures
+    return document("paper.typ", sheet.source()), sheet.pictures
 
 
 def render(paper: Paper, kind: str) -> bytes:
@@ -374,19 +238,7 @@ def render(paper: Paper, kind: str) -> bytes:
     RenderError
         If Typst refuses the document or a font is missing.
     """
-    import typst
-
-    text, pictures = source(paper, kind)
-    world: Any = {"main.typ": text.encode(), **pictures}  # the stub knows one file only
-    try:
-        data, warnings = typst.compile_with_warnings(
-            world, format="pdf", pdf_standards=STANDARD, font_paths=_fonts(), timestamp=MOMENT
-        )
-    except typst.TypstError as error:
-        raise RenderError(f"PDF: {error}") from error
-    if warnings:
-        raise RenderError(f"PDF: {warnings[0]}")
-    return bytes(data)
+    return compiled(*source(paper, kind))
 
 
 __all__ = ["Part", "render", "source"]

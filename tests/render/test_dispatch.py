@@ -10,7 +10,7 @@ from quizgen.bank.prose import About, Block, CodeBlock, Formula, Inline, Printed
 from quizgen.errors import RenderError
 from quizgen.question import markup
 from quizgen.question.shown import Maths
-from quizgen.render import pdf, text
+from quizgen.render import text, typ
 from quizgen.typeset import latex, mathml, nodes, spoken, typst
 
 PRINTERS = [latex, mathml, typst, spoken]
@@ -32,7 +32,7 @@ def test_a_stranger_is_refused_by_name(printer):
         printer(Words("x"), "en")
 
 
-@pytest.mark.parametrize("inline", [markup.inline, pdf.inline, text.inline])
+@pytest.mark.parametrize("inline", [markup.inline, typ.inline, text.inline])
 def test_every_piece_of_a_filled_sentence_has_a_rule(inline):
     filled = set(get_args(Inline)) - {Slot, Formula, About, Printed} | {Maths, tuple}
     assert inline.registry.keys() - {object} == filled
@@ -40,7 +40,7 @@ def test_every_piece_of_a_filled_sentence_has_a_rule(inline):
         inline(Slot("f"), *["en"] * (inline is not text.inline))
 
 
-@pytest.mark.parametrize("block", [markup.block, pdf._block, text._lines])
+@pytest.mark.parametrize("block", [markup.block, typ._block, text._lines])
 def test_every_block_has_a_rule(block):
     assert block.registry.keys() - {object} == set(get_args(Block))
 
@@ -49,4 +49,4 @@ def test_program_text_keeps_its_spaces_in_every_format():
     code = CodeBlock("if a < b:\n    c")
     assert markup.block(code, "en") == '<pre tabindex="0"><code>if a &lt; b:\n    c</code></pre>'
     assert list(text.blocks([code])) == ["    if a < b:", "        c"]
-    assert pdf.blocks([code], "en") == '#raw("if a < b:\\n    c", block: true);'
+    assert typ.blocks([code], "en") == '#raw("if a < b:\\n    c", block: true);'

@@ -1,0 +1,195 @@
+"""Pieces of Typst markup that every PDF is made of, and the typesetting itself."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+from datetime import UTC, datetime
+from functools import cache, singledispatch
+from importlib.resources import files
+from typing import Any, Final
+
+from quizgen import typeset
+from quizgen.bank.prose import (
+    Block,
+    Code,
+    CodeBlock,
+    Inline,
+    Items,
+    Paragraph,
+    Styled,
+    Table,
+    Words,
+)
+from quizgen.errors import RenderError
+from quizgen.locale import in_script, word
+from quizgen.question.filling import tied
+from quizgen.question.shown import Maths
+from quizgen.render import fonts
+
+STANDARD: Final = "ua-1"
+MOMENT = datetime(2000, 1, 1, tzinfo=UTC)
+"""The date written into every file: the same paper is the same bytes on any day."""
+
+
+def string(text: str) -> str:
+    """A Typst string literal: nothing in it is ever read as markup."""
+    return json.dumps(text, ensure_ascii=False).replace("\\/", "/")
+
+
+@singledispatch
+def inline(part: Inline | tuple[Inline, ...], lang: str) -> str:
+    """Inlines as Typst markup."""
+    raise TypeError(f"no Typst for {type(part).__name__} ({lang})")
+
+
+@inline.register(tuple)
+def _inlines(parts: tuple[Inline, ...], lang: str) -> str:
+    return "".join(_together(group, lang) for group in tied(parts))
+
+
+def _together(group: tuple[Inline, ...], lang: str) -> str:
+    body = "".join(inline(part, lang) for part in group)
+    return f"#box[{body}];" if len(group) > 1 else body
+
+
+@inline.register
+def _plain(part: Words, _lang: str) -> str:
+    return f"#{string(part.text)};"
+
+
+@inline.register
+def _maths(part: Maths, lang: str) -> str:
+    return equation(part, lang, block=False)
+
+
+@inline.register
+def _code(part: Code, _lang: str) -> str:
+    return f"#raw({string(part.text)});"
+
+
+@inline.register
+def _styled(part: Styled, lang: str) -> str:
+    name = "emph" if part.style == "em" else "strong"
+    return f"#{name}[{inline(part.children, lang)}];"
+
+
+def equation(maths: Maths, lang: str, *, block: bool) -> str:
+    """A formula with its spoken alternative."""
+    spoken = string(typeset.spoken(maths.node, lang))
+    space = " " if block else ""
+    body = f"${space}{typeset.typst(maths.node, lang)}{space}$"
+    return f"#math.equation(alt: {spoken}, block: {str(block).lower()}, {body});"
+
+
+def blocks(parts: Iterable[Block], lang: str) -> str:
+    """Blocks as Typst markup."""
+    return "\n\n".join(_block(part, lang) for part in parts)
+
+
+@singledispatch
+def _block(part: Block, lang: str) -> str:
+    raise TypeError(f"no Typst for {type(part).__name__} ({lang})")
+
+
+@_block.register
+def _paragraph(part: Paragraph, lang: str) -> str:
+    return inline(part.children, lang)
+
+
+@_block.register
+def _code_block(part: CodeBlock, _lang: str) -> str:
+    return f"#raw({string(part.text)}, block: true);"
+
+
+@_block.register
+def _items(part: Items, lang: str) -> str:
+    name = "enum" if part.ordered else "list"
+    return f"#{name}({', '.join(f'[{blocks(item, lang)}]' for item in part.items)});"
+
+
+@_block.register
+def _table(part: Table, lang: str) -> str:
+    cells = [cell for row in (part.head, *part.rows) for cell in row]
+    head = ", ".join(f"[{inline(cell, lang)}]" for cell in part.head)
+    rest = ", ".join(f"[{inline(cell, lang)}]" for cell in cells[len(part.head) :])
+    return f"#table(columns: {len(part.head)}, table.header({head}), {rest});"
+
+
+def within(lang: str, body: str) -> str:
+    """Paragraphs in a language."""
+    return f"#spoken({string(lang)})[{body}];"
+
+
+def say(lang: str, body: str) -> str:
+    """Words in a language, within a line."""
+    return f"#say({string(lang)})[{body}];"
+
+
+def each(langs: Iterable[str], bodies: Iterable[str]) -> str:
+    """The same thing in each language: the second one set off by a rule."""
+    spoken = [within(lang, body) for lang, body in zip(langs, bodies, strict=True) if body]
+    return "\n".join([*spoken[:1], *(f"#bilingual[{body}];" for body in spoken[1:])])
+
+
+def joined(langs: tuple[str, ...], texts: Iterable[str]) -> str:
+    """The same words in each language, in one line."""
+    return '#" / ";'.join(say(lang, text) for lang, text in zip(langs, texts, strict=True))
+
+
+def words(langs: tuple[str, ...], key: str, **values: object) -> str:
+    """Words of the interface in each language, in one line."""
+    return joined(langs, [f"#{string(word(lang, key, **values))};" for lang in langs])
+
+
+@cache
+def _fonts() -> Any:
+    """One font collection per process: only pinned fonts, never the machine's own."""
+    import typst
+
+    return typst.Fonts(
+        include_system_fonts=False,
+        include_embedded_fonts=True,
+        font_paths=[str(fonts.bangla_folder())],
+    )
+
+
+@cache
+def _layout(name: str) -> str:
+    return (files("quizgen.render") / "pages" / name).read_text(encoding="utf-8")
+
+
+def document(layout: str, body: str) -> str:
+    """Source of a document.
+
+    Parameters
+    ----------
+    layout : str
+        The page layout, a file of ``pages``.
+    body : str
+        What calls its functions.
+    """
+    bangla = "".join(f"{string(lang)}," for lang in in_script("Beng"))
+    return f"#let bangla = ({bangla})\n{_layout(layout)}\n{body}"
+
+
+def compiled(text: str, pictures: Mapping[str, bytes]) -> bytes:
+    """Typeset a document as a tagged PDF.
+
+    Raises
+    ------
+    RenderError
+        If Typst refuses the document or a font is missing.
+    """
+    import typst
+
+    world: Any = {"main.typ": text.encode(), **pictures}  # the stub knows one file only
+    try:
+        data, warnings = typst.compile_with_warnings(
+            world, format="pdf", pdf_standards=STANDARD, font_paths=_fonts(), timestamp=MOMENT
+        )
+    except typst.TypstError as error:
+        raise RenderError(f"PDF: {error}") from error
+    if warnings:
+        raise RenderError(f"PDF: {warnings[0]}")
+    return bytes(data)
