@@ -1,6 +1,9 @@
 """Outputs of papers: one module per format, each with ``render(paper, kind)``.
 
-In: a ``Paper``. Out: the bytes of a file. Must never know: how a paper was chosen, drawn or marked.
+The formula sheet has modules of its own, ``sheet_html`` and ``sheet_pdf``.
+
+In: a ``Paper`` or a ``Sheet``. Out: the bytes of a file. Must never know: how a paper was chosen,
+drawn or marked.
 """
 
 from __future__ import annotations
@@ -11,6 +14,7 @@ from quizgen.errors import one_of
 
 if TYPE_CHECKING:
     from quizgen.paper.paper import Paper
+    from quizgen.question.sheet import Sheet
 
 KINDS = ("exam", "solutions")
 """What a file shows: the questions alone, or with worked solutions."""
@@ -65,3 +69,24 @@ def render_paper(paper: Paper, kind: str, output: str) -> bytes:
         If the output cannot be made.
     """
     return renderer(output)(paper, one_of("kind", kind, KINDS))
+
+
+def render_sheet(sheet: Sheet, output: str) -> bytes:
+    """Render a formula sheet in one of ``RENDERERS``.
+
+    Raises
+    ------
+    ChoiceError
+        If there is no such format.
+    RenderError
+        If the output cannot be made.
+    """
+    match one_of("format", output, RENDERERS):
+        case "pdf":
+            from quizgen.render import sheet_pdf
+
+            return sheet_pdf.render(sheet)
+        case _:
+            from quizgen.render import sheet_html
+
+            return sheet_html.render(sheet)

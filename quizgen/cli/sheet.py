@@ -1,0 +1,57 @@
+"""``quizgen sheet``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Unpack
+
+import click
+
+from quizgen.cli.options import BankOptions, bank_options, checked, open_bank, split, topic_option
+from quizgen.locale import FIRST, choices
+
+FORMATS = ("html", "pdf")
+NAME = "formulas"
+
+
+class Options(BankOptions):
+    """Which formulas, and where to."""
+
+    lang: str
+    topics: str | None
+    formats: str
+    out: Path
+
+
+@click.command()
+@click.option("--lang", type=click.Choice(choices(), case_sensitive=False), default=FIRST,
+              show_default=True, help="Language.")  # fmt: skip
+@click.option("--topic", "topics", help="Only these topics, by comma.")
+@click.option("--format", "formats", default=",".join(FORMATS), show_default=True,
+              help="html (with all remarks), pdf (to print); by comma.")  # fmt: skip
+@click.option("--out", type=click.Path(path_type=Path), default=Path("sheet"), show_default=True,
+              help="Folder to write to.")  # fmt: skip
+@bank_options
+def sheet(**options: Unpack[Options]) -> None:
+    """Write the formulas of the chapter, by topic, on a sheet to print and a page to read."""
+    from quizgen.files import write_all
+    from quizgen.question.sheet import sheet as formula_sheet
+    from quizgen.render import render_sheet
+
+    formats = [checked("--format", name, FORMATS) for name in split(options["formats"])]
+    if not formats:
+        raise click.BadParameter(
+            f"no format (allowed: {', '.join(FORMATS)})", param_hint="--format"
+        )
+    bank = open_bank(options)
+    topics = [topic_option(bank, name) for name in split(options["topics"])]
+    made = formula_sheet(bank, options["lang"], topics)
+    folder = options["out"]
+    for path in write_all(folder, {f"{NAME}.{f}": render_sheet(made, f) for f in formats}):
+        click.echo(f"  {path}")
+    count, topics_there = sum(len(group.lines) for group in made.groups), len(made.groups)
+    click.echo(f"{_many(count, 'formula')} in {_many(topics_there, 'topic')}")
+
+
+def _many(count: int, word: str) -> str:
+    return f"{count} {word}" + ("s" if count != 1 else "")

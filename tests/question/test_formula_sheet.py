@@ -1,0 +1,53 @@
+"""The formula sheet in words: what stands on it, and what it says when nothing can."""
+
+from __future__ import annotations
+
+import pytest
+
+from quizgen.bank.folder import Bank
+from quizgen.bank.prose import Words
+from quizgen.errors import BankError
+from quizgen.question.sheet import sheet
+
+
+def lines(made):
+    return [line for group in made.groups for line in group.lines]
+
+
+def test_every_formula_stands_on_the_sheet_once_in_both_languages(bank):
+    found = lines(sheet(bank, "both"))
+    assert sorted(line.id for line in found) == [f"F{n:02}" for n in range(1, 47)]
+    assert {tuple(said.lang for said in line.said) for line in found} == {("en", "bn")}
+
+
+def test_topics_stand_in_the_order_in_which_they_are_learnt(bank):
+    made = sheet(bank, "en")
+    assert [group.topic for group in made.groups[:3]] == ["projection", "normalisation", "aperture"]
+    assert made.groups[0].titles == {"en": "Projection"}
+
+
+def test_a_topic_alone_has_its_own_formulas(bank):
+    made = sheet(bank, "bn", ["distortion"])
+    assert [line.id for line in lines(made)] == ["F20", "F21", "F22"]
+    assert made.langs == ("bn",)
+
+
+def test_units_questions_and_section_are_told(bank):
+    (line,) = (line for line in lines(sheet(bank, "both", ["projection"])) if line.id == "F05")
+    told = [part.text if isinstance(part, Words) else part.typed for part in line.units]
+    assert "".join(told).replace("\u00a0", " ") == "p_x, p_y, p_z [m]; f, p'_x, p'_y [mm]"
+    assert line.section == "4.1"
+    english, bangla = (dict(said.questions) for said in line.said)
+    assert english.keys() == bangla.keys()
+    name = "point-to-image-plane-fractions"
+    for lang, titles in (("en", english), ("bn", bangla)):
+        written = (bank.folder_of(name) / f"{lang}.md").read_text("utf-8")
+        assert written.splitlines()[0] == f"# {titles[name]}"
+
+
+def test_nothing_to_show_is_said_with_the_place(bank, tmp_path):
+    (tmp_path / "templates").mkdir()
+    with pytest.raises(BankError, match=r"no formulas here .*templates/cards/formulas\.toml"):
+        sheet(Bank(tmp_path), "en")
+    with pytest.raises(BankError, match="no formulas of the topic camera here"):
+        sheet(bank, "en", ["camera"])
