@@ -31,11 +31,8 @@ def test_every_formula_of_the_inventory_is_there_once(bank):
 
 def test_letters_with_a_unit_stand_in_the_formula(bank):
     for entry in formulas(bank):
-        written = set(
-            re.findall(
-                r"[^\W\d]\w*'*(?:_\w+)?", json.dumps([entry.lines, entry.inside, entry.about["en"]])
-            )
-        )
+        text = json.dumps([entry.lines, entry.inside, entry.about["en"]])
+        written = set(re.findall(r"[^\W\d]\w*'*(?:_\w+)?", text))
         for letters in entry.units.values():
             assert set(letters) <= written, entry.id
 
