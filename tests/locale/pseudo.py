@@ -20,6 +20,11 @@ KEPT = re.compile(r"\{\{.*?\}\}|\{[^{}]*\}|\$[^$]*\$|`[^`]*`|<[^<>]*>")
 MARKS = str.maketrans("aeiouAEIOU", "áéíóúÁÉÍÓÚ")
 
 
+def quoted(value) -> str:
+    """TOML of a text or a list; TOML knows no pairs of surrogates, which JSON would write."""
+    return json.dumps(value, ensure_ascii=False)
+
+
 def accented(text):
     """The text with marked vowels, but for what is filled in or typed."""
     ends = [0, *(end for found in KEPT.finditer(text) for end in found.span()), len(text)]
@@ -30,10 +35,10 @@ def accented(text):
 def toml(table, path=()):
     """A table as TOML; JSON strings are TOML strings."""
     plain = {k: v for k, v in table.items() if not isinstance(v, dict)}
-    lines = [f"[{'.'.join(map(json.dumps, path))}]"] if path else []
+    lines = [f"[{'.'.join(map(quoted, path))}]"] if path else []
     for key, value in plain.items():
         said = [accented(v) for v in value] if isinstance(value, list) else accented(value)
-        lines.append(f"{json.dumps(key)} = {json.dumps(said)}")
+        lines.append(f"{quoted(key)} = {quoted(said)}")
     for key, value in table.items():
         if isinstance(value, dict):
             lines += toml(value, (*path, key))
