@@ -19,7 +19,7 @@ from quizgen.maths.notation import ReadError
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 _TRUE = frozenset(
     {"true", "t", "yes", "y", "right", "correct", "wahr", "w", "ja", "j", "richtig", "r"}
-    | {"সত্য", "হ্যাঁ", "হ্যা", "ঠিক", "সঠিক", "স", "1", "✓", "✔"}
+    | {"সত্য", "হ্যাঁ", "হ্যা", "সত্যি", "stimmt", "ঠিক", "সঠিক", "স", "1", "✓", "✔"}
 )
 _FALSE = frozenset(
     {"false", "f", "no", "n", "wrong", "incorrect", "falsch", "nein"}
@@ -35,7 +35,10 @@ _LABELLED = re.compile(
 )
 _BEHIND = re.compile(r"(?P<words>.{2,}?) ?[\[(](?P<mark>[A-Za-zক-ঞ])[\])]")
 _FILLING = re.compile(r"^(?:option|অপশন) ", re.IGNORECASE)
-_IT_IS = re.compile(r"^(?:it is|this is|that is|es ist|das ist|এটা|এটি) ", re.IGNORECASE)
+_IT_IS = re.compile(
+    r"^(?:(?:it|this|that)(?: is|'s)|the statement is|বিবৃতিটি|es ist|das ist|এটা|এটি) ",
+    re.IGNORECASE,
+)
 _PIECES = re.compile(r"[;\n]|,(?=\s*[\[(]?[A-Za-zক-ঞ\d][\])]?\s*[).:=-])")
 _BENGALI = re.compile(r"[\u0980-\u09ff]")
 _UNFINISHED = re.compile(r"[+/&|(\[{][\s*+/&|(\[{]*$")

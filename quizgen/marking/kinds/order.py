@@ -17,7 +17,8 @@ from quizgen.maths.notation import ReadError
 
 MOST_STEPS = 40
 _LINE = re.compile(
-    r"(?<![^\s,;(])\(?(\d{1,2}) ?[.):]+ ?([^\s,;.:()\d]+|\d{1,2}(?![.):]))(?![^\s,;.])"
+    r"(?<![^\s,;(])\(?(\d{1,2})(?: ?[.):]+ ?| ?[=-] ?(?=[^\W\d])| (?=[^\W\d]))"
+    r"([^\s,;.:()\d]+|\d{1,2}(?![.):]))(?![^\s,;.])"
 )
 _FILLERS = frozenset({"then", "dann", "danach", "and", "und", "তারপর", "এরপর", "এবং"})
 

@@ -15,11 +15,11 @@ BRACKETS = {"(": ")", "[": "]", "{": "}", "<": ">"}
 _HARD = re.compile(r"[;|\n]")
 _COMMA = re.compile(r",")
 _BLANK_BEFORE = re.compile(r" +(?=[,;|])")
-_JOINING = re.compile(r" (?:and|und|&|এবং|ও) ")
+_JOINING = re.compile(r"[,;]? (?:and|und|&|এবং|ও) ")
 _UNIT_BEHIND = re.compile(r"[^;,|\d(\[{]*| ?[\[(][^;,|\d\[\](){}]+[\])]")
 _NAMES = re.compile(rf"\(? ?({NAME}(?: ?[,;|] ?{NAME})+) ?\)? ?(?::=|[=:≈]) ?(?=\S)")
 _FRONT = re.compile(rf"({NAME})(?: {NAME})* ?(?::=|[=:≈])? ?(?=[(\[{{<])")
-NAMED_NEXT = re.compile(rf"[,;]? +(?={NAME} ?(?::=|[=:≈]|->|→) ?\S)")
+NAMED_NEXT = re.compile(rf"(?:[,;]? +|[,;])(?={NAME} ?(?::=|[=:≈]|->|→) ?\S)")
 """Where the next of several named values begins."""
 _TORN = re.compile(r"\d+ +\d+(?<! \d{3})")
 _SPACED = re.compile(r"(?<=[\d)%°A-Za-z]) +(?=[-+]?[\d.(])")
@@ -83,10 +83,13 @@ def _plain_items(typed: str, count: int | None) -> list[Source]:
 
 
 def even(source: Source) -> Source:
-    """Take away blanks before separators, and put ``;`` for a word that joins values."""
+    """Take away blanks before separators, and put one for a word that joins values."""
     if " ," in source.text or " ;" in source.text or " |" in source.text:
         source = source.sub(_BLANK_BEFORE, lambda _m: "")
-    return source.sub(_JOINING, lambda _m: "; ") if source.text.count(" ") > 1 else source
+    if source.text.count(" ") < 2:
+        return source
+    listed = ", " in source.text and not _HARD.search(source.text)
+    return source.sub(_JOINING, lambda _m: ", " if listed else "; ")
 
 
 def fronted(source: Source) -> tuple[list[str], Source]:
@@ -156,7 +159,7 @@ def _closing(text: str, close: str) -> int:
 
 def _items(source: Source, count: int | None, decimal: str) -> list[Source]:
     if _HARD.search(source.text):
-        return list(_parts(source, _HARD))
+        return [named for part in _parts(source, _HARD) for named in _parts(part, NAMED_NEXT)]
     if "=" in source.text or ":" in source.text:
         named = list(_parts(source, NAMED_NEXT))
         if len(named) > 1 and (count is None or len(named) == count):
