@@ -74,6 +74,8 @@ Inline = Words | Slot | Formula | Code | Styled | About | Printed
 """A piece of a sentence; once filled, without ``Slot``, ``Formula`` and ``About``."""
 Value = Callable[[Slot | Formula], tuple[Inline, ...]]
 """What a slot or a formula is replaced by."""
+Program = Callable[[str], str]
+"""What becomes of program text."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -273,7 +275,7 @@ def slots(parts: Iterable[Block | Inline]) -> Iterator[str]:
         match part:
             case Slot(name):
                 yield name
-            case CodeBlock(text):
+            case CodeBlock(text) | Code(text):
                 yield from _SLOT.findall(text)
             case Paragraph(children) | Styled(_, children):
                 yield from slots(children)
@@ -283,10 +285,10 @@ def slots(parts: Iterable[Block | Inline]) -> Iterator[str]:
                 yield from slots(inline for row in (head, *rows) for cell in row for inline in cell)
 
 
-def fill(parts: tuple[Inline, ...], value: Value) -> tuple[Inline, ...]:
-    """Put what ``value`` gives in the place of the slots and formulas of a sentence."""
+def fill(parts: tuple[Inline, ...], value: Value, program: Program = str) -> tuple[Inline, ...]:
+    """Fill a sentence: slots and formulas with what ``value`` gives, code as ``program`` does."""
     done: list[Inline] = []
-    for one in (one for part in parts for one in _filled(part, value)):
+    for one in (one for part in parts for one in _filled(part, value, program)):
         if not isinstance(one, About):
             done.append(one)
         elif done and isinstance(before := done[-1], Words):
@@ -294,23 +296,23 @@ def fill(parts: tuple[Inline, ...], value: Value) -> tuple[Inline, ...]:
     return tuple(done)
 
 
-def _filled(part: Inline, value: Value) -> tuple[Inline, ...]:
+def _filled(part: Inline, value: Value, program: Program) -> tuple[Inline, ...]:
     if isinstance(part, Slot | Formula):
         return value(part)
     if isinstance(part, Styled):
-        return (Styled(part.style, fill(part.children, value)),)
+        return (Styled(part.style, fill(part.children, value, program)),)
+    if isinstance(part, Code):
+        return (Code(program(part.text)),)
     return (part,)
 
 
-def fill_blocks(
-    parts: tuple[Block, ...], value: Value, program: Callable[[str], str]
-) -> tuple[Block, ...]:
+def fill_blocks(parts: tuple[Block, ...], value: Value, program: Program) -> tuple[Block, ...]:
     """Fill every sentence of blocks as ``fill`` does, and programs by ``program``."""
 
     def filled(block: Block) -> Block:
         match block:
             case Paragraph(children):
-                return Paragraph(fill(children, value))
+                return Paragraph(fill(children, value, program))
             case CodeBlock(text):
                 return CodeBlock(program(text))
             case Items(items, ordered):
@@ -319,7 +321,7 @@ def fill_blocks(
                 return Table(row(head), tuple(map(row, rows)))
 
     def row(cells: tuple[tuple[Inline, ...], ...]) -> tuple[tuple[Inline, ...], ...]:
-        return tuple(fill(cell, value) for cell in cells)
+        return tuple(fill(cell, value, program) for cell in cells)
 
     return tuple(map(filled, parts))
 

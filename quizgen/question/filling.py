@@ -77,7 +77,7 @@ class Filler:
         BankError
             If the language file lacks it, or a slot names nothing that may stand there.
         """
-        return fill(self.unfilled(section, name), self._value)
+        return fill(self.unfilled(section, name), self._value, self._program)
 
     def unfilled(self, section: str, name: str) -> tuple[Inline, ...]:
         """A named sentence as it is written; of several cases the one that fits the draw.

@@ -121,6 +121,14 @@ def test_a_program_in_a_stem_has_the_minus_of_the_keyboard():
     assert question.stem[1].text.strip() == "print(-3)"
 
 
+def test_code_in_a_sentence_is_filled_as_a_program():
+    words = "## words\n- call: It returns `f({{ a }}, {{ a }}.0)`.\n"
+    steps = [("u", "2*a", "")]
+    one = drawn({"a": ("", "-3")}, steps, "{{ what }}", words=words, said={"what": "call"})
+    question, _ = put_into_words(one, "en")
+    assert plain(question.stem[0].children) == "It returns f(-3, -3.0)."
+
+
 def test_a_stem_shows_a_drawn_phrase():
     words = "## words\n- wide: a wide lens\n- long: a long lens\n"
     one = drawn(
