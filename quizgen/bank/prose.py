@@ -301,7 +301,7 @@ def _filled(part: Inline, value: Value, program: Program) -> tuple[Inline, ...]:
         return value(part)
     if isinstance(part, Styled):
         return (Styled(part.style, fill(part.children, value, program)),)
-    if isinstance(part, Code):
+    if isinstance(part, Code) and _SLOT.search(part.text):
         return (Code(program(part.text)),)
     return (part,)
 
