@@ -41,9 +41,14 @@ _IT_IS = re.compile(
 )
 _PIECES = re.compile(r"[;\n]|,(?=\s*[\[(]?[A-Za-zক-ঞ\d][\])]?\s*[).:=-])")
 _BENGALI = re.compile(r"[\u0980-\u09ff]")
+_SET_OFF = re.compile(r"^[\[(]?(?:[^\W_]|\d{2}) ?[\]).:=-]+ ?[^\s,;]{2}|[\[(][^\W\d_][\])]$")
+"""A letter with a sign before or behind words of more than one letter."""
 _UNFINISHED = re.compile(r"[+/&|(\[{][\s*+/&|(\[{]*$")
 """A sign behind which more was to come: no answer yet."""
-_FILLERS = re.compile(r"\b(?:and|und|or|option|answer|ans|এবং|ও|উত্তর)\b", re.IGNORECASE)
+_FILLERS = re.compile(
+    r"(?<![\w\u0980-\u09ff])(?:and|und|or|option|answer|ans|এবং|ও|উত্তর)(?![\w\u0980-\u09ff])",
+    re.IGNORECASE,
+)
 
 
 class Spec(Worded, kw_only=True, frozen=True):
@@ -134,7 +139,7 @@ def _both(spec: Spec, piece: str) -> int:
         return 0
     mark = match["mark"].translate(BANGLA_LETTERS)
     position = int(mark) if mark.isdecimal() else LETTERS.find(mark.upper()) + 1
-    meant = _meant(spec, match["words"])
+    meant = _meant(spec, match["words"], foreign=bool(_SET_OFF.search(text)))
     if not 1 <= position <= len(spec.choices()) or not meant:
         return 0
     if position not in meant:
@@ -142,14 +147,14 @@ def _both(spec: Spec, piece: str) -> int:
     return position
 
 
-def _meant(spec: Spec, words: str) -> list[int]:
-    """Options that words can mean: whole, in part, or in a script that the options do not use."""
+def _meant(spec: Spec, words: str, *, foreign: bool) -> list[int]:
+    """Options that words can mean: whole, in part, or (foreign) in a script they do not use."""
     folded = fold(words)
     options = [fold(option) for option in spec.choices()]
     same = [place for place, option in enumerate(options, 1) if option == folded]
     if same:
         return same
-    if _BENGALI.search(words) and not any(map(_BENGALI.search, options)):
+    if foreign and _BENGALI.search(words) and not any(map(_BENGALI.search, options)):
         return list(range(1, len(options) + 1))
     return [
         place
