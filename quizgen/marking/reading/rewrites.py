@@ -121,6 +121,7 @@ _ALWAYS = ("answer", "about", "classifiers", "x between numbers", "ties", "power
 _RAISED = re.compile(r"[-+−–]?\d+·(?!10)\d{2,}")
 _STOPS = ".;।॥"
 _UNFINISHED = re.compile(r"[-+]?(?:\d+;|\d{1,3}(?:\.\d{3}){2,}\.)")
+_FENCED = re.compile(r"\s*`{1,3}([^`]+)`{1,3}\s*")
 _EXOTIC = re.compile(r"[^ -~]")
 _LATEX = re.compile(r"[\\${]")
 """A text without one of these holds no LaTeX; its many patterns are made when it is first met."""
@@ -153,7 +154,7 @@ def normalise(typed: str, *, keep_x: bool = False, longest: int = LONGEST) -> So
     """
     if len(typed) > longest:
         raise ReadError("too-long", longest + 1, str(longest))
-    source = Source.of(typed)
+    source = _unfenced(Source.of(typed))
     if _EXOTIC.search(typed):
         source = _fold(source)
     if _LATEX.search(source.text):
@@ -169,6 +170,12 @@ def normalise(typed: str, *, keep_x: bool = False, longest: int = LONGEST) -> So
     if not source.text:
         raise ReadError("no-answer", 1)
     return _finished(source) if source.text[-1] in _STOPS else source
+
+
+def _unfenced(source: Source) -> Source:
+    """Drop marks of code around everything."""
+    fence = _FENCED.fullmatch(source.text) if "`" in source.text else None
+    return source.cut(*fence.span(1)) if fence else source
 
 
 def _finished(source: Source) -> Source:

@@ -122,6 +122,8 @@ def _pieces(text: str, symbols: frozenset[str] | None, *, loose: bool) -> list[P
         position = match.end()
         if match.lastgroup == "name":
             found += _named(match, symbols, loose=loose)
+        elif match.lastgroup == "quoted":
+            found.append(_quoted(match, symbols))
         elif match.lastgroup != "space":
             found.append(_piece(match))
     if position < len(text):
@@ -135,11 +137,17 @@ def _piece(match: re.Match[str]) -> Piece:
         return Piece("NUMBER", number_node(word, column), word, column)
     if kind == "literal":
         return Piece("NUMBER", _literal(word, column), word, column)
-    if kind == "quoted":
-        return Piece("NAME", word[1:-1], word, column)
     if word in RELATIONS:
         return Piece("RELATION", RELATIONS[word], word, column)
     return Piece(OPERATORS[word], word, word, column)
+
+
+def _quoted(match: re.Match[str], symbols: frozenset[str] | None) -> Piece:
+    word, column = match[0], match.start() + 1
+    name = word[1:-1]
+    if symbols is not None and name not in symbols:
+        raise ReadError("unknown-name", column, name, sorted(symbols))
+    return Piece("NAME", name, word, column)
 
 
 def _named(match: re.Match[str], symbols: frozenset[str] | None, *, loose: bool) -> list[Piece]:
