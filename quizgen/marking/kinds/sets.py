@@ -33,6 +33,8 @@ class Spec(Numbers, kw_only=True, frozen=True):
         two = _judge(self, _elements(self, typed, 2, options))
         one = _judge(self, _elements(self, typed, 1, options))
         own = one if options.decimal == "comma" else two
+        if options.decimal == "auto" and _NOUGHT.search(typed) and (one.credit or two.credit):
+            raise ReadError("comma-twice", 1, typed)
         if own.credit == 1 or not (one.credit or two.credit):
             return own
         if own is one and one.credit:
@@ -45,6 +47,8 @@ class Spec(Numbers, kw_only=True, frozen=True):
 
 
 _ONE_COMMA = re.compile(r"[^\W\d]?[^,;|\d]*[\[({]? *[-+−–]?\d+,\d+ *[\])}]?[^,;|\d]*")
+_NOUGHT = re.compile(r"(?<!\d)[0০],")
+"""How decimals begin: ``0,5`` may be one even where 0 and 5 are asked."""
 _EMPTY = frozenset({"{}", "∅", "{ }", "()", "empty", "leer", "শূন্য"})
 
 
