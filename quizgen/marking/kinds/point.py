@@ -133,10 +133,17 @@ def _cell(spec: Spec, index: int, number: Number, key: Value, options: Options) 
 
 
 def _trap(spec: Spec, numbers: list[Number]) -> str:
-    for name, values in spec.traps.items():
-        if all_mistaken(spec, numbers, [exact_value(value) for value in values]):
-            return name
-    return ""
+    """The known mistake that gives the numbers; of several that round to them the nearest."""
+    wanted = {name: list(map(exact_value, values)) for name, values in spec.traps.items()}
+    found = [name for name, values in wanted.items() if all_mistaken(spec, numbers, values)]
+    return min(found, key=lambda name: _distance(numbers, wanted[name]), default="")
+
+
+def _distance(numbers: list[Number], values: list[Value]) -> float:
+    return sum(
+        abs(float(number.value) - float(value))
+        for number, value in zip(numbers, values, strict=True)
+    )
 
 
 def _hint(
