@@ -143,7 +143,7 @@ def _right_counts(drawn: Draw, index: int, right: int, wrong: int) -> list[int]:
     answer = drawn.template.rules.part[index].answer
     take = answer["take"]
     least, most = answer.get("right", (1, take)) if answer["kind"] == "multi" else (1, 1)
-    found = [n for n in range(least, most + 1) if n <= right and take - n <= wrong and n <= take]
+    found = list(range(max(least, take - wrong), min(most, right, take) + 1))
     if not found:
         place = f"{drawn.template.path / 'template.toml'}: part {index + 1}"
         raise BankError(f"{place}: take: {right} right and {wrong} wrong options are too few")

@@ -124,6 +124,12 @@ def test_every_set_that_may_come_comes_and_no_other(tmp_path, answer, expected):
     assert len({identity(draw(template, seed)) for seed in range(SEEDS)}) == len(expected)
 
 
+def test_how_many_may_be_right_is_no_count_of_steps(tmp_path):
+    """A range as long as one likes takes no longer."""
+    template = made(tmp_path, part(MULTI.replace("[1, 2]", f"[1, {10**15}]")))
+    assert {len(s & set("abc")) for s, _ in sets_of(template)} == {1, 2, 3}
+
+
 def test_steps_keep_their_order(tmp_path):
     template = made(tmp_path, part(ORDER))
     for seed in range(50):
