@@ -46,13 +46,19 @@ def grouped(digits: str) -> str:
     """
     whole, point, behind = digits.partition(".")
     if len(whole) > LONGEST_UNGROUPED:
-        whole = f"{int(whole):,}".replace(",", GAP)
+        whole = whole.lstrip("0") or "0"
+        first = len(whole) % 3 or 3
+        ends = range(first, len(whole) + 1, 3)
+        whole = GAP.join((whole[:first], *(whole[end : end + 3] for end in ends[:-1])))
     return f"{whole}{point}{behind}"
 
 
 def power_of_ten(exponent: str | int) -> str:
     """``10⁻⁵``."""
-    return f"10{str(int(str(exponent).replace(MINUS, '-'))).translate(RAISED)}"
+    text = str(exponent)
+    digits = text.lstrip(f"+-{MINUS}").lstrip("0")
+    sign = "-" if digits and text[0] in {"-", MINUS} else ""
+    return f"10{(sign + (digits or '0')).translate(RAISED)}"
 
 
 def number(text: str) -> str:
