@@ -257,7 +257,7 @@ def _plain(text: str) -> Iterator[Inline]:
     pieces = _POWER.split(text)
     for index, piece in enumerate(pieces):
         if index % 2:
-            yield Formula(parse(piece))
+            yield _formula(piece)
         elif piece:
             yield Words(people.prose(piece).replace(" = ", TIED))
 

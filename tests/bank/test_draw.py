@@ -116,6 +116,7 @@ def test_mistakes_in_a_template_are_located(tmp_path, change, message):
         ("# T\n{% for x in y %}", "double braces"),
         ("# T\n{{ f.__class__ }}", "double braces"),
         ("# T\n$f *$", "mathematics"),
+        ("# T\nabout 1e400 of them", r"en\.md: mathematics \$1e400\$: .*too large"),
         ("# T\nstem\n## surprise\nx", "unknown"),
         ("# T\nstem\n## steps\n- x", "lacks"),
         ("# T\n![x](y)", ""),
