@@ -11,7 +11,7 @@ from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 
-from values import as_json, bent, damaged, mutated, toml
+from values import as_json, bent, damaged, huge, mutated, toml
 
 from quizgen.bank import plan as planning
 from quizgen.bank.entries import load as load_cards
@@ -188,7 +188,7 @@ def rows(form: dict) -> str:
     out = io.StringIO()
     filled = form.get("answers")
     pairs = filled.items() if isinstance(filled, dict) else [("1", filled)]
-    shown = ((part, hex(v) if isinstance(v, int) else v) for part, v in pairs)
+    shown = ((part, "1" * 6000 if huge([v]) else v) for part, v in pairs)
     csv.writer(out, delimiter=";").writerows([("part", "answer"), *shown])
     return out.getvalue()
 

@@ -123,10 +123,11 @@ def _value(value: Plain) -> str:
 
 def as_json(table: Plain) -> str:
     """Write JSON, half characters and all."""
-    return json.dumps(table, default=str) if not _huge(table) else "1" * 6000
+    return json.dumps(table, default=str) if not huge(table) else "1" * 6000
 
 
-def _huge(table: Plain) -> bool:
+def huge(table: Plain) -> bool:
+    """Whether a number in it is longer than Python writes."""
     return any(isinstance(v, int) and abs(v) > 10**4000 for v in _leaves(table))
 
 
