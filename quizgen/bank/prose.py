@@ -263,6 +263,8 @@ def _plain(text: str) -> Iterator[Inline]:
 
 
 def _formula(text: str) -> Formula:
+    if text.lstrip().startswith("+"):
+        raise BankError(f"mathematics ${text}$: a sign + in front is not printed: set it as words")
     try:
         return Formula(parse(text))
     except FormulaError as error:

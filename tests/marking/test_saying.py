@@ -140,7 +140,7 @@ CODE = {"kind": "code", "output": "[1, 2, 3]"}
         ("(1, 2)", "[1, 2]", "output-separators", 0.5),
         ("['a', 'b']", "[‘a’, ‘b’]", "", 1),
         ('{"a": 1}', "{“a”: 1}", "", 1),
-        ("['a']", "[„a“]", "output-quotes", 0),
+        ("['a']", "[„a“]", "", 1),
     ],
 )
 def test_program_output_as_people_type_it(output, typed, note, credit):

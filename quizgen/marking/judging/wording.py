@@ -104,9 +104,13 @@ _PREFIXES = re.compile(
 def another_word(typed: str, term: str, known: Iterable[str]) -> bool:
     """Whether what was typed is a word of its own rather than a slip in spelling a term.
 
-    An opposite (``un-``, ``de-``, ``an-``), a known word, or two letters replaced.
+    An opposite (``un-``, ``de-``, ``an-``), a known word, two letters replaced, or the term with
+    a short word beside it (``increases no``).
     """
     word, wanted = fold(typed), fold(term)
+    pieces = typed.split()
+    if any(fold(" ".join(pieces[:i] + pieces[i + 1 :])) == wanted for i in range(len(pieces))):
+        return True
     stem, wanted_stem = _stem(word), _stem(wanted)
     if stem == wanted or wanted_stem == word or word in map(fold, known):
         return True

@@ -36,7 +36,7 @@ class Spec(Worded, kw_only=True, frozen=True):
         if not given:
             raise ReadError("no-answer", 1)
         for output in (self.output, *self.also):
-            if given == folded(output):
+            if one_mark(given) == one_mark(folded(output)):
                 return correct(safe(given))
         note = _note(self, given)
         if note in SET_OTHERWISE:
@@ -66,6 +66,11 @@ def folded(text: str) -> str:
     lines = [" ".join(line.split()) for line in text.replace("\r", "").split("\n")]
     joined = "\n".join(line for line in lines if line)
     return "\n".join(_INSIDE.sub(r"\1", line) for line in joined.split("\n"))
+
+
+def one_mark(text: str) -> str:
+    """One kind of quotation marks, as Python reads both alike; how many there are counts."""
+    return text.replace('"', "'")
 
 
 def _note(spec: Spec, given: str) -> str:

@@ -153,16 +153,26 @@ def _by_number(typed: str, count: int) -> list[str]:
     pairs = dict(_PAIR.findall(typed))
     if {*pairs} == {*map(str, range(1, count + 1))} and not re.search(r"\w", _PAIR.sub("", typed)):
         return [pairs[str(number)] for number in range(1, count + 1)]
-    marks = list(_NUMBER.finditer(typed))
-    names = [mark[1] or str("abcdefgh".index(mark[2]) + 1) for mark in marks]
-    if sorted(names) != sorted(map(str, range(1, count + 1))) or marks[0].start():
+    found = list(_NUMBER.finditer(typed))
+    marked = [mark for mark in found if not mark[0].strip().isdigit()]
+    marks = next((some for some in (marked, found) if _all_once(some, count)), [])
+    if not marks or marks[0].start():
         return []
+    names = list(map(_numbered, marks))
     ends = [*(mark.start() for mark in marks[1:]), len(typed)]
     words = {
         name: _JOINED.sub("", typed[mark.end() : end].strip(_ENDS)).strip(_ENDS)
         for name, mark, end in zip(names, marks, ends, strict=True)
     }
     return [words[str(number)] for number in range(1, count + 1)]
+
+
+def _numbered(mark: re.Match[str]) -> str:
+    return mark[1] or str("abcdefgh".index(mark[2]) + 1)
+
+
+def _all_once(marks: list[re.Match[str]], count: int) -> bool:
+    return sorted(map(_numbered, marks)) == sorted(map(str, range(1, count + 1)))
 
 
 def _in_a_row(typed: str, count: int) -> list[str]:

@@ -133,7 +133,7 @@ def _judge_as(spec: Spec, number: Number, value: Value, options: Options) -> Ver
         spec.trap_values(scale),
         spec.form,
         hints_for(spec, number, fmpq(1, scale), options),
-        ratio=not spec.percent,
+        ratio=not (spec.percent or spec.counts),
     )
     verdict = judge_value(asked, number, value)
     return with_values(verdict, value / scale)

@@ -130,11 +130,14 @@ def _prefix(
     if typed.dimension == DEGREES and typed.factor == 1 and radians(number.value, key):
         return with_values(wrong(verdict.read_as, "radians"), *verdict.values)
     same = close(number.value, key) and typed.text != spec.unit
-    if not (same and power_of_ten(value, key)) and verdict.note not in POWERS:
+    power = power_of_ten(value, key)
+    if not (same and power) and verdict.note not in POWERS:
         return verdict
+    if abs(power) == 1 and not any(base == "m" for base, _ in typed.dimension):
+        return verdict  # ten times is a prefix of lengths only: cm and mm
     asked = shown_unit(spec.unit)
     note = "unit-prefix" if same else "unit-prefix-power"
-    fields = {"asked": asked, "power": power_of_ten(value, key)}
+    fields = {"asked": asked, "power": power}
     return with_values(wrong(verdict.read_as, note, **fields), *verdict.values)
 
 
