@@ -42,6 +42,13 @@ def formulas(bank: Bank) -> tuple[FormulaEntry, ...]:
     return authored(bank, NAME, FormulaEntry)
 
 
+def missing_formulas(bank: Bank, name: str) -> list[str]:
+    """Formulas that a template's solver says to apply, and the bank does not have."""
+    named = bank.template(name).chain.formulas.values()
+    known = {entry.id for entry in formulas(bank)}
+    return sorted({*named} - known)
+
+
 def asked_in(bank: Bank) -> dict[str, tuple[str, ...]]:
     """The templates that cover each formula, by its id."""
     found: dict[str, tuple[str, ...]] = {entry.id: () for entry in formulas(bank)}

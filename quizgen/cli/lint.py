@@ -110,9 +110,14 @@ def _taught(bank: Bank, names: tuple[str, ...], options: Options) -> int:
 def _examined(bank: Bank, name: str, options: Options) -> tuple[tuple[str, ...], list[str]]:
     """Cells of a template's row, and its problems."""
     from quizgen.audit.lint import lint_template
+    from quizgen.bank.formulas import missing_formulas
 
     try:
         report = lint_template(bank.template(name), options["seeds"], bank.languages)
+        report.problems += [
+            f"the solver names formula {formula!r}, which templates/cards/formulas.toml lacks"
+            for formula in missing_formulas(bank, name)
+        ]
     except Exception as error:
         if interrupted():
             raise KeyboardInterrupt from error

@@ -43,11 +43,14 @@ class Chain:
         In order: a step may use given quantities and earlier steps.
     traps : mapping of str to tuple of ChainStep
         Trap name to the wrong steps put in place of the right ones of the same name.
+    formulas : mapping of str to str
+        Step name to the id of the formula that it applies.
     """
 
     given: Mapping[str, str]
     steps: tuple[ChainStep, ...]
     traps: Mapping[str, tuple[ChainStep, ...]] = field(default_factory=dict)
+    formulas: Mapping[str, str] = field(default_factory=dict)
 
     @cached_property
     def by_name(self) -> dict[str, ChainStep]:

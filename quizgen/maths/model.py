@@ -58,11 +58,14 @@ class Model:
         In order of solution.
     traps : mapping of str to Step or tuple of Step
         Mistake name to the wrong step (or steps) put in place of the right one.
+    formulas : mapping of str to str
+        Name of a step to the formula of the bank that it applies (``cards/formulas.toml``).
     """
 
     given: Mapping[sympy.Symbol, str]
     steps: tuple[Step, ...]
     traps: Mapping[str, Step | tuple[Step, ...]] = field(default_factory=dict)
+    formulas: Mapping[str, str] = field(default_factory=dict)
 
     def chain(self) -> Chain:
         """Convert to formula trees.
@@ -70,7 +73,8 @@ class Model:
         Raises
         ------
         BankError
-            If a step uses a quantity that is neither given nor defined before it.
+            If a step uses a quantity that is neither given nor defined before it, or a formula is
+            given for what is no step.
         """
         given = {symbol.name: unit for symbol, unit in self.given.items()}
         steps = tuple(_convert(step) for step in self.steps)
@@ -79,7 +83,10 @@ class Model:
             for name, wrong in self.traps.items()
         }
         _check_order(given, steps, traps)
-        return Chain(given, steps, traps)
+        strangers = set(self.formulas) - {step.name for step in steps}
+        if strangers:
+            raise BankError(f"formulas: {sorted(strangers)} are not steps")
+        return Chain(given, steps, traps, self.formulas)
 
 
 def _convert(step: Step) -> ChainStep:

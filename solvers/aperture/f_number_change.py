@@ -22,6 +22,7 @@ with evaluate(False):
             Step(t_1, 1 / r, "s"),
             Step(t_2, Piecewise((t_1 * q**2, D_1 > D_2), (t_1 / q**2, True)), "s"),
         ),
+        formulas={"D_1": "F31", "D_2": "F31", "e": "F32", "k": "F34", "t_2": "F35"},
         traps={
             "radius": (Step(D_1, f / N_1 / 2), Step(D_2, f / N_2 / 2)),
             "multiplied": (Step(D_1, f * N_1), Step(D_2, f * N_2)),

@@ -20,6 +20,7 @@ with evaluate(False):
             Step(m, Add(*f) / 4),
             *(Step(o[k], floor(i[k] * m / f[k])) for k in range(4)),
         ),
+        formulas={"o_1": "F39", "o_2": "F39", "o_3": "F39", "o_4": "F39"},
         traps={
             "rounded": tuple(Step(o[k], floor(i[k] * m / f[k] + Rational(1, 2))) for k in range(4)),
             "multiplied": tuple(Step(o[k], floor(i[k] * f[k] / m)) for k in range(4)),

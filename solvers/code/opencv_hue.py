@@ -30,6 +30,7 @@ with evaluate(False):
             Step(H, Piecewise((H_0 + 360, H_0 < 0), (H_0, True)), "deg"),
             Step(c, H / 2),
         ),
+        formulas={"V": "F23", "Delta": "F23", "H_0": "F24", "c": "F37"},
         traps={
             "degrees": Step(c, H),
             "full-range": Step(c, floor(H * 256 / 360 + Rational(1, 2))),

@@ -14,6 +14,7 @@ with evaluate(False):
     MODEL = Model(
         given={h: "", d: ""},
         steps=(Step(o, floor(d / 2)), Step(c, Mod(h + o, 180))),
+        formulas={"o": "F37"},
         traps={
             "offset-in-degrees": Step(o, d),
             "not-wrapped": Step(c, h + o),

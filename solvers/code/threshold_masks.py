@@ -17,6 +17,7 @@ with evaluate(False):
             Step(w, n * (p / 2)),
             Step(b, Piecewise((n * (p / 2), p <= 1), (n * (1 - p / 2), True))),
         ),
+        formulas={"w": "F38", "b": "F38"},
         traps={
             "share-each": (Step(w, n * p), Step(b, n * p)),
             "overlap-ignored": Step(b, n * (p / 2)),

@@ -14,6 +14,7 @@ with evaluate(False):
     MODEL = Model(
         given={a: "", b: ""},
         steps=(Step(s, a + b), Step(w, Mod(s, 256)), Step(c, floor(w / 2))),
+        formulas={"w": "F36"},
         traps={
             "no-wrap": Step(w, s),
             "saturated": Step(w, Integer(255)),

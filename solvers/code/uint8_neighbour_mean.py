@@ -14,6 +14,7 @@ with evaluate(False):
     MODEL = Model(
         given={a: "", b: "", p: "", q: ""},
         steps=(Step(s, Add(a, b, p, q)), Step(w, Mod(s, 256)), Step(c, w / 4)),
+        formulas={"w": "F36"},
         traps={
             "no-wrap": Step(w, s),
             "saturated": Step(w, Integer(255)),

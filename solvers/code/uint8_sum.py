@@ -14,6 +14,7 @@ with evaluate(False):
     MODEL = Model(
         given={a: "", b: ""},
         steps=(Step(s, a + b), Step(c, Mod(s, 256))),
+        formulas={"c": "F36"},
         traps={
             "no-wrap": Step(c, s),
             "saturated": Step(c, Integer(255)),

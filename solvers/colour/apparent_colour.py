@@ -14,6 +14,7 @@ with evaluate(False):
     MODEL = Model(
         given=dict.fromkeys((L_r, L_g, L_b, R_r, R_g, R_b), ""),
         steps=(Step(r, L_r * R_r), Step(g, L_g * R_g), Step(b, L_b * R_b)),
+        formulas={"r": "F02", "g": "F02", "b": "F02"},
         traps={
             "added": (Step(r, L_r + R_r), Step(g, L_g + R_g), Step(b, L_b + R_b)),
             "averaged": (

@@ -31,6 +31,7 @@ with evaluate(False):
             Step(G_H, Piecewise((R, delta < 150), (V + m - G, delta < 200), (B, True))),
             Step(B_H, Piecewise((G, delta < 150), (V + m - B, delta < 200), (R, True))),
         ),
+        formulas={"V": "F23"},
         traps={
             "only-largest": (
                 Step(R_V, Piecewise((a * R, R >= V), (R, True))),

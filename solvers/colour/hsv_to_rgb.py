@@ -44,6 +44,7 @@ with evaluate(False):
             Step(m, V - C),
             *_channels(C + m, X + m, 0 + m),
         ),
+        formulas={"C": "F25", "X": "F25", "m": "F25", "R": "F26", "G": "F26", "B": "F26"},
         traps={
             "next-sector": _channels_of_next_sector(C + m, X + m, 0 + m),
             "no-absolute-value": Step(X, C * (1 - (Mod(h, 2) - 1))),

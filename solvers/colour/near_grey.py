@@ -21,6 +21,7 @@ with evaluate(False):
             Step(G, B + v / SMALL),
             Step(F, 60 * ((G - B) / (R - B)), "deg"),
         ),
+        formulas={"H": "F24", "F": "F24"},
         traps={
             "over-value": Step(s, v / SMALL / (B + u / SMALL)),
             "next-branch": Step(H, 60 * (2 + s)),

@@ -29,6 +29,7 @@ with evaluate(False):
             ),
             Step(H, Piecewise((H_0 + 360, H_0 < 0), (H_0, True)), "deg"),
         ),
+        formulas={"V": "F23", "Delta": "F23", "S": "F23", "H_0": "F24"},
         traps={
             "difference-as-saturation": Step(S, Delta),
             "lightness-saturation": Step(S, Delta / (V + m)),

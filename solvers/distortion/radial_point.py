@@ -21,6 +21,7 @@ with evaluate(False):
             Step(v, y * L),
             Step(q, L - 1),
         ),
+        formulas={"R": "F21", "x_d": "F20", "y_d": "F20"},
         traps={
             "sign-flipped": Step(L, 1 - delta),
             "r-for-square": Step(R, sqrt(x**2 + y**2)),

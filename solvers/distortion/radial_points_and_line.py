@@ -29,6 +29,16 @@ with evaluate(False):
             Step(u_b, x_A * (1 + k_1 * R_b)),
             Step(sag, u_b - u_A),
         ),
+        formulas={
+            "R_A": "F21",
+            "u_A": "F20",
+            "v_A": "F20",
+            "R_B": "F21",
+            "u_B": "F20",
+            "v_B": "F20",
+            "R_b": "F21",
+            "u_b": "F20",
+        },
         traps={
             "r-for-square": (Step(R_A, x_A), Step(R_B, x_B)),
             "sign-flipped": (Step(L_A, 1 - k_1 * R_A), Step(L_B, 1 - k_1 * R_B)),

@@ -17,6 +17,7 @@ with evaluate(False):
             Step(r, (P_1 * V_1) / (P_2 * V_2)),
             Step(Q, P_1 * (V_1 / V_2), "mW"),
         ),
+        formulas={"r": "F03", "Q": "F03"},
         traps={
             "only-power": Step(r, P_1 / P_2),
             "only-luminosity": Step(r, V_1 / V_2),

@@ -23,6 +23,7 @@ with evaluate(False):
             Step(B, l * (a_1 + t) + (a_2 - t)),
             Step(d, B - A),
         ),
+        formulas={"L": "F04", "M": "F04", "S": "F04"},
         traps={
             "one-band-each": (Step(L, a_1), Step(M, a_2), Step(S, a_3)),
             "averaged": (

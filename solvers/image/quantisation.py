@@ -21,6 +21,7 @@ with evaluate(False):
             Step(error, q - x),
             Step(worst, step / 2),
         ),
+        formulas={"n": "F01"},
         traps={
             "too-few-levels": Step(n, 2**b - 1),
             "bits-times-two": Step(n, 2 * b),

@@ -14,6 +14,7 @@ with evaluate(False):
     MODEL = Model(
         given={W: "", H: "", C: "", b: "bit", c_e: ""},
         steps=(Step(n, W * H * C), Step(bits, n * b, "bit"), Step(size, bits, "B")),
+        formulas={"n": "F01", "Q": "F01"},
         traps={
             "channels-left-out": Step(n, W * H),
             "other-channels": Step(n, W * H * c_e),

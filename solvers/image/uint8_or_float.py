@@ -21,6 +21,7 @@ with evaluate(False):
             Step(n, 3 * W * H),
             Step(m, 4 * n),
         ),
+        formulas={"u": "F36", "v": "F36", "n": "F01"},
         traps={
             "not-wrapped": (Step(u, s), Step(v, e)),
             "saturated": (Step(u, 255), Step(v, 0)),

@@ -19,6 +19,7 @@ with evaluate(False):
             Step(size, Piecewise((1, b <= 8), (2, b <= 16), (4, True))),
             Step(after, Mod(largest + a, levels)),
         ),
+        formulas={"L": "F01", "A": "F36"},
         traps={
             "levels-for-largest": Step(largest, levels),
             "largest-for-levels": (Step(levels, 2**b - 1), Step(largest, 2**b - 1)),

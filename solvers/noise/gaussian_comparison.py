@@ -18,6 +18,7 @@ with evaluate(False):
             Step(g_2, 1 / (sqrt(2 * pi) * s_2)),
             Step(q, s_2 / s_1),
         ),
+        formulas={"g_1": "F16", "g_2": "F16"},
         traps={
             "upside-down": Step(q, s_1 / s_2),
             "variances": Step(q, s_2**2 / s_1**2),

@@ -18,6 +18,7 @@ with evaluate(False):
             Step(g_1, g_0 * exp(-(n_1**2) / (2 * sigma**2))),
             Step(g_2, g_0 * exp(-(n_2**2) / (2 * sigma**2))),
         ),
+        formulas={"g_0": "F16", "g_1": "F15", "g_2": "F15"},
         traps={
             "half-forgotten": (
                 Step(g_1, g_0 * exp(-(n_1**2) / sigma**2)),

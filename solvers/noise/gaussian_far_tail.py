@@ -14,6 +14,7 @@ with evaluate(False):
     MODEL = Model(
         given={k: ""},
         steps=(Step(a, k / sqrt(2)), Step(P, erfc(a)), Step(D, 1 - erf(a))),
+        formulas={"P": "F18", "D": "F18"},
         traps={
             "one-sided": Step(P, erfc(a) / 2),
             "root-forgotten": Step(a, k),

@@ -23,6 +23,7 @@ with evaluate(False):
             Step(P_2, 1 - p_2),
             Step(N, M * P_2, "px"),
         ),
+        formulas={"g_0": "F16", "p_1": "F18", "p_2": "F18", "N": "F19"},
         traps={
             "variance-in-front": Step(g_0, 1 / (sqrt(2 * pi) * sigma**2)),
             "two-dimensional": Step(g_0, 1 / (2 * pi * sigma**2)),

@@ -19,6 +19,7 @@ with evaluate(False):
             Step(white, N / 2),
             Step(rest, M - N),
         ),
+        formulas={"N": "F38", "N_b": "F38", "N_w": "F38"},
         traps={
             "share-each": (Step(black, N), Step(white, N), Step(rest, M - 2 * N)),
             "share-each-once": (Step(black, N), Step(white, N)),

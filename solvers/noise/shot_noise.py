@@ -21,6 +21,7 @@ with evaluate(False):
             Step(SNR_2, N_2 / sigma_2),
             Step(L, 20 * log(SNR_2, 10), "dB"),
         ),
+        formulas={"SNR_1": "F45", "SNR_2": "F45", "L": "F45"},
         traps={
             "photons-as-ratio": (Step(SNR_1, N_1), Step(SNR_2, N_2)),
             "light-ratio": Step(SNR_2, SNR_1 * N_2 / N_1),

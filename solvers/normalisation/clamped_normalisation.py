@@ -19,6 +19,7 @@ with evaluate(False):
             Step(t, d / w),
             Step(N_c, Piecewise((0, t < 0), (1, t > 1), (t, True))),
         ),
+        formulas={"t": "F12", "N_c": "F13"},
         traps={
             "min-not-subtracted": Step(d, I),
             "divided-by-max": Step(w, I_max),

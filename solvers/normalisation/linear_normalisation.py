@@ -21,6 +21,7 @@ with evaluate(False):
             Step(e, (N_max - N_min) * t),
             Step(N_b, e + N_min),
         ),
+        formulas={"N_a": "F12", "e": "F11", "N_b": "F11"},
         traps={
             "one-more": Step(w, I_max - I_min + 1),
             "min-not-subtracted": Step(d, I),

@@ -20,6 +20,7 @@ with evaluate(False):
             Step(z, f + d, "mm"),
             Step(F, 1 / (1 / f - 1 / z), "m"),
         ),
+        formulas={"F": "F42"},
         traps={
             "millimetres": Step(x, f**2 / (1000 * d)),
             "ratio": Step(image, (f / d) * MILLIMETRE),

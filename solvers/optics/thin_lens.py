@@ -21,6 +21,7 @@ with evaluate(False):
             Step(m, image / z),
             Step(travel, image - f, "mm"),
         ),
+        formulas={"q": "F42", "z'": "F42", "m": "F42"},
         traps={
             "image-at-f": Step(image, f),
             "signs-added": Step(image, 1 / (1 / f + 1 / z)),

@@ -14,6 +14,7 @@ with evaluate(False):
     MODEL = Model(
         given={f: "", p_x: "", p_y: "", p_z: ""},
         steps=(Step(u, f * p_x / p_z), Step(v, f * p_y / p_z)),
+        formulas={"p'_x": "F05", "p'_y": "F05"},
         traps={
             "divided-by-f": (Step(u, p_x / f), Step(v, p_y / f)),
             "depth-over-f": (Step(u, p_z * p_x / f), Step(v, p_z * p_y / f)),

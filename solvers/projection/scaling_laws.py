@@ -14,6 +14,7 @@ with evaluate(False):
     MODEL = Model(
         given={a: "", b: "", c: "", h_0: "mm"},
         steps=(Step(q, b * c / a), Step(h_1, q * h_0, "mm")),
+        formulas={"q": "F07", "h_1": "F07"},
         traps={
             "depth-multiplies": Step(q, a * b * c),
             "upside-down": Step(q, a / (b * c)),

@@ -18,6 +18,7 @@ with evaluate(False):
             Step(y_2, h_2 * z_2 / f, "m"),
             Step(z_3, f * y_3 / h_3, "m"),
         ),
+        formulas={"f": "F10", "y_2": "F05", "z_3": "F10"},
         traps={
             "focal-upside-down": Step(f, h_1 * y_1 / z_1),
             "focal-ratio-only": Step(f, z_1 / y_1 / 1000),

@@ -20,6 +20,7 @@ with evaluate(False):
             Step(s, f / zbar),
             Step(epsilon, (s_1 - s) / s_1),
         ),
+        formulas={"s": "F43", "epsilon": "F44"},
         traps={
             "ends-exchanged": (Step(s_1, f / z_2), Step(s_2, f / z_1)),
             "ratio-inverted": (Step(s_1, z_1 / f), Step(s_2, z_2 / f), Step(s, zbar / f)),

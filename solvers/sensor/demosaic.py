@@ -29,6 +29,7 @@ with evaluate(False):
             Step(red, REDS / 4),
             Step(red_right, (R_2 + R_4) / 2),
         ),
+        formulas={"Ghat": "F28", "Rhat": "F29", "Rhat_g": "F30"},
         traps={
             "half-of-four": (Step(green, GREENS / 2), Step(red, REDS / 2)),
             "centre-included": (

@@ -21,6 +21,7 @@ with evaluate(False):
             Step(E_2, (e_a + e_b) / 2),
             Step(L, E_2**gamma),
         ),
+        formulas={"E_1": "F46", "e_a": "F46", "e_b": "F46", "L": "F46"},
         traps={
             "exponent-inverted": (
                 Step(E_1, m**gamma),

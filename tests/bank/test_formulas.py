@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import json
 import re
+import shutil
 
 import pytest
 
 from quizgen.bank.entries import load
-from quizgen.bank.folder import Bank
-from quizgen.bank.formulas import FormulaEntry, asked_in, formulas
+from quizgen.bank.folder import Bank, builtin_root
+from quizgen.bank.formulas import FormulaEntry, asked_in, formulas, missing_formulas
 from quizgen.errors import BankError
 
 ENTRY = """
@@ -27,6 +28,23 @@ beware = { en = "In metres.", bn = "মিটারে।" }
 
 def test_every_formula_of_the_inventory_is_there_once(bank):
     assert [entry.id for entry in formulas(bank)] == [f"F{n:02}" for n in range(1, 47)]
+
+
+def test_steps_name_formulas_that_are_there(bank):
+    named = {
+        formula for name in bank.paths for formula in bank.template(name).chain.formulas.values()
+    }
+    assert len(named) >= 30
+    assert not [name for name in bank.paths if missing_formulas(bank, name)]
+
+
+def test_a_formula_that_is_not_there_is_found(tmp_path):
+    (tmp_path / "templates").symlink_to(builtin_root() / "templates")
+    solvers = tmp_path / "solvers"
+    shutil.copytree(builtin_root() / "solvers", solvers)
+    file = solvers / "projection" / "perspective.py"
+    file.write_text(file.read_text().replace('"F05"', '"F99"'))
+    assert missing_formulas(Bank(tmp_path, trusted=True), "point-to-image-plane") == ["F99"]
 
 
 def test_letters_with_a_unit_stand_in_the_formula(bank):
