@@ -66,6 +66,12 @@ class Paper:
         return sum((item.points for item in self.items), Fraction(0))
 
     @property
+    def cited(self) -> str:
+        """A formula's number that stands beside a step of the solutions; empty if none does."""
+        solved = (part for item in self.items for part in item.keys[0].solution.parts)
+        return next((line.formula for part in solved for line in part.lines if line.formula), "")
+
+    @property
     def digest(self) -> str:
         """Short digest of what is asked and marked; page, form and key that belong together agree.
 

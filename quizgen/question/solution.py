@@ -29,10 +29,11 @@ def as_text(shown: tuple[Inline, ...]) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """One step: the worked formula and why it is taken."""
+    """One step: the worked formula, why it is taken, and its number on the formula sheet."""
 
     maths: Maths
     why: tuple[Inline, ...]
+    formula: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,7 +114,11 @@ def _part(filler: Filler, index: int, built: Built[Any]) -> PartSolution:
     return PartSolution(
         label=label,
         lines=tuple(
-            Line(worked(drawn, step), filler.sentence("steps", step.name))
+            Line(
+                worked(drawn, step),
+                filler.sentence("steps", step.name),
+                drawn.template.chain.formulas.get(step.name, ""),
+            )
             for step in drawn.steps(index)
         ),
         shown=pieces(KINDS[spec.kind].printed(spec, filler.lang)),

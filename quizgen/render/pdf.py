@@ -68,7 +68,7 @@ class _Sheet:
             f"([{words(self.langs, 'paper.total')}], {string(total)}))"
         )
         if self.kind == "solutions":
-            return "\n".join([head, *others, "#v(0.6em)", facts, "#v(0.6em)"])
+            return "\n".join([head, *others, "#v(0.6em)", facts, *self._cited(), "#v(0.6em)"])
         lines = [
             f"#write-line([{words(self.langs, f'paper.{name}')}])"
             for name in ("name", "matriculation")
@@ -79,6 +79,13 @@ class _Sheet:
             [head, *others, gap, facts, gap, *(f"{line}\n#v(0.5em)" for line in lines), gap,
              f"#notice[{rules}]", "#v(0.8em)", self._overview(), "#pagebreak(weak: true)"]
         )  # fmt: skip
+
+    def _cited(self) -> list[str]:
+        """What the numbers beside steps are."""
+        if not self.paper.cited:
+            return []
+        said = {lang: word(lang, "solution.cited", formula=self.paper.cited) for lang in self.langs}
+        return [each(self.langs, [f"#hint[#{string(said[lang])};]" for lang in self.langs])]
 
     def _overview(self) -> str:
         """Table of questions and marks, with room for the marks given."""
@@ -172,7 +179,8 @@ class _Sheet:
             self.langs,
             [inline(line.why, lang) for line, lang in zip(lines, self.langs, strict=True)],
         )
-        return f"#step([{equation(lines[0].maths, self.main, block=True)}], [{why}])"
+        maths, cite = equation(lines[0].maths, self.main, block=True), string(lines[0].formula)
+        return f"#step([{maths}], [{why}], {cite})"
 
     def _answer(self, part: PartSolution, lang: str) -> str:
         name = word(lang, "solution.answer")

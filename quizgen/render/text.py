@@ -100,7 +100,8 @@ def question_text(item: Item) -> str:
 def _solution(part: PartSolution, lang: str) -> Iterator[str]:
     yield f"{word(lang, 'solution.steps')}:"
     for line in part.lines:
-        yield f"   {inline(line.maths)}"
+        cite = f"  [{line.formula}]" if line.formula else ""
+        yield f"   {inline(line.maths)}{cite}"
         yield f"      {inline(line.why)}"
     yield f"{word(lang, 'solution.answer')}: {part.answer}".rstrip()
     yield from (f"   - {inline(option)}" for option in part.options)
