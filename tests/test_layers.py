@@ -28,7 +28,7 @@ LAYERS = {
     "figures": "errors png locale maths arrays camera",
     "marking": "errors outside locale maths",
     "question": "errors outside locale maths typeset bank figures marking",
-    "paper": "errors outside files locale maths bank marking question",
+    "paper": "errors outside files locale maths bank figures marking question",
     "practice": "errors outside files locale maths bank marking question paper",
     "render": "errors outside files locale typeset bank question paper",
     "cards": "errors outside files locale maths typeset bank figures question paper render",

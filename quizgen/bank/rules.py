@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any, Literal
 
 import msgspec
+
+from quizgen.maths.numbers import written
 
 Scalar = int | float | str
 
@@ -81,6 +84,7 @@ class Rules(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     reference: dict[str, Scalar] | None = None
     pool: int | None = None
     apart: tuple[str, ...] = ()
+    beyond: bool = False
     precision: tuple[str, ...] = ()
 
 
@@ -96,3 +100,8 @@ TIER_MINUTES = {"A": 3, "B": 5, "C": 10, "D": 12}
 def minutes_of(rules: Rules) -> int:
     """Suggested working time of a template."""
     return rules.minutes or TIER_MINUTES[rules.tier]
+
+
+def points_of(rules: Rules) -> Fraction:
+    """Marks of all parts of a template."""
+    return sum((written(part.points) for part in rules.part), Fraction(0))

@@ -176,7 +176,7 @@ def _remark(paper: Paper) -> None:
     from quizgen.paper.blueprint import EVERYTHING
 
     if paper.variety:
-        click.echo(f"One of {paper.variety_text} papers that this blueprint can make")
+        click.echo(f"One of up to {paper.variety_text} papers that this blueprint can make")
     budget = paper.blueprint.budget
     if budget > paper.minutes + TO_SPARE:
         topic = paper.blueprint.topic

@@ -18,6 +18,9 @@ from quizgen.figures._parameters import Parameter, complete
 from quizgen.locale import languages
 from quizgen.maths.notation import people
 
+PHOTOGRAPHS = frozenset({"artefacts", "depth_of_field", "noise"})
+"""Figures that are pictures of the camera."""
+
 
 @dataclass(frozen=True, slots=True)
 class Figure:

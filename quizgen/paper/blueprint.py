@@ -10,6 +10,9 @@
     count = 5
     points = 2            # marks of each question, shared out over its parts (default: its own)
 
+What the paper as a whole is to hold may be asked for: ``total = 100`` points exactly,
+``minutes = [110, 120]``, at least ``figures = 6`` of ``figure_kinds = 4`` and ``photographs = 2``.
+
 ``reference`` lists the templates that make up the notes' own paper. A topic's name (``optics``), a
 topic with minutes (``optics.45``) or ``all.90`` is a blueprint without a file: questions of that
 topic, tiers in turn, as many as the time allows.
@@ -31,6 +34,8 @@ from quizgen.outside import NAMES, is_name, parse_toml, read_text
 
 MOST_QUESTIONS = 200
 """Questions of a paper."""
+MOST_TOTAL = 10_000
+"""Points that a paper may be asked to have."""
 _CODE_NAME = re.compile(r"[\w .-]{1,80}")
 
 
@@ -49,8 +54,18 @@ class Authored(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 
     title: dict[str, str]
     slot: tuple[SlotRule, ...]
-    minutes: int | None = None
+    minutes: int | tuple[int, int] | None = None
     reference: tuple[str, ...] = ()
+    total: float | None = None
+    figures: int = 0
+    figure_kinds: int = 0
+    photographs: int = 0
+
+    @property
+    def demanding(self) -> bool:
+        """Whether it asks for something of the paper as a whole."""
+        at_least = self.figures or self.figure_kinds or self.photographs
+        return bool(self.total or at_least or isinstance(self.minutes, tuple))
 
 
 class Blueprint(Authored, frozen=True):
@@ -71,7 +86,7 @@ def of_topic(bank: Bank, topic: str, minutes: int = 0) -> Blueprint:
     name = f"{topic}.{minutes}" if minutes else topic
     title = {lang: f"{word(lang, 'paper.exam')}: {_subject(bank, topic, lang)}"
              for lang in languages()}  # fmt: skip
-    return Blueprint(title, (), None, (), name, name, topic, minutes)
+    return Blueprint(title, (), name=name, source=name, topic=topic, budget=minutes)
 
 
 def _subject(bank: Bank, topic: str, lang: str) -> str:
@@ -171,10 +186,23 @@ def _check(blueprint: Authored, where: Path) -> None:
     total = max(sum(slot.count for slot in blueprint.slot), len(blueprint.reference))
     if total > MOST_QUESTIONS:
         raise BlueprintError(f"{where}: {total} questions (at most {MOST_QUESTIONS})")
-    if blueprint.minutes is not None and not 1 <= blueprint.minutes <= MOST_MINUTES:
-        raise BlueprintError(f"{where}: minutes must be 1 to {MOST_MINUTES}")
+    for problem in _whole(blueprint):
+        raise BlueprintError(f"{where}: {problem}")
+
+
+def _whole(blueprint: Authored) -> Iterator[str]:
+    """What is wrong in the demands on the paper as a whole."""
+    span = blueprint.minutes or 1
+    first, last = span if isinstance(span, tuple) else (span, span)
+    if not 1 <= first <= last <= MOST_MINUTES:
+        yield f"minutes must be 1 to {MOST_MINUTES}, or [least, most]"
+    if blueprint.total is not None and not 0 < blueprint.total <= MOST_TOTAL:
+        yield f"total must be positive and at most {MOST_TOTAL}"
+    for name in ("figures", "figure_kinds", "photographs"):
+        if not 0 <= getattr(blueprint, name) <= MOST_QUESTIONS:
+            yield f"{name} must be 0 to {MOST_QUESTIONS}"
     if "en" not in blueprint.title:
-        raise BlueprintError(f"{where}: title.en is missing")
+        yield "title.en is missing"
 
 
 def _problems(slot: SlotRule) -> Iterator[str]:

@@ -6,6 +6,7 @@ import hashlib
 import math
 from collections import Counter
 from collections.abc import Iterator
+from functools import partial
 from itertools import repeat
 
 from quizgen.bank.folder import Bank
@@ -13,6 +14,7 @@ from quizgen.bank.rules import Rules, minutes_of
 from quizgen.errors import BankError, BlueprintError
 from quizgen.outside import located
 from quizgen.paper.blueprint import EVERYTHING, Blueprint, SlotRule
+from quizgen.paper.whole import Candidate, Whole, candidate, why_not, working_time
 
 TRIES = 20
 """Choices of templates until none is used more often than it has numbers."""
@@ -28,11 +30,44 @@ def choose(bank: Bank, blueprint: Blueprint, seed: int) -> list[str]:
     """
     if blueprint.topic:
         return _timed(bank, blueprint, seed)
+    if blueprint.demanding:
+        return _as_a_whole(bank, blueprint, seed)
     tries = (_slotted(bank, blueprint, f"{seed}/{n}" if n else str(seed)) for n in range(TRIES))
     first = next(tries)
     if not _exhausted(bank, first):
         return first
     return next((chosen for chosen in tries if not _exhausted(bank, chosen)), first)
+
+
+def _as_a_whole(bank: Bank, blueprint: Blueprint, seed: int) -> list[str]:
+    """Fill the slots so that the paper holds what its blueprint asks for as a whole."""
+    slots = [n for n, slot in enumerate(blueprint.slot, 1) for _ in range(slot.count)]
+    worth = [points for points, _ in zip(weights(blueprint), slots, strict=False)]
+    places = [
+        [candidate(bank, name, points) for name in _fitting(bank, blueprint, index)]
+        for index, points in zip(slots, worth, strict=True)
+    ]
+    for n in range(TRIES):
+        salt = f"{seed}/{n}" if n else str(seed)
+        ranked = [
+            sorted(place, key=partial(_of_candidate, bank, salt, index, number))
+            for number, (index, place) in enumerate(zip(slots, places, strict=True))
+        ]
+        whole = Whole(blueprint, ranked, _shuffled(salt, len(places)))
+        chosen = whole.fill()
+        if chosen:
+            return chosen
+    with located(blueprint.file):
+        raise BlueprintError(why_not(blueprint, places))
+
+
+def _shuffled(salt: str, count: int) -> list[int]:
+    """The order in which places are filled: the last ones have the least choice."""
+    return sorted(range(count), key=lambda place: _rank(salt, 0, place, "order"))
+
+
+def _of_candidate(bank: Bank, salt: str, index: int, place: int, one: Candidate) -> bytes:
+    return _rank(salt, index, place, bank.origin(one.name))
 
 
 def _exhausted(bank: Bank, chosen: list[str]) -> bool:
@@ -78,7 +113,8 @@ def _timed(bank: Bank, blueprint: Blueprint, seed: int) -> list[str]:
     """Questions of a topic, tiers in turn, as many as the minutes allow; then sorted by tier."""
     rules = {name: bank.rules(name) for name in bank.paths}
     open_names = [n for n in rules if blueprint.topic in (EVERYTHING, rules[n].topic)]
-    left = blueprint.budget or sum(minutes_of(rules[n]) for n in open_names)
+    budget = blueprint.budget or working_time(sum(minutes_of(rules[n]) for n in open_names))
+    used = 0
     chosen: list[str] = []
     tiers = sorted({rules[n].tier for n in open_names})
     while True:
@@ -86,17 +122,18 @@ def _timed(bank: Bank, blueprint: Blueprint, seed: int) -> list[str]:
         for turn, tier in enumerate(tiers):
             fitting = [
                 n for n in open_names
-                if n not in chosen and rules[n].tier == tier and minutes_of(rules[n]) <= left
+                if n not in chosen and rules[n].tier == tier
+                and working_time(used + minutes_of(rules[n])) <= budget
                 and not _gives_away(bank, n, chosen)
             ]  # fmt: skip
             if fitting:
                 best = min(fitting, key=lambda n: _rank(seed, turn, len(chosen), bank.origin(n)))
                 chosen.append(best)
-                left -= minutes_of(rules[best])
+                used += minutes_of(rules[best])
         if len(chosen) == before:
             break
     if not chosen:
-        shortest = min((minutes_of(rules[n]) for n in open_names), default=0)
+        shortest = working_time(min((minutes_of(rules[n]) for n in open_names), default=0))
         raise BlueprintError(
             f"no question of topic {blueprint.topic!r} fits the time"
             f" (the shortest takes {shortest} min)"
@@ -140,6 +177,9 @@ def _fitting(bank: Bank, blueprint: Blueprint, index: int) -> list[str]:
 
 
 def _fits(rules: Rules, slot: SlotRule) -> bool:
+    """Whether a template fits a slot; one past the syllabus must be listed."""
+    if rules.beyond and not slot.templates:
+        return False
     return slot.tier in {None, rules.tier} and slot.topic in {None, rules.topic}
 
 

@@ -19,6 +19,7 @@ from quizgen.outside import located
 from quizgen.paper.blueprint import Blueprint, SlotRule, named_blueprint
 from quizgen.paper.choose import choose, variety, weights
 from quizgen.paper.code import REFERENCE, Code, checked_seed, digest_of, parse_code
+from quizgen.paper.whole import working_time
 from quizgen.question.compose import Key, Question, identity, instance, put_into_words
 
 REDRAWS = 50
@@ -94,8 +95,11 @@ class Paper:
 
     @property
     def minutes(self) -> int:
-        """Working time."""
-        return self.blueprint.minutes or sum(item.questions[0].minutes for item in self.items)
+        """Working time: what the blueprint says, else that of the questions and of reading."""
+        said = self.blueprint.minutes
+        if isinstance(said, int):
+            return said
+        return working_time(sum((i.questions[0].minutes for i in self.items), Fraction(0)))
 
     def title(self, lang: str) -> str:
         """Title in a language, English where the blueprint has no other."""
@@ -288,10 +292,12 @@ def _bodies(question: Question) -> Iterator[Block]:
 
 
 def _worth(question: Question, points: float | None) -> Question:
-    """Share the marks of a slot out over the parts, as their own marks stand to each other."""
+    """Share the marks of a slot out over the parts, as their own marks stand to each other.
+
+    The time goes with the marks.
+    """
     if points is None:
         return question
     scale = Fraction(str(points)) / question.points
-    return replace(
-        question, parts=tuple(replace(p, points=p.points * scale) for p in question.parts)
-    )
+    parts = tuple(replace(p, points=p.points * scale) for p in question.parts)
+    return replace(question, parts=parts, minutes=question.minutes * scale)

@@ -102,7 +102,7 @@ class Question:
     tier: str
     topic: str
     title: str
-    minutes: int
+    minutes: Fraction
     stem: tuple[Block, ...]
     parts: tuple[Part, ...]
     figure: Figure | None = None
@@ -207,7 +207,7 @@ def _worded(drawn: Draw, lang: str, number: str, *, figures: bool) -> tuple[Ques
         tier=template.rules.tier,
         topic=template.rules.topic,
         title=template.texts[lang].title,
-        minutes=template.minutes,
+        minutes=Fraction(template.minutes),
         stem=filler.blocks(filler.text.stem),
         parts=tuple(_part(filler, index, number, part) for index, part in enumerate(built)),
         figure=_figure(drawn, lang, quiz=True) if figures else None,

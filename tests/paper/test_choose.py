@@ -26,7 +26,8 @@ class Shelf:
         self.paths = dict.fromkeys(self.table)
 
     def rules(self, name):
-        default = {"tier": "A", "topic": "optics", "pool": None, "minutes": 5, "apart": ()}
+        default = {"tier": "A", "topic": "optics", "pool": None, "minutes": 5, "apart": (),
+                   "beyond": False}  # fmt: skip
         return SimpleNamespace(**{**default, **self.table[name]})
 
     def folder_of(self, name):
@@ -76,9 +77,10 @@ def test_a_slot_keeps_to_tier_topic_and_list():
 
 def test_a_time_is_filled_and_never_exceeded():
     shelf = Shelf({f"{t}{n}": {"tier": t, "minutes": 7} for t in "AB" for n in range(4)})
-    found = choose(shelf, timed("optics", 30), 1)
+    found = choose(shelf, timed("optics", 31), 1)
     assert [name[0] for name in found] == ["A", "A", "B", "B"]
     assert len(set(found)) == 4
+    assert len(choose(shelf, timed("optics", 30), 1)) == 3, "four take 28 min and a tenth"
     assert len(choose(shelf, timed("all"), 1)) == 8
     with pytest.raises(BlueprintError, match="fits the time"):
         choose(shelf, timed("optics", 6), 1)

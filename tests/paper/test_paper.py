@@ -81,12 +81,12 @@ def test_languages_and_figures_change_no_number(bank):
     assert drawn[0] == drawn[1] == drawn[2]
 
 
-def test_mock_has_five_questions_per_tier_and_no_twins(bank):
+def test_a_mock_has_all_tiers_and_no_twins(bank):
     for seed in range(5):
         paper = build(bank, load_blueprint("mock"), seed, figures=False)
         tiers = [item.questions[0].tier for item in paper.items]
-        assert tiers == sorted(tiers)
-        assert all(tiers.count(tier) == 5 for tier in "ABCD")
+        assert (tiers[0], tiers[-1]) == ("A", "D")
+        assert all(3 <= tiers.count(tier) <= 8 for tier in "ABCD")
         names = [item.keys[0].identity for item in paper.items]
         assert len(set(names)) == len(names)
 
@@ -198,7 +198,7 @@ def test_shipped_blueprints_load(name):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("title = {en = 'x'}\n[[slots]]\ncount = 1", "allowed: minutes, reference, slot, title"),
+        ("title = {en = 'x'}\n[[slots]]\ncount = 1", "allowed: figure_kinds, figures"),
         ("topic = 'optics'\ntitle = {en = 'x'}\n[[slot]]\ntier = 'A'", "unknown field `topic`"),
         (
             "title = {en = 'x'}\n[[slot]]\nkount = 1",

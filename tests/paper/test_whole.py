@@ -1,0 +1,162 @@
+"""Papers that hold as a whole what their blueprint asks for: sums by hand, neighbours, errors."""
+
+from __future__ import annotations
+
+from collections import Counter
+from fractions import Fraction
+from itertools import product
+from types import SimpleNamespace
+
+import pytest
+
+from quizgen.bank.rules import minutes_of
+from quizgen.errors import BlueprintError
+from quizgen.figures import PHOTOGRAPHS
+from quizgen.paper.blueprint import Blueprint, SlotRule, load_blueprint
+from quizgen.paper.choose import choose
+from quizgen.paper.paper import build
+from quizgen.paper.whole import working_time
+
+DEFAULT = {"tier": "A", "topic": "light", "pool": None, "minutes": 5, "apart": (), "beyond": False}
+
+
+class Shelf:
+    """Rules without files: name to points, minutes, figure and what must stand apart."""
+
+    def __init__(self, **table):
+        self.table, self.paths = table, dict.fromkeys(table)
+
+    def rules(self, name):
+        given = {**DEFAULT, "points": 5, "figure": "", **self.table[name]}
+        figure = given["figure"] and SimpleNamespace(name=given["figure"], quiz=True)
+        part = (SimpleNamespace(points=given["points"]),)
+        return SimpleNamespace(**{**given, "figure": figure, "part": part})
+
+    def folder_of(self, name):
+        return self.paths[name]
+
+    def origin(self, name):
+        return name
+
+
+def plan(*slots, **demands):
+    return Blueprint({"en": "x"}, tuple(SlotRule(templates=tuple(s)) for s in slots), **demands)
+
+
+@pytest.mark.parametrize(("minutes", "whole"), [(100, 110), (10, 11), (109, 120), (3, 4), (0, 0)])
+def test_a_paper_takes_a_tenth_more_than_its_questions(minutes, whole):
+    assert working_time(minutes) == whole
+
+
+def test_the_total_is_met_by_every_seed_and_every_way_comes_up():
+    """Of the 27 ways through three places of 1, 2 or 3.5 points, 6 make 6.5: 1, 2, 3.5 in turn."""
+    shelf = Shelf(**{f"{s}{n}": {"points": p} for s in "abc" for n, p in enumerate((1, 2, 3.5))})
+    slots = [[f"{s}{n}" for n in range(3)] for s in "abc"]
+    worth = {name: shelf.rules(name).part[0].points for slot in slots for name in slot}
+    fitting = {way for way in product(*slots) if sum(worth[name] for name in way) == 6.5}
+    assert len(fitting) == 6
+    found = {tuple(choose(shelf, plan(*slots, total=6.5), seed)) for seed in range(80)}
+    assert found == fitting
+
+
+def test_minutes_figures_kinds_and_photographs_are_met_together():
+    shelf = Shelf(
+        a={"minutes": 10}, b={"minutes": 20, "figure": "noise"},
+        c={"minutes": 10, "figure": "pinhole"}, d={"minutes": 10, "figure": "noise"}, e={},
+        f={"minutes": 30, "figure": "gaussian"},
+    )  # fmt: skip
+    slots = [("a", "b"), ("c", "d"), ("e", "f")]
+    asked = {"minutes": (30, 40), "figures": 2}
+    found = {tuple(choose(shelf, plan(*slots, **asked), seed)) for seed in range(40)}
+    assert found == {("b", "c", "e"), ("b", "d", "e")}, "22 + 11 + 5.5; with f it takes 55 or more"
+    assert choose(shelf, plan(*slots, **asked, figure_kinds=2), 0) == ["b", "c", "e"]
+    assert choose(shelf, plan(*slots, **asked, photographs=2), 0) == ["b", "d", "e"]
+
+
+def test_neighbours_that_tell_an_answer_stay_apart_and_none_comes_twice():
+    shelf = Shelf(a={"apart": ("c",)}, b={}, c={}, d={})
+    slots = [("a", "b"), ("c", "d"), ("a", "b")]
+    found = {tuple(choose(shelf, plan(*slots, total=15), seed)) for seed in range(40)}
+    assert found == {("a", "d", "b"), ("b", "d", "a")}
+
+
+def test_the_points_of_a_slot_carry_its_time_along():
+    """Eight points in eight minutes, given two points: two minutes."""
+    shelf = Shelf(long={"points": 8, "minutes": 8}, short={"points": 4, "minutes": 16})
+    slot = SlotRule(templates=("long", "short"), points=2)
+    asked = Blueprint({"en": "x"}, (slot, SlotRule(templates=("long",))), minutes=(11, 11))
+    assert choose(shelf, asked, 1) == ["long", "long"]
+
+
+def test_who_is_past_the_syllabus_must_be_listed():
+    shelf = Shelf(a={"beyond": True}, b={})
+    assert {choose(shelf, Blueprint({"en": "x"}, (SlotRule(),)), s)[0] for s in range(20)} == {"b"}
+    assert {choose(shelf, plan(("a", "b")), s)[0] for s in range(20)} == {"a", "b"}
+
+
+@pytest.mark.parametrize(
+    ("demands", "said"),
+    [
+        ({"total": 100}, "total = 100 cannot be met: the slots together can make 3 to 7"),
+        ({"total": 4}, "total = 4 cannot be met"),
+        ({"minutes": (60, 70)}, r"minutes = \[60, 70\] cannot be met: .* 11 to 11"),
+        ({"figures": 2}, "figures = 2 cannot be met: the slots together can make 0 to 1"),
+        ({"photographs": 1}, "photographs = 1 cannot be met: the slots together can make 0 to 0"),
+        ({"figure_kinds": 2}, "figure_kinds = 2 cannot be met: there are 1"),
+        ({"total": 7, "figures": 1}, "no choice of templates that may stand together meets total"),
+    ],
+)
+def test_a_demand_that_cannot_be_met_is_told(demands, said):
+    shelf = Shelf(a={"points": 1, "figure": "pinhole"}, b={"points": 5}, c={"points": 2})
+    with pytest.raises(BlueprintError, match=said):
+        choose(shelf, plan(("a", "b"), ("c",), **demands), 1)
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("total = 0", "total must be positive"),
+        ("minutes = [20, 10]", r"minutes must be 1 to 9999, or \[least, most\]"),
+        ("minutes = [1, 2, 3]", "minutes"),
+        ("figures = -1", "figures must be 0 to 200"),
+    ],
+)
+def test_a_demand_that_nobody_means_is_located(tmp_path, line, said):
+    file = tmp_path / "week.toml"
+    file.write_text(f'{line}\n[title]\nen = "x"\n[[slot]]\n')
+    with pytest.raises(BlueprintError, match=said) as caught:
+        load_blueprint(str(file))
+    assert str(caught.value).startswith(str(file))
+
+
+def facts(bank, names):
+    rules = [bank.rules(name) for name in names]
+    points = sum(Fraction(str(part.points)) for one in rules for part in one.part)
+    shown = [one.figure.name for one in rules if one.figure and one.figure.quiz]
+    return rules, points, shown
+
+
+def test_every_mock_is_balanced(bank):
+    """A hundred points, two hours, all topics, six figures of four kinds, two photographs."""
+    mock, used = load_blueprint("mock"), Counter()
+    for seed in range(300):
+        names = choose(bank, mock, seed)
+        rules, points, shown = facts(bank, names)
+        assert points == 100
+        assert 110 <= working_time(sum(map(minutes_of, rules))) <= 120
+        assert {one.topic for one in rules} == set(bank.topics)
+        assert max(Counter(one.topic for one in rules).values()) <= 3
+        assert len(shown) >= 6
+        assert len(set(shown)) >= 4
+        assert len([name for name in shown if name in PHOTOGRAPHS]) >= 2
+        assert not any(one.beyond for one in rules)
+        assert len(set(names)) == len(names) == 20
+        used.update(names)
+    assert set(used) == {name for slot in mock.slot for name in slot.templates}
+
+
+def test_a_trial_is_ten_points_in_eleven_minutes(bank):
+    for seed in range(20):
+        paper = build(bank, load_blueprint("trial"), seed, figures=False)
+        assert paper.points == 10
+        assert 10 <= paper.minutes <= 12
