@@ -19,6 +19,7 @@ with evaluate(False):
             Step(t_1, 1 / r, "s"),
             Step(t_2, t_1 * a * b, "s"),
         ),
+        formulas={"a": "F35"},
         traps={
             "not-squared": Step(a, N_2 / N_1),
             "wrong-way": Step(a, (N_1 / N_2) ** 2),

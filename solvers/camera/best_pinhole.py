@@ -1,6 +1,6 @@
 """Best hole of a pinhole camera, its f-number and the exposure time it asks for.
 
-Source: Lord Rayleigh, "On pin-hole photography", Philosophical Magazine 31 (1891): d = 1.9 sqrt(f lambda).
+Source: Lord Rayleigh, "On pin-hole photography", Philosophical Magazine 31 (1891), 87-99.
 """
 
 from sympy import Rational, evaluate, sqrt, symbols
@@ -20,6 +20,7 @@ with evaluate(False):
             Step(t_1, 1 / r, "s"),
             Step(t_2, t_1 * (N / N_1) ** 2, "s"),
         ),
+        formulas={"N": "F31", "t_2": "F35"},
         traps={
             "no-constant": Step(d, sqrt(f * wave)),
             "no-root": Step(d, k * f * wave / MILLIMETRE),
