@@ -141,8 +141,10 @@ def test_another_unit_is_told_as_such(where):
     assert (result.marks, result.verdict.note) == (0, "unit-wrong"), result.verdict
 
 
-NAMES = {"B": r"\bbytes\b", "dB": r"decibel", "px": r"\bpixels?\b", "%": r"percent"}
-NAMED_BN = {"B": "বাইট", "dB": "ডেসিবেল", "px": "পিক্সেল", "%": "শত(াংশ|করা)"}
+NAMES = {"B": r"\bbytes\b", "dB": r"decibel", "px": r"\bpixels?\b", "%": r"percent",
+         "e-": "electrons", "bit": "bits"}  # fmt: skip
+NAMED_BN = {"B": "বাইট", "dB": "ডেসিবেল", "px": "পিক্সেল", "%": "শত(াংশ|করা)",
+            "e-": "ইলেকট্রন", "bit": "বিট"}  # fmt: skip
 
 
 def _asks(question, label: str, lang: str) -> str:
@@ -172,8 +174,9 @@ def test_where_the_question_names_the_unit_a_bare_number_has_full_marks(name, la
 def _answers(printed: str) -> list[str]:
     """The printed answer with its unit, without, and with the unit in words."""
     exact = printed.rsplit(" ≈ ", maxsplit=1)[-1]
-    units = {"mm": "millimetres", "px": "pixels", "m": "metres", "s": "seconds", "µm": "micrometres", "lm": "lumens",
-             "mW": "milliwatts", "B": "bytes", "dB": "decibels", "%": "percent"}  # fmt: skip
+    units = {"mm": "millimetres", "px": "pixels", "m": "metres", "s": "seconds", "ms": "milliseconds", "µm": "micrometres", "lm": "lumens",
+             "mW": "milliwatts", "B": "bytes", "dB": "decibels", "%": "percent",
+             "e⁻": "electrons", "bit": "bits", "stop": "stops"}  # fmt: skip
     words = re.sub(r"(?<=[\d)]) (\S+?)(?=$|;)", lambda m: f" {units[m[1]]}", exact)
     bangla = exact.translate(str.maketrans("0123456789", "০১২৩৪৫৬৭৮৯"))
     bare = re.sub(r"(?<=[\d)]) (\S+?)(?=$|;)", "", exact)
