@@ -10,10 +10,11 @@ from __future__ import annotations
 import builtins
 import math
 import operator
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, partial, reduce
+from operator import itemgetter
 from typing import TypeAlias
 
 from quizgen.errors import MathError
@@ -72,37 +73,62 @@ def compile_inner(expr: Expr, system: NumberSystem) -> Compiled:
         constant = system.constant(expr.value)
         return lambda _env: constant
     if isinstance(expr, Sym):
-        return _lookup(expr.name)
+        return itemgetter(expr.name)
     if expr.op == "piecewise":
         return _compile_piecewise(expr, system)
-    args = [compile_inner(arg, system) for arg in expr.args]
-    if OPERATORS[expr.op].folds:
-        return reduce(partial(_compile_pair, system.ops[expr.op]), args)
-    return _compile_call(system.ops[expr.op], args)
+    if OPERATORS[expr.op].folds and len(expr.args) != 2:
+        return compile_inner(reduce(partial(_joined, expr.op), expr.args), system)
+    return _compile_call(expr, system)
 
 
-def _lookup(name: str) -> Compiled:
-    return lambda env: env[name]
+def _joined(op: str, first: Expr, second: Expr) -> Expr:
+    return Call(op, (first, second))
 
 
-def _compile_call(op: Op, args: list[Compiled]) -> Compiled:
-    if len(args) == 1:
-        (first,) = args
-        return lambda env: op(first(env))
-    if len(args) == 2:
-        return _compile_pair(op, *args)
-    return lambda env: op(*[arg(env) for arg in args])
+_SINGLES: dict[type[Expr], Callable[[Op, AnyNumber], Compiled]] = {
+    Sym: lambda op, a: lambda env: op(env[a]),
+    Num: lambda op, a: lambda _env: op(a),
+    Call: lambda op, a: lambda env: op(a(env)),
+}
+_PAIRS: dict[tuple[type[Expr], type[Expr]], Callable[[Op, AnyNumber, AnyNumber], Compiled]] = {
+    (Sym, Sym): lambda op, a, b: lambda env: op(env[a], env[b]),
+    (Sym, Num): lambda op, a, b: lambda env: op(env[a], b),
+    (Sym, Call): lambda op, a, b: lambda env: op(env[a], b(env)),
+    (Num, Sym): lambda op, a, b: lambda env: op(a, env[b]),
+    (Num, Num): lambda op, a, b: lambda _env: op(a, b),
+    (Num, Call): lambda op, a, b: lambda env: op(a, b(env)),
+    (Call, Sym): lambda op, a, b: lambda env: op(a(env), env[b]),
+    (Call, Num): lambda op, a, b: lambda env: op(a(env), b),
+    (Call, Call): lambda op, a, b: lambda env: op(a(env), b(env)),
+}
+"""Kinds of the operands to an operator of them: most are quantities or constants, read in place."""
 
 
-def _compile_pair(op: Op, first: Compiled, second: Compiled) -> Compiled:
-    return lambda env: op(first(env), second(env))
+def _compile_call(expr: Call, system: NumberSystem) -> Compiled:
+    op, kinds = system.ops[expr.op], tuple(map(type, expr.args))
+    operands = [_operand(arg, system) for arg in expr.args]
+    if len(kinds) == 1:
+        return _SINGLES[kinds[0]](op, *operands)
+    if len(kinds) == 2:
+        return _PAIRS[kinds](op, *operands)
+    return _compile_many(op, expr.args, system)
+
+
+def _operand(expr: Expr, system: NumberSystem) -> AnyNumber:
+    """What an operator is compiled with: a name, a constant or a compiled formula."""
+    if isinstance(expr, Sym):
+        return expr.name
+    return system.constant(expr.value) if isinstance(expr, Num) else compile_inner(expr, system)
+
+
+def _compile_many(op: Op, args: Iterable[Expr], system: NumberSystem) -> Compiled:
+    parts = [compile_inner(arg, system) for arg in args]
+    return lambda env: op(*[part(env) for part in parts])
 
 
 def _compile_piecewise(expr: Call, system: NumberSystem) -> Compiled:
     if "piecewise" in system.ops:
-        return _compile_call(
-            system.ops["piecewise"], [compile_inner(arg, system) for arg in expr.args]
-        )
+        return _compile_many(system.ops["piecewise"], expr.args, system)
     parts = [compile_inner(arg, system) for arg in expr.args]
     pairs = list(zip(parts[:-1:2], parts[1::2], strict=True))
     otherwise = parts[-1]
