@@ -21,7 +21,6 @@ from quizgen.errors import DrawError
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.numbers import at_a_glance, exact_text, rational, rounded_text
 from quizgen.maths.precision import working_precision
-from quizgen.maths.systems import compile_expr, exact
 from quizgen.maths.units import factor
 from quizgen.maths.values import Value, Values
 from quizgen.outside import located
@@ -95,7 +94,7 @@ class Draw:
     def computed(self, formula: str) -> Value:
         """Value of a formula of ``template.toml`` over the quantities in shown units."""
         with working_precision():
-            value: Value = compile_expr(self.template.formula(formula), exact())(self.shown_values)
+            value: Value = self.plan.compiled(formula)(self.shown_values)
         return value
 
     def steps(self, index: int) -> tuple[ChainStep, ...]:
@@ -148,7 +147,7 @@ def _first(plan: Plan, seed: str, slot: str) -> Draw:
     for attempt in range(MAX_TRIES):
         with working_precision():
             shown, words = plan.candidate(stem, attempt)
-            result = admissible(plan, shown)
+        result = admissible(plan, shown)
         if not isinstance(result, str):
             values, traps = result
             return Draw(template, seed, slot, attempt + 1, shown, words, values, traps)

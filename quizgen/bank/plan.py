@@ -82,6 +82,7 @@ class Plan:
 
     def __init__(self, template: Template) -> None:
         self.template = template
+        self._compiled: dict[str, Compiled] = {}
         self._check_order()
         self.variables = [self._variable(name) for name in template.rules.draw]
         conditions = list(self._conditions())
@@ -100,10 +101,16 @@ class Plan:
                 raise BankError(f"{place}: uses {sorted(unknown)}, not drawn before it")
             known.add(name)
 
+    def compiled(self, formula: str) -> Compiled:
+        """A formula of ``template.toml``, compiled once; the precision is stated around it."""
+        if formula not in self._compiled:
+            self._compiled[formula] = compile_inner(self.template.formula(formula), exact())
+        return self._compiled[formula]
+
     def _variable(self, name: str) -> _Variable:
         rule = self.template.rules.draw[name]
         source = rule.formula or rule.by
-        formula = compile_inner(self.template.formula(source), exact()) if source else None
+        formula = self.compiled(source) if source else None
         listed = () if source else candidates(rule.pick, rule.range, rule.skip)
         place = f"{self.template.file}: draw.{name}"
         if not (source or listed or rule.words):
@@ -112,8 +119,7 @@ class Plan:
 
     def _conditions(self) -> Iterator[_Condition]:
         for text in self.template.rules.where:
-            expr = self.template.formula(text)
-            yield _Condition(text, compile_inner(expr, exact()), names(expr))
+            yield _Condition(text, self.compiled(text), names(self.template.formula(text)))
         for name, rule in self.template.rules.keep.items():
             test = keep_test(rule)
             yield _Condition(f"keep.{name}", _of(name, test), frozenset({name}))
@@ -138,14 +144,18 @@ class Plan:
         """Given quantity to the factor from its shown unit to base units."""
         return {n: factor(self.template.units.get(n, "")) for n in self.template.chain.given}
 
+    @cached_property
+    def step_factors(self) -> dict[str, fmpq]:
+        """Step to the factor from its shown unit to base units."""
+        return {step.name: factor(step.unit) for step in self.template.chain.steps}
+
     def solve(self, shown: Mapping[str, fmpq]) -> dict[str, Value]:
         """Run the chain on shown values."""
         return self.template.chain.solve({n: shown[n] * f for n, f in self.base_factors.items()})
 
     def shown_env(self, shown: Mapping[str, fmpq], values: Values) -> dict[str, Value]:
         """Drawn and solved quantities in shown units."""
-        steps = self.template.chain.steps
-        return {**{step.name: values[step.name] / factor(step.unit) for step in steps}, **shown}
+        return {**{name: values[name] / f for name, f in self.step_factors.items()}, **shown}
 
 
 @cache

@@ -65,7 +65,7 @@ class Template:
         """The name that numbers are drawn under: its first one, so that a rename changes none."""
         return self.rules.formerly or self.id
 
-    @property
+    @cached_property
     def file(self) -> Path:
         """What the rules were read from."""
         return self.path / "template.toml"

@@ -54,7 +54,7 @@ class PartPlan:
         )
         self.steps = tuple(step for step in template.chain.steps if step.name in needed)
         whole = 0.01 if self.answer.get("percent") else 1.0
-        self.factors = tuple(whole * to_float(factor(self.unit_of(template, n))) for n in self.of)
+        self.asked = [(n, whole * to_float(factor(self.unit_of(template, n)))) for n in self.of]
         self.traps = {
             trap: template.chain.plan(wrong, floats())
             for trap, wrong in template.chain.traps.items()
@@ -108,10 +108,9 @@ class PartPlan:
         """
         if not self.of:
             return ()
-        key = tuple(env[n] / f for n, f in zip(self.of, self.factors, strict=True))
-        widths = tuple(
-            self.apart * t.outer_width(k) for t, k in zip(self.tolerances, key, strict=True)
-        )
+        key = self._answered(env)
+        pairs = zip(self.tolerances, key, strict=True)
+        widths = tuple([self.apart * rule.outer_width(k) for rule, k in pairs])
         if not lenient and self._near_tie(key):
             return "rounding tie"
         exact_values, seen = {"the key": key}, {"the key": key}
@@ -120,7 +119,7 @@ class PartPlan:
             if value is None:
                 continue
             written = self._reported(value)
-            twin = next((n for n, v in seen.items() if _close(written, v, widths)), None)
+            twin = _twin(written, seen, widths)
             if _close(value, key, widths) or self._accepted(value, env, shown):
                 twin = "the key"
             if twin is None:
@@ -159,7 +158,10 @@ class PartPlan:
                 changed[name] = compiled(changed)
         except (ZeroDivisionError, ValueError, OverflowError):
             return None
-        return tuple(changed[n] / f for n, f in zip(self.of, self.factors, strict=True))
+        return self._answered(changed)
+
+    def _answered(self, env: Mapping[str, float]) -> tuple[float, ...]:
+        return tuple([env[name] / factor for name, factor in self.asked])
 
 
 def _tolerances(answer: Mapping[str, Any], of: tuple[str, ...]) -> tuple[Tolerance, ...]:
@@ -191,6 +193,16 @@ class _Bound:
             for name, size in self.sizes.items()
         }
         return float(self.compiled(known))
+
+
+def _twin(
+    value: tuple[float, ...], seen: Mapping[str, tuple[float, ...]], widths: tuple[float, ...]
+) -> str | None:
+    """The first of the values seen that this one cannot be told from."""
+    for name, other in seen.items():
+        if _close(value, other, widths):
+            return name
+    return None
 
 
 def _close(a: tuple[float, ...], b: tuple[float, ...], widths: tuple[float, ...]) -> bool:
