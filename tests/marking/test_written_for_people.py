@@ -48,6 +48,12 @@ def test_whole_numbers_are_written_out_where_they_say_what_is_asked(rule, shown)
     assert show({"kind": "number", "value": "96000000", **rule}) == shown
 
 
+def test_a_number_in_a_gap_is_shown_as_the_number():
+    spec = {"kind": "gap", "accept": [["507", "507 nm", "507 ন্যানোমিটার"], ["rods", "রড"]]}
+    assert show(spec, "bn") == "507; রড"
+    assert show(spec, "en") == "507; rods"
+
+
 SYMBOLS = dict.fromkeys(["f", "p'_x", "p'_y", "p_z", "k1", "sigma_1"], "positive")
 
 

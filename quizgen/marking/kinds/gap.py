@@ -258,4 +258,6 @@ def _together(cells: list[Verdict], read_as: str, because: tuple[str, ...]) -> V
 
 
 def _shown(gap: list[str], lang: str) -> str:
+    if not any(letter.isalpha() for letter in gap[0]):
+        return gap[0]
     return next((word for word in gap if in_letters_of(known(lang), word)), gap[0])
