@@ -89,7 +89,7 @@ SAID = [
     ("E04", "traps/TR26", "0.096"),
     ("E04", "statements/v-luminance", "0.072"),
     ("E05", "hsv-edit-effects", "makes a colour lighter"),
-    ("E05", "hsv-edit-from-pictures", "washed out colours are in fact lighter"),
+    ("E05", "hsv-edit-from-pictures", "washed-out colours are in fact lighter"),
     ("E05", "true-or-false-colour", "pure blue to 0 turns it into white"),
     ("E05", "statements/blue-white", "(1, 1, 1)"),
     ("E06", "opencv-bayer-constant", "exchanges red and blue"),
@@ -99,7 +99,7 @@ SAID = [
     ("E08", "statements/all-colours", "33.5 %"),
     ("E09", "vocabulary/metamerism", "Two different spectra"),
     ("E09", "metamers-under-two-lamps", "cloth"),
-    ("E10", "rods-cones-and-peaks", "daylight in 1924, that for night vision in 1951"),
+    ("E10", "rods-cones-and-peaks", "daylight was standardised in 1924"),
     ("E10", "cheat/rods-cones", "1951"),
     ("E11", "bands-of-imaging-methods", "20 000 to 150 000 eV"),
     ("E12", "bands-of-imaging-methods", "1.6 to 3.3 eV"),
@@ -148,7 +148,7 @@ SAID = [
     ("E35", "coordinate-conventions", "That is OpenGL"),
     ("E36", "pinhole-size-effects", "left and right are exchanged as well"),
     ("E37", "ccd-or-cmos-properties", "properties of early chips"),
-    ("E37", "ccd-and-cmos-artefacts", "no read-out effect"),
+    ("E37", "ccd-and-cmos-artefacts", "not a read-out effect"),
     ("E38", "salt-and-pepper-counts", "almost half"),
     ("E39", "formulas/F14", "clipping shifts the mean"),
     ("E40", "gaussian-2d-formula-and-shapes", "correlation along the rows"),
@@ -221,7 +221,7 @@ def depth_of_field(f: float, f_number: float, c: float, s: float) -> float:
 
 
 def beyond(k: float) -> mpmath.mpf:
-    """Share of a normal law more than k standard deviations from its mean, on both sides."""
+    """Share of a normal distribution more than k standard deviations from its mean, on both sides."""
     return mpmath.erfc(k / mpmath.sqrt(2))
 
 
