@@ -1,0 +1,123 @@
+"""Whether an answer worked out from a page is the one in ``key.json``, within what the page allows.
+
+The rounding sentence is read off the page, in either language; formulas and conditions of the key
+are evaluated here, by Python, so that nothing of the product takes part.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+from printed_numbers import UNITS
+
+Spec = Mapping[str, Any]
+NUMERIC = {"number", "quantity", "angle", "point", "table", "set", "interval"}
+OWED = NUMERIC | {"expression", "witness", "code"}
+"""Kinds of answers that every solver has to give; those of choices where numbers decide."""
+RULES = [
+    (r"± ([\d.]+)", lambda n, _: Fraction(n)),
+    (r"within ([\d.]+) %|([\d.]+) % পর্যন্ত", lambda n, key: abs(key) * Fraction(n) / 100),
+    (r"Round to (\d) decimals?|দশমিকের পর (\d) ঘর", lambda n, _: Fraction(1, 2 * 10 ** int(n))),
+    (r"(Round to a whole number)|(পূর্ণসংখ্যায় রাউন্ড)", lambda *_: Fraction(1, 2)),
+    (r"(exact value)|(হুবহু মান দিন[।;])", lambda _, key: abs(key) / 10**12),
+]  # fmt: skip
+
+
+def allowed(hint: str, key: Fraction) -> Fraction:
+    """By how much an answer may differ from the key, as the hint on the page says."""
+    for pattern, rule in RULES:
+        if found := re.search(pattern, hint):
+            return rule(next(filter(None, found.groups())), key)
+    raise AssertionError(f"no tolerance is printed: {hint!r}")
+
+
+def agrees(mine: Any, spec: Spec, hint: str) -> bool:
+    """Whether an answer is the key's."""
+    kind = spec["kind"]
+    return NUMBERS(mine, spec, hint) if kind in NUMERIC else OTHERS[kind](mine, spec)
+
+
+def NUMBERS(mine: Any, spec: Spec, hint: str) -> bool:  # noqa: N802
+    """Compare values in the units of the key; a percentage is compared as one."""
+    values = spec.get("values", spec.get("value"))
+    keys = list(values.values()) if isinstance(values, dict) else values
+    keys = keys if isinstance(keys, list) else [keys]
+    units = spec.get("units", {})
+    asked = (
+        [units.get(name, "") for name in values] if units else [spec.get("unit", "")] * len(keys)
+    )
+    given = mine if isinstance(mine, Sequence) else [mine]
+    scale = 100 if spec.get("percent") else 1
+    return len(given) == len(keys) and all(
+        _near(Fraction(one) / UNITS[unit] * scale, Fraction(key) * scale, hint, spec)
+        for one, key, unit in zip(given, keys, asked, strict=True)
+    )
+
+
+def _near(mine: Fraction, key: Fraction, hint: str, spec: Spec) -> bool:
+    off = abs(mine - key)
+    if spec.get("period"):
+        off = min(off % spec["period"], -off % spec["period"])
+    return off <= allowed(hint, key)
+
+
+def _in_order(mine: Sequence[str], spec: Spec) -> bool:
+    before = spec["before"] or list(zip(spec["steps"], spec["steps"][1:], strict=False))
+    return sorted(mine) == sorted(spec["steps"]) and all(
+        mine.index(a) < mine.index(b) for a, b in before
+    )
+
+
+def _gaps(mine: Sequence[str], spec: Spec) -> bool:
+    return all(one in words for one, words in zip(mine, spec["accept"], strict=True))
+
+
+MATHS = {name: getattr(math, name) for name in ("sqrt", "exp", "log", "pi", "erf")}
+MATHS |= {"max": max, "min": min, "abs": abs}
+
+
+def calculated(formula: str, values: Mapping[str, Any]) -> Any:
+    """The value of a formula of the key, or whether a condition holds."""
+    python = formula.replace("{", "(").replace("}", ")").replace("^", "**")
+    python = re.sub(r"(?<![<>!=])=(?!=)", "==", python)
+    python = re.sub(r"(?<![\w.*])(\d+(?:\.\d+)?)(?![\w.])", r"F('\1')", python)
+    return eval(python, {"F": Fraction, **MATHS, **values})
+
+
+def _formula(mine: Callable[..., float], spec: Spec) -> bool:
+    names = sorted(spec["symbols"])
+    places = [[0.3 + 0.17 * ((3 * i + 5 * j) % 11) for i in range(len(names))] for j in range(12)]
+    found = [dict(zip(names, place, strict=True)) for place in places]
+    return all(
+        math.isclose(float(calculated(spec["value"], one)), mine(**one), rel_tol=1e-9)
+        for one in found
+    )
+
+
+def _holds(mine: Mapping[str, Any], spec: Spec) -> bool:
+    symbols = spec["symbols"]
+    known = dict(mine)
+    for name, formula in spec.get("let", {}).items():
+        known[name] = calculated(formula, known)
+    inside = isinstance(symbols, list) or all(
+        low <= mine[name] <= high for name, (low, high) in symbols.items()
+    )
+    conditions = [*spec.get("where", []), spec["predicate"]]
+    return set(mine) == set(symbols) and inside and all(calculated(c, known) for c in conditions)
+
+
+OTHERS: dict[str, Callable[[Any, Spec], bool]] = {
+    "choice": lambda mine, spec: mine == set(spec["correct"]),
+    "multi": lambda mine, spec: mine == set(spec["correct"]),
+    "tf": lambda mine, spec: spec["correct"] == [1 if mine else 2],
+    "match": lambda mine, spec: {a: str(b) for a, b in mine.items()} == spec["pairs"],
+    "code": lambda mine, spec: mine.split() == spec["output"].split(),
+    "order": _in_order,
+    "gap": _gaps,
+    "expression": _formula,
+    "witness": _holds,
+}

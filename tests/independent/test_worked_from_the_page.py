@@ -1,0 +1,179 @@
+"""What stands on the printed page is enough, and right: solvers that share no code find the key.
+
+A page is rendered, read back as text (``printed_page``), worked out from the formulas of the notes
+(``hand_*``) and compared with ``key.json`` within what the page itself allows (``printed_key``).
+"""
+
+from __future__ import annotations
+
+import copy
+import json
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import Any
+
+import hand_code
+import hand_colour
+import hand_lens
+import hand_noise
+import hand_projection
+import pytest
+from by_hand import SOLVERS, WITH_FIGURE
+from printed_key import OWED, agrees
+from printed_numbers import APERTURE, numbers
+from printed_page import Page, pages
+
+from quizgen.bank.folder import Bank, builtin
+from quizgen.paper.blueprint import Blueprint, SlotRule
+from quizgen.paper.key import key_bytes
+from quizgen.paper.paper import build
+from quizgen.render import render_paper
+
+LANGS = ("en", "bn")
+SEEDS = [pytest.param(seed, marks=[pytest.mark.slow] * (seed > 3)) for seed in range(1, 51)]
+BY_HAND = (hand_code, hand_colour, hand_lens, hand_noise, hand_projection)
+"""Where the solvers stand; importing them fills the table."""
+
+NOT_COMPUTED = {
+    "words are matched, chosen, filled in or written": [
+        "bands-of-imaging-methods", "ccd-and-cmos-artefacts", "ccd-or-cmos-properties",
+        "coordinate-conventions", "define-image-pixel-channel", "exposure-faults-and-remedies",
+        "lens-aberrations-causes-remedies", "mixing-kind-and-primaries",
+        "mixing-kind-and-resulting-colour", "pinhole-size-effects",
+        "random-generator-default-argument", "recognise-noise-from-description",
+        "rods-cones-and-peaks", "uses-of-colour-spaces", "why-bayer-green-and-demosaicing",
+        "why-pinhole-model"],
+    "statements are true or false": [
+        "true-or-false-colour", "true-or-false-noise", "true-or-false-projection"],
+    "the steps of a derivation are put in order": [
+        "blur-disc-derivation-order", "even-powers-of-r-order", "gaussian-prefactor-order",
+        "hsv-to-rgb-order", "normalisation-formula-order", "perspective-derivation-order",
+        "point-to-pixel-order"],
+    "a picture is looked at": [
+        "hsv-edit-from-pictures", "name-artefact-from-photo", "normalisation-from-histograms",
+        "recognise-and-sketch-distortion", "recognise-noise-from-histograms",
+        "which-photo-which-f-number"],
+}  # fmt: skip
+"""Templates in which no answer follows from numbers on the page, with the reason."""
+LISTED = [name for names in NOT_COMPUTED.values() for name in names]
+
+SPELLED = {"twice as much": 2}
+"""Numbers that one language writes as a word."""
+
+
+Printed = list[tuple[str, Page, dict[str, Any]]]
+
+
+def printed(bank: Bank, names: list[str], seed: int, lang: str, *, figures: bool) -> Printed:
+    """The questions of some templates as they stand on the page, with what the key has of them."""
+    slots = tuple(SlotRule(templates=(name,)) for name in names)
+    blueprint = Blueprint({"en": "Everything"}, slots, name="everything", source="everything")
+    paper = build(bank, blueprint, seed, lang, figures=figures)
+    keys = json.loads(key_bytes(paper))["questions"]
+    assert [key["template"] for key in keys] == names
+    return list(zip(names, pages(render_paper(paper, "exam", "html")), keys, strict=True))
+
+
+def every_page(bank: Bank, seed: int, lang: str) -> Printed:
+    """All templates; pictures are drawn only where a solver looks at them, for they take time."""
+    plain = [name for name in bank.paths if name not in WITH_FIGURE]
+    drawn = [name for name in bank.paths if name in WITH_FIGURE]
+    return [one for names, figures in ((plain, False), (drawn, True)) if names
+            for one in printed(bank, names, seed, lang, figures=figures)]  # fmt: skip
+
+
+def worked_out(name: str, page: Page, key: dict[str, Any]) -> Iterator[tuple[str, Any, Any, str]]:
+    """The parts that were worked out: all that a number answers, and choices that follow."""
+    mine = SOLVERS[name](page)
+    specs = {part["id"].lstrip("0123456789") or "a": part["spec"] for part in key["parts"]}
+    owed = {part for part, spec in specs.items() if spec["kind"] in OWED}
+    assert owed <= set(mine) <= set(specs), f"{name}: {owed - set(mine)} is not worked out"
+    for part, answer in mine.items():
+        yield part, answer, specs[part], page.parts[part].hint
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_page_leads_to_the_key_in_both_languages(bank, seed):
+    both = {lang: every_page(bank, seed, lang) for lang in LANGS}
+    wrong = [
+        (lang, name, part, answer)
+        for lang, printed_ones in both.items()
+        for name, page, key in printed_ones
+        if name in SOLVERS
+        for part, answer, spec, hint in worked_out(name, page, key)
+        if not agrees(answer, spec, hint)
+    ]
+    assert not wrong
+    assert not differing(*both.values())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [51, 52, 53])
+def test_figures_say_the_same_numbers_in_both_languages(bank, seed):
+    names = list(bank.paths)
+    assert not differing(*(printed(bank, names, seed, lang, figures=True) for lang in LANGS))
+
+
+def differing(one: Printed, other: Printed) -> list[tuple[str, set[Fraction]]]:
+    """The templates whose pages show different numbers, with these numbers."""
+    both = [(a[0], met(a[1]) ^ met(b[1])) for a, b in zip(one, other, strict=True)]
+    return [(name, numbers) for name, numbers in both if numbers]
+
+
+def met(page: Page) -> set[Fraction]:
+    """All numbers a reader meets on a page, those behind ``f/`` among them."""
+    text = "\n".join([page.everything, *(part.hint for part in page.parts.values())])
+    spelled = {Fraction(value) for word, value in SPELLED.items() if word in text}
+    return {*numbers(text), *map(Fraction, APERTURE.findall(text)), *spelled}
+
+
+def test_a_wrong_key_would_be_found(bank):
+    believed = [
+        (name, part)
+        for name, page, key in every_page(bank, 1, "en")
+        if name in SOLVERS
+        for part, answer, spec, hint in worked_out(name, page, key)
+        if agrees(answer, spoiled(spec), hint)
+    ]
+    assert not believed
+
+
+def spoiled(spec: dict[str, Any]) -> dict[str, Any]:
+    """A specification that asks for another answer."""
+    worse = copy.deepcopy(spec)
+    match spec:
+        case {"value": str(formula), "symbols": _}:
+            worse["value"] = f"1.001*({formula})"
+        case {"value": value}:
+            worse["value"] = _other(value)
+        case {"values": dict(values)}:
+            worse["values"] = {**values, next(iter(values)): _other(next(iter(values.values())))}
+        case {"values": [first, *rest]}:
+            worse["values"] = [_other(first), *rest]
+        case {"correct": correct}:
+            worse["correct"] = [place + 1 for place in correct]
+        case {"pairs": pairs}:
+            worse["pairs"] = dict(zip(pairs, reversed(list(pairs.values())), strict=True))
+        case {"output": output}:
+            worse["output"] = f"{output}0"
+        case {"steps": steps}:
+            worse |= {"steps": steps[::-1], "before": []}
+        case {"predicate": predicate}:
+            worse["predicate"] = f"{predicate} and 1 = 2"
+    return worse
+
+
+def _other(value: str) -> str:
+    return str(Fraction(value) * Fraction("1.06") + 1)
+
+
+@pytest.mark.parametrize("name", builtin().paths)
+def test_every_template_is_worked_out_or_listed_with_its_reason(bank, name):
+    """Add a function to ``hand_*.py``, or the name to ``NOT_COMPUTED``."""
+    assert (name in SOLVERS) + LISTED.count(name) == 1
+    kinds = {part.answer["kind"] for part in bank.rules(name).part}
+    assert name in SOLVERS or not kinds & OWED
+
+
+def test_no_solver_is_left_over(bank):
+    assert {*SOLVERS, *LISTED} <= set(bank.paths)
