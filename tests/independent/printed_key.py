@@ -18,10 +18,19 @@ Spec = Mapping[str, Any]
 NUMERIC = {"number", "quantity", "angle", "point", "table", "set", "interval"}
 OWED = NUMERIC | {"expression", "witness", "code"}
 """Kinds of answers that every solver has to give; those of choices where numbers decide."""
+COUNTED = {"stop": 1, "e-": 1, "deg": 1}
+"""Units of keys that say what is counted."""
+
+
+def _last_place(value: Fraction, figures: int) -> Fraction:
+    return Fraction(10) ** (math.floor(math.log10(abs(value))) + 1 - figures)
+
+
 RULES = [
     (r"± ([\d.]+)", lambda n, _: Fraction(n)),
     (r"within ([\d.]+) %|([\d.]+) % পর্যন্ত", lambda n, key: abs(key) * Fraction(n) / 100),
     (r"Round to (\d) decimals?|দশমিকের পর (\d) ঘর", lambda n, _: Fraction(1, 2 * 10 ** int(n))),
+    (r"(\d) significant|(\d)টি সার্থক", lambda n, key: _last_place(key, int(n)) / 2),
     (r"(Round to a whole number)|(পূর্ণসংখ্যায় রাউন্ড)", lambda *_: Fraction(1, 2)),
     (r"(exact value)|(হুবহু মান দিন[।;])", lambda _, key: abs(key) / 10**12),
 ]  # fmt: skip
@@ -53,7 +62,7 @@ def NUMBERS(mine: Any, spec: Spec, hint: str) -> bool:  # noqa: N802
     given = mine if isinstance(mine, Sequence) else [mine]
     scale = 100 if spec.get("percent") else 1
     return len(given) == len(keys) and all(
-        _near(Fraction(one) / UNITS[unit] * scale, Fraction(key) * scale, hint, spec)
+        _near(Fraction(one) / (UNITS | COUNTED)[unit] * scale, Fraction(key) * scale, hint, spec)
         for one, key, unit in zip(given, keys, asked, strict=True)
     )
 

@@ -14,6 +14,7 @@ from typing import Any
 
 import hand_code
 import hand_colour
+import hand_focus
 import hand_lens
 import hand_noise
 import hand_projection
@@ -31,7 +32,7 @@ from quizgen.render import render_paper
 
 LANGS = ("en", "bn")
 SEEDS = [pytest.param(seed, marks=[pytest.mark.slow] * (seed > 3)) for seed in range(1, 51)]
-BY_HAND = (hand_code, hand_colour, hand_lens, hand_noise, hand_projection)
+BY_HAND = (hand_code, hand_colour, hand_focus, hand_lens, hand_noise, hand_projection)
 """Where the solvers stand; importing them fills the table."""
 
 NOT_COMPUTED = {
