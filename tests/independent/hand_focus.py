@@ -37,7 +37,7 @@ def best_pinhole(page: Page) -> dict[str, Any]:
     depths = {("four times", "চার গুণ"): "times-two", ("twice", "দ্বিগুণ"): "times-root",
               ("quarter", "চার ভাগের"): "by-two", ("half", "অর্ধেক"): "by-root"}  # fmt: skip
     told = {"times-two": ("twice as wide", "ব্যাস দ্বিগুণ"), "times-root": ("becomes sqrt(2) times", "ব্যাস sqrt(2) গুণ"),
-            "by-two": ("half as wide", "ব্যাস অর্ধেক"), "by-root": ("narrower", "1/sqrt(2) গুণ")}  # fmt: skip
+            "by-two": ("half as wide", "ব্যাস অর্ধেক"), "by-root": ("becomes 1/sqrt(2)", "1/sqrt(2) গুণ")}  # fmt: skip
     asked = page.parts["d"].text
     case = next(case for words, case in depths.items() if any(w in asked for w in words))
     said = page.parts["d"].saying(*told[case])

@@ -58,7 +58,7 @@ NOT_COMPUTED = {
 """Templates in which no answer follows from numbers on the page, with the reason."""
 LISTED = [name for names in NOT_COMPUTED.values() for name in names]
 
-SPELLED = {"twice as much": 2, "array of tens": 10}
+SPELLED = {"twice as much": 2, "three by three": 3, "array of tens": 10}
 """Numbers that one language writes as a word."""
 
 
