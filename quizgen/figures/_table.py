@@ -16,11 +16,13 @@ from quizgen.figures import (
     depth_of_field,
     distorted_grid,
     gaussian,
+    grey_edits,
     hsv_edits,
     luminosity,
     noise,
     normalisation,
     pinhole,
+    staircase,
     thin_lens,
 )
 
@@ -60,11 +62,13 @@ FIGURES: Mapping[str, FigureModule] = {
     "depth_of_field": depth_of_field,
     "distorted_grid": distorted_grid,
     "gaussian": gaussian,
+    "grey_edits": grey_edits,
     "hsv_edits": hsv_edits,
     "luminosity": luminosity,
     "noise": noise,
     "normalisation": normalisation,
     "pinhole": pinhole,
+    "staircase": staircase,
     "thin_lens": thin_lens,
 }
 

@@ -28,6 +28,8 @@ REFERENCE = {
     "luminosity": {"m_1": 530, "m_2": 650},
     "noise": {"sigma": 0.04, "p": 0.09, "order": 4},
     "normalisation": {"low": 60, "high": 140},
+    "staircase": {"n": 8},
+    "grey_edits": {"n": 8, "low": 70, "high": 180, "s": 60, "order": 9},
 }
 
 HIDDEN = {
@@ -44,6 +46,8 @@ HIDDEN = {
     "luminosity": ["0.862", "0.107"],
     "noise": ["0.04", "0.09"],
     "normalisation": ["140"],
+    "staircase": ["0.1429"],
+    "grey_edits": ["≤", "…"],
 }
 
 
@@ -88,6 +92,11 @@ def camera_draws():
         yield "noise", {"order": order, "sigma": 0.02 + 0.05 * order, "p": 0.05, "seed": order}
     for low, high in ((0, 255), (60, 180), (80, 180), (60, 150), (90, 150), (-255, 510)):
         yield "normalisation", {"low": low, "high": high, "share": 0.01 * (low == 80)}
+    for order in range(24):
+        yield "grey_edits", {"n": 4, "low": 40, "high": 200, "s": 90, "order": order}
+    for n in (2, 4, 8, 16):
+        for rule in range(4):
+            yield "staircase", {"n": n, "rule": rule}
     for f, s, z in ((50, 2, (1.2, 2, 6)), (85, 3, (1.5, 3, 12)), (35, 10, (2.5, 10, 400))):
         near, middle, far = z
         depths = {"z_1": near, "z_2": middle, "z_3": far}

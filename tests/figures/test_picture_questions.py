@@ -6,10 +6,11 @@ import pytest
 
 from quizgen.arrays import luminosity
 from quizgen.bank.draw import draw
-from quizgen.figures import artefacts, depth_of_field, noise
+from quizgen.figures import artefacts, depth_of_field, grey_edits, noise, staircase
 from quizgen.question.kinds import build
 
 SEEDS = range(60)
+LAMPS = "two-lamps-by-day-and-by-night"
 NAMES = {
     "blooming": "blooming",
     "streak": "streak",
@@ -90,3 +91,51 @@ def test_the_order_of_five_lights_is_that_of_the_curves(bank, seed):
     by_night = [float(luminosity.scotopic(given[name])) for name in ("m_1", "m_2")]
     assert [given["W_1"], given["W_2"]] == pytest.approx(by_night, rel=0.01)
     assert by_night[("short", "long").index(key)] == max(by_night)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_lamps_have_the_heights_of_both_curves(bank, seed):
+    given = {k: float(v) for k, v in draw(bank.template(LAMPS), seed).shown.items()}
+    for k in "12":
+        assert given[f"V_{k}"] == pytest.approx(luminosity.photopic(given[f"l_{k}"]), abs=0.001)
+        assert given[f"V'_{k}"] == pytest.approx(luminosity.scotopic(given[f"l_{k}"]), abs=0.001)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_curve_is_as_high_at_the_wavelength_beyond_the_peak(bank, seed):
+    given = {
+        k: float(v)
+        for k, v in draw(bank.template("power-for-equal-brightness"), seed).shown.items()
+    }
+    curve = luminosity.scotopic if given["dark"] else luminosity.photopic
+    assert float(curve(given["l_1"])) == pytest.approx(given["h_1"], abs=0.002)
+    assert float(curve(given["l_2"])) == pytest.approx(given["h_2"], abs=0.002)
+    assert float(curve(given["lambda_3"])) == pytest.approx(given["h_s"], abs=0.002)
+    assert float(curve(given["lambda_3"] + given["w"])) == pytest.approx(given["h_s"], abs=0.008)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_staircase_rises_where_the_key_says(bank, seed):
+    given, key = _drawn(bank, "quantiser-from-staircase", seed, part=1)
+    drawn = draw(bank.template("quantiser-from-staircase"), seed)
+    rises = staircase.jumps(given)
+    ends = {
+        "nearest": (0.5, 0.5), "down": (1, 0), "parts": (1, 1), "up": (0, 1)
+    }[key]  # fmt: skip
+    tread = rises[1] - rises[0]
+    assert (rises[0] / tread, (1 - rises[-1]) / tread) == pytest.approx(ends, abs=1e-9)
+    k, q = (float(v) for v in build(drawn, 2).spec.show().replace("k = ", "").split("; q = "))
+    assert k == sum(rise < given["I"] for rise in rises) == staircase.code(given["I"], given)
+    assert q == pytest.approx(k / len(rises), abs=0.0001)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_edits_stand_where_the_key_says(bank, seed):
+    drawn = draw(bank.template("edit-from-photo-and-histogram"), seed)
+    given = {key: float(value) for key, value in drawn.shown.items()}
+    order = grey_edits.edit_order(given["order"])
+    places = [order.index(edit) for edit in ("coarse", "squeezed", "brightened")]
+    assert [given[name] for name in ("p_n", "p_r", "p_s")] == places
+    assert [drawn.words[name] for name in ("place_n", "place_r", "place_s")] == [
+        f"picture-{place + 1}" for place in places
+    ]

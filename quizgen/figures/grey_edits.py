@@ -1,0 +1,136 @@
+"""One grey photograph four times with histograms: unchanged, fewer levels, squeezed, brightened."""
+
+from __future__ import annotations
+
+from functools import cache
+from itertools import permutations
+from typing import TYPE_CHECKING
+
+from quizgen.figures._numbers import given
+from quizgen.figures._parameters import Parameter, Values, require
+from quizgen.figures._words import words_of
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from quizgen.camera.scene import Image
+    from quizgen.figures._pen import Pen
+
+DARK = "keep"
+
+PARAMETERS = {
+    "n": Parameter("", "levels left by the coarse edit", low=2.0, high=32.0, whole=True),
+    "low": Parameter("", "grey level that black becomes", low=0.0, high=255.0),
+    "high": Parameter("", "grey level that white becomes", low=0.0, high=255.0),
+    "s": Parameter("", "grey levels added, then clamped at 255", low=0.0, high=255.0),
+    "order": Parameter(
+        "", "permutation of (original, n, squeezed, s) at 1 to 4", 0.0, 0.0, 23.0, whole=True
+    ),
+}
+
+EDITS = ("original", "coarse", "squeezed", "brightened")
+BINS = 128
+_WIDE, _HIGH = 144, 78
+_GAP, _CAPTION, _HISTOGRAM, _TICKS = 8.0, 14.0, 34.0, 12.0
+_NUMBERS = "1234"
+
+
+def edit_order(order: float) -> tuple[str, ...]:
+    """Which edit has number 1, 2, 3 and 4: an index into the permutations of ``EDITS``."""
+    return list(permutations(EDITS))[int(order)]
+
+
+def level(edit: str, before: float, values: Values) -> float:
+    """Grey level that an edit makes of one from 0 to 255, not yet rounded to 8 bits."""
+    gaps = values["n"] - 1
+    if edit == "coarse":
+        return int(before / 255 * gaps + 0.5) * 255 / gaps
+    if edit == "squeezed":
+        return values["low"] + (values["high"] - values["low"]) * before / 255
+    return min(255.0, before + (values["s"] if edit == "brightened" else 0.0))
+
+
+@cache
+def scene() -> Image:
+    """Soft shades from black to white: a sky, a field, a ball and a wall, shape (78, 144, 3)."""
+    from quizgen.camera import Camera, Length, Scene, Thing, simulate
+    from quizgen.camera.filters import everywhere_alike
+
+    def grey(shade: float) -> tuple[float, float, float]:
+        return (shade, shade, shade)
+
+    things = (
+        Thing("box", y=Length(-13), width=Length(_WIDE), height=Length(52), texture="ramp",
+              colour=grey(0.3), other=grey(1.0)),
+        Thing("box", y=Length(26), width=Length(_WIDE), height=Length(26), texture="ramp",
+              colour=grey(0.5), other=grey(0.0)),
+        Thing("disc", x=Length(-34), y=Length(6), width=Length(44), radius=Length(22),
+              texture="ramp", colour=grey(1.0), other=grey(0.05)),
+        Thing("box", x=Length(38), y=Length(8), width=Length(44), height=Length(32),
+              texture="ramp", colour=grey(0.65), other=grey(0.1)),
+    )  # fmt: skip
+    with everywhere_alike():
+        return simulate(Scene(_WIDE, _HIGH, things), Camera()).values
+
+
+def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
+    """Draw the figure; in a quiz, show numbers without the edits."""
+    from quizgen.figures._pen import WIDTH, Pen
+
+    require("grey_edits", values["low"] < values["high"], "high must be larger than low")
+    wide = (WIDTH - 3 * _GAP) / 2
+    high = wide * _HIGH / _WIDE
+    cell = _TICKS + _HISTOGRAM + high + _CAPTION + _GAP
+    pen = Pen(WIDTH, 2 * cell)
+    for place, edit in enumerate(edit_order(values["order"])):
+        corner = (_GAP + (place % 2) * (wide + _GAP), (1 - place // 2) * cell)
+        _photo(figure, pen, _edited(edit, values), (*corner, wide, high))
+        middle = (corner[0] + wide / 2, corner[1] + cell - 10)
+        pen.label(middle, _caption(values, place, edit, quiz=quiz), size=9.5)
+    pen.onto(figure, background="#ffffff")
+
+
+def _edited(edit: str, values: Values) -> Image:
+    import numpy as np
+
+    table = np.array([level(edit, code, values) / 255 for code in range(256)], np.float32)
+    return table[np.floor(scene() * np.float32(255) + np.float32(0.5)).astype(int)]
+
+
+def _photo(figure: Figure, pen: Pen, image: Image, where: tuple[float, ...]) -> None:
+    from quizgen.camera import pictures
+    from quizgen.camera.codes import histogram
+    from quizgen.figures._photo import bars, place
+
+    left, low, wide, high = where
+    codes = pictures.codes(image)[..., 0]
+    place(figure, pen, codes, (left, low + _TICKS + _HISTOGRAM + 3, wide, high))
+    counts = [float(count) for count in histogram(codes[..., None], BINS, top=255)]
+    bars(pen, counts, (left, low + _TICKS, wide, _HISTOGRAM))
+    pen.label((left, low + 5), "0", "l", 8.5)
+    pen.label((left + wide, low + 5), "255", "r", 8.5)
+
+
+def _caption(values: Values, place: int, edit: str, *, quiz: bool) -> str:
+    mark = f"{{{_NUMBERS[place]}}}"
+    return mark if quiz else f"{mark}{{:}}  {_symbols(values, edit)}"
+
+
+def _symbols(values: Values, edit: str) -> str:
+    return {
+        "original": "I",
+        "coarse": f"n = {given(values['n'])}",
+        "squeezed": f"{given(values['low'])} … {given(values['high'])}",
+        "brightened": f"I + {given(values['s'])} ≤ 255",
+    }[edit]
+
+
+def alt(values: Values, lang: str, *, quiz: bool) -> str:
+    """Describe the figure in words: what is seen in a quiz, else which edit it is."""
+    words = words_of("grey_edits", lang)
+    fill = {name: given(values[name]) for name in ("n", "low", "high", "s")}
+    told = [
+        f"{_NUMBERS[place]}: {words[edit + ' seen' if quiz else edit].format(**fill)}"
+        for place, edit in enumerate(edit_order(values["order"]))
+    ]
+    return words["figure"] + " " + "; ".join(told) + words["stop"]
