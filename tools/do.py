@@ -15,6 +15,7 @@ COMMANDS: dict[str, tuple[list[str], ...]] = {
     ),
     "proof": (["quizgen", "lint", "--seeds", "1000"],),
     "speed": (
+        [sys.executable, "benchmarks/bank.py"],
         [sys.executable, "benchmarks/papers.py"],
         [sys.executable, "benchmarks/marking.py"],
     ),

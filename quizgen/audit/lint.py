@@ -12,7 +12,7 @@ from __future__ import annotations
 import re
 import time
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from quizgen.bank.draw import Draw, draw, reference
@@ -75,22 +75,22 @@ def lint_template(template: Template, seeds: int = 200, langs: tuple[str, ...] =
     if report.problems:
         return report
     try:
-        _examine_draws(template, seeds, report)
-        for seed in range(min(seeds, COMPOSED)):
-            report.problems += composed_problems(draw(template, seed))
-        for seed in range(min(seeds, MARKED)):
-            report.problems += marking_problems(draw(template, seed))
-        if template.rules.reference is not None:
-            report.problems += composed_problems(reference(template))
-            report.problems += marking_problems(reference(template))
+        first = _examine_draws(template, seeds, report)
+        known = [reference(template)] if template.rules.reference is not None else []
+        for one in (*first[:COMPOSED], *known):
+            report.problems += composed_problems(one)
+        for one in (*first, *known):
+            report.problems += marking_problems(one)
     except QuizgenError as error:
         report.problems.append(str(error))
     report.problems = list(dict.fromkeys(report.problems))
     return report
 
 
-def _examine_draws(template: Template, seeds: int, report: Report) -> None:
+def _examine_draws(template: Template, seeds: int, report: Report) -> list[Draw]:
+    """Count what the draws give; those whose answers are to be typed back."""
     seen: set[str] = set()
+    first: list[Draw] = []
     plan_of(template)
     for seed in range(seeds):
         started = time.process_time()
@@ -102,6 +102,8 @@ def _examine_draws(template: Template, seeds: int, report: Report) -> None:
         for traps in one.traps:
             report.traps.update(traps)
         _widen(report, one)
+        if seed < MARKED:
+            first.append(one)
     report.distinct = len(seen)
     for part in plan_of(template).parts:
         report.problems += [
@@ -109,6 +111,7 @@ def _examine_draws(template: Template, seeds: int, report: Report) -> None:
             for trap in part.traps
             if not report.traps[trap]
         ]
+    return first
 
 
 def _widen(report: Report, one: Draw) -> None:
@@ -204,22 +207,25 @@ def composed_problems(one: Draw) -> list[str]:
 
 def marking_problems(one: Draw) -> list[str]:
     """Problems with typing the printed answer and each mistake back."""
-    parts = [build(one, index) for index in range(len(one.template.labels))]
-    return [p for lang in one.template.languages for p in _marked(one, parts, lang)]
+    labels = enumerate(one.template.labels)
+    return [p for index, label in labels for p in _marked(one, build(one, index), label)]
 
 
-def _marked(one: Draw, parts: Sequence[Built[AnySpec]], lang: str) -> Iterator[str]:
-    for part, label in zip(parts, one.template.labels, strict=True):
+def _marked(one: Draw, part: Built[AnySpec], label: str) -> Iterator[str]:
+    """What is typed alike in several languages is marked once: a verdict knows no language."""
+    seen = set[tuple[str, str]]()
+    for lang in one.template.languages:
         where = f"seed {one.seed}, {lang}, part {label or '1'}"
-        typed = show(part.spec, lang)
-        verdict = mark(part.spec, typed, lang=lang, decimal="point")
-        if verdict.verdict != "correct" and not verdict.self_marked:
-            yield f"{where}: printed answer {typed!r} is marked {verdict.verdict} ({verdict.note})"
-        for trap, wrong in part.mistakes.items():
-            yield from _trap_problems(part.spec, trap, show(wrong, lang), where, lang)
+        for trap, spec in (("", part.spec), *part.mistakes.items()):
+            typed = show(spec, lang)
+            if (trap, typed) not in seen:
+                seen.add((trap, typed))
+                yield from _problems(part.spec, trap, typed, where, lang)
 
 
-def _trap_problems(spec: AnySpec, trap: str, typed: str, where: str, lang: str) -> Iterator[str]:
+def _problems(spec: AnySpec, trap: str, typed: str, where: str, lang: str) -> Iterator[str]:
     verdict = mark(spec, typed, lang=lang, decimal="point")
-    if verdict.note != f"trap:{trap}":
+    if trap and verdict.note != f"trap:{trap}":
         yield f"{where}: trap {trap!r} typed as {typed!r} is {verdict.verdict} ({verdict.note})"
+    if not trap and verdict.verdict != "correct" and not verdict.self_marked:
+        yield f"{where}: printed answer {typed!r} is marked {verdict.verdict} ({verdict.note})"
