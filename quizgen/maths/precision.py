@@ -18,9 +18,9 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from contextlib import ContextDecorator
+from functools import wraps
 from threading import RLock
-from typing import TypeVar
+from typing import ParamSpec, TypeVar
 
 from flint import ctx
 
@@ -32,6 +32,7 @@ WIDE = 400
 
 Result = TypeVar("Result")
 Argument = TypeVar("Argument")
+Given = ParamSpec("Given")
 
 _LOCK = RLock()
 _OUTER: list[int] = []
@@ -42,7 +43,7 @@ os.register_at_fork(
 )
 
 
-class working_precision(ContextDecorator):  # noqa: N801 - reads as a statement
+class working_precision:  # noqa: N801 - reads as a statement
     """Work on balls with so many bits: one thread at a time, nested at will.
 
     Never hold it across a ``yield``: the precision would leak into the caller. Used as a decorator
@@ -56,6 +57,16 @@ class working_precision(ContextDecorator):  # noqa: N801 - reads as a statement
 
     def __init__(self, bits: int = PRECISION) -> None:
         self.bits = bits
+
+    def __call__(self, function: Callable[Given, Result]) -> Callable[Given, Result]:
+        """Span the whole of each call."""
+
+        @wraps(function)
+        def run(*args: Given.args, **named: Given.kwargs) -> Result:
+            with self:
+                return function(*args, **named)
+
+        return run
 
     def __enter__(self) -> None:
         _LOCK.acquire()

@@ -59,7 +59,14 @@ def walk(expr: Expr) -> Iterator[Expr]:
 
 def names(expr: Expr) -> frozenset[str]:
     """Names of the quantities that occur in a tree."""
-    return frozenset([node.name for node in walk(expr) if isinstance(node, Sym)])
+    found, todo = set[str](), [expr]
+    while todo:
+        node = todo.pop()
+        if isinstance(node, Call):
+            todo += node.args
+        elif isinstance(node, Sym):
+            found.add(node.name)
+    return frozenset(found)
 
 
 def substitute(expr: Expr, values: Mapping[str, Expr]) -> Expr:
