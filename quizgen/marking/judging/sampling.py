@@ -9,6 +9,7 @@ from typing import Any
 
 import msgspec
 from flint import fmpq
+from msgspec.structs import replace
 
 from quizgen.errors import MathError, Undecided
 from quizgen.maths.constants import Scalar, TooLargeError, bounded, exact_value
@@ -123,7 +124,14 @@ def _of_key(tree: Expr, domains: tuple[tuple[str, Span], ...]) -> Sampled:
     return Sampled(tree, _draws(domains))
 
 
-def compare(first: Expr, second: Expr, symbols: Mapping[str, Domain]) -> Comparison:
+def equal(first: Expr, second: Expr, symbols: Mapping[str, Domain]) -> bool | None:
+    """Whether a typed formula equals another one, as ``compare`` finds it."""
+    return compare(first, second, symbols, related=False).equal
+
+
+def compare(
+    first: Expr, second: Expr, symbols: Mapping[str, Domain], *, related: bool = True
+) -> Comparison:
     """Compare a typed formula with the key.
 
     Parameters
@@ -132,6 +140,8 @@ def compare(first: Expr, second: Expr, symbols: Mapping[str, Domain]) -> Compari
         The key and the typed formula.
     symbols : mapping of str to domain
         ``real``, ``positive`` or ``[low, high]`` per name.
+    related : bool
+        Whether to look for the factor or offset between different ones.
     """
     used = names(first) | names(second)
     if not used:
@@ -139,7 +149,9 @@ def compare(first: Expr, second: Expr, symbols: Mapping[str, Domain]) -> Compari
     wanted = {name: domain for name, domain in symbols.items() if name in used}
     typed = Sampled(second, sample_points(wanted))
     with working_precision(BITS):
-        return _sampled(_of_key(first, _spans(wanted)), typed)
+        key = _of_key(first, _spans(wanted))
+        found = _sampled(key, typed)
+        return _related(key, typed, found) if related and found.ground == "differs" else found
 
 
 def _constants(first: Expr, second: Expr) -> Comparison:
@@ -169,7 +181,7 @@ def _sampled(key: Sampled, typed: Sampled) -> Comparison:
         met += 1
         same = agree(a, b)
         if same is False:
-            return _different(key, typed, met)
+            return Comparison(equal=False, points=met, ground="differs")
         sure = sure and same is True
         if met == POINTS:
             break
@@ -194,12 +206,12 @@ def agree(a: Value, b: Value) -> bool | None:
     return True if sharp else None
 
 
-def _different(key: Sampled, typed: Sampled, count: int) -> Comparison:
+def _related(key: Sampled, typed: Sampled, found: Comparison) -> Comparison:
     """Tell whether two different formulas differ by a factor or by an offset."""
     pairs = [(key.at(index), typed.at(index)) for index in range(12)]
     valued = [(a, b) for a, b in pairs if not any(map(_without_value, (a, b)))]
     ratio, difference = _relation(valued) if len(valued) >= 3 else (None, None)
-    return Comparison(False, count, "differs", ratio, difference)
+    return replace(found, ratio=ratio, difference=difference)
 
 
 def _without_value(value: object) -> bool:

@@ -8,7 +8,7 @@ from flint import arb, fmpq
 from quizgen.errors import FormulaError
 from quizgen.marking.judging.number import settle
 from quizgen.marking.judging.proving import proved_equal
-from quizgen.marking.judging.sampling import Comparison, Domain, agree, compare
+from quizgen.marking.judging.sampling import Comparison, Domain, agree, compare, equal
 from quizgen.marking.judging.settling import settle_equal
 from quizgen.marking.options import Options
 from quizgen.marking.reading.formulas import Formula, author, read_formula
@@ -30,15 +30,15 @@ class Spec(Worded, kw_only=True, frozen=True):
 
     def validate(self) -> None:
         """Check the key, its names and the domains."""
-        key = author(self.value, tuple(self.symbols))
-        unknown = names(key) - self.symbols.keys()
+        used = names(author(self.value, tuple(self.symbols)))
+        unknown = used - self.symbols.keys()
         if unknown:
             raise FormulaError(f"value uses undeclared names {', '.join(sorted(unknown))}")
         for name, domain in self.symbols.items():
             _check_domain(name, domain)
         for trap in self.traps.values():
             author(trap, tuple(self.symbols))
-        if not names(key):
+        if not used:
             exact_value(self.value)
 
     def judge(self, typed: str, options: Options, /) -> Verdict:
@@ -93,7 +93,7 @@ def _settled(key: Expr, tree: Expr, spec: Spec, found: Comparison) -> Comparison
 
 def _wrong(spec: Spec, tree: Expr, found: Comparison, read_as: str) -> Verdict:
     for name, trap in spec.traps.items():
-        if compare(author(trap, tuple(spec.symbols)), tree, spec.symbols).equal:
+        if equal(author(trap, tuple(spec.symbols)), tree, spec.symbols):
             return wrong(read_as, f"trap:{name}")
     if found.ground == "domain":
         return wrong(read_as, "domain")

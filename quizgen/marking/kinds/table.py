@@ -7,6 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 import msgspec
+from msgspec.structs import replace
 
 from quizgen.marking.diagnosis.slips import common_slip
 from quizgen.marking.kinds import angle, number, quantity
@@ -59,16 +60,18 @@ class Spec(Measured, kw_only=True, frozen=True):
         """Judge each cell."""
         names = list(self.values)
         placed = _placed(typed, names, options.decimal)
-        cells = [_one(self, name, placed.get(name), options) for name in names]
+        asked = {name: cell(self, name) for name in names}
+        cells = [_one(asked[name], name, placed.get(name), options) for name in names]
         stopped = next((c for c in cells if c.verdict == "ambiguous"), None)
         shown = zip(map(people.name, names), cells, strict=True)
         read_as = "; ".join(f"{name} = {c.read_as}" for name, c in shown if c.read_as)
         if stopped is not None:
             return ambiguous(stopped.note, stopped.read_as, **stopped.fields)
-        trap = _trap(self, placed, options) if any(c.credit < 1 for c in cells) else ""
+        missed = any(c.credit < 1 for c in cells)
+        trap = _trap(self.traps, asked, placed, options) if missed else ""
         verdict = _together(names, cells, read_as, trap)
         values = tuple(c.values[0] if c.values else None for c in cells)
-        return with_values(msgspec.structs.replace(verdict, cells=tuple(cells)), *values)
+        return with_values(replace(verdict, cells=tuple(cells)), *values)
 
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
@@ -127,10 +130,10 @@ def _placed(typed: str, names: list[str], decimal: str) -> dict[str, Source]:
     return placed
 
 
-def _one(spec: Spec, name: str, item: Source | None, options: Options) -> Verdict:
+def _one(asked: Cell, name: str, item: Source | None, options: Options) -> Verdict:
     if item is None:
         return wrong("", "missing", names=(name,))
-    verdict = cell(spec, name).judge(item.text, options)
+    verdict = asked.judge(item.text, options)
     if verdict.verdict == "unreadable":
         raise ReadError(verdict.note, item.column(0), verdict.read_as)
     return verdict
@@ -146,33 +149,38 @@ def _together(names: list[str], cells: list[Verdict], read_as: str, trap: str) -
     return shared(credit, read_as, note or "cells", names=missed, **fields)
 
 
-def _trap(spec: Spec, placed: Mapping[str, Source], options: Options) -> str:
+def _trap(
+    traps: Mapping[str, Mapping[str, Scalar]],
+    asked: Mapping[str, Cell],
+    placed: Mapping[str, Source],
+    options: Options,
+) -> str:
     """Return the one known mistake that gives every cell as it was typed."""
-    fitting = [trap for trap in spec.traps if _gives(spec, trap, placed, options)]
+    if len(placed) < len(asked):
+        return ""
+    typed = {name: source.text for name, source in placed.items()}
+    fitting = [trap for trap in traps if _gives(trap, traps[trap], asked, typed, options)]
     return fitting[0] if len(fitting) == 1 else ""
 
 
-def _gives(spec: Spec, trap: str, placed: Mapping[str, Source], options: Options) -> bool:
+def _gives(
+    trap: str,
+    values: Mapping[str, Scalar],
+    asked: Mapping[str, Cell],
+    typed: Mapping[str, str],
+    options: Options,
+) -> bool:
     """Whether a mistake explains all cells: whoever made it typed its values throughout."""
-    values = spec.traps[trap]
     return all(
-        name in placed
-        and _gives_cell(spec, trap, name, values.get(name, right), placed[name].text, options)
-        for name, right in spec.values.items()
+        _gives_cell(replace(one, traps={trap: values.get(name, one.value)}), typed[name], options)
+        for name, one in asked.items()
     )
 
 
-def _gives_cell(
-    spec: Spec, trap: str, name: str, value: Scalar, typed: str, options: Options
-) -> bool:
-    """Whether a mistake gives one cell, which may be right all the same."""
-    named = msgspec.structs.replace(spec, traps={trap: {name: value}})
-    verdict = cell(named, name).judge(typed, options)
+def _gives_cell(cell: Cell, typed: str, options: Options) -> bool:
+    """Whether a cell's one mistake gives what was typed, which may be right all the same."""
+    verdict = cell.judge(typed, options)
+    ((trap, value),) = cell.traps.items()
     if not verdict.credit:
         return verdict.note == f"trap:{trap}"
-    return cell(replace_values(spec, name, value), name).judge(typed, options).credit == 1
-
-
-def replace_values(spec: Spec, name: str, value: Scalar) -> Spec:
-    """The same table with another value in one cell and no known mistakes."""
-    return msgspec.structs.replace(spec, values={**spec.values, name: value}, traps={})
+    return replace(cell, value=value, traps={}).judge(typed, options).credit == 1
