@@ -25,6 +25,7 @@ import msgspec
 from quizgen.bank.about import About, Curriculum, in_language, read_struct
 from quizgen.bank.pages import read_text
 from quizgen.bank.prose import Text
+from quizgen.bank.quantities import Quantities, read_quantities
 from quizgen.bank.rules import Rules
 from quizgen.bank.template import Template, check_against_chain, digest_of, read_rules
 from quizgen.errors import BankError, QuizgenError
@@ -126,6 +127,11 @@ class Bank:
         """Name of each file of card content to the file."""
         return self._beside("cards")
 
+    @cached_property
+    def quantities(self) -> dict[str, Quantities]:
+        """Solver to what its letters mean."""
+        return read_quantities(self._beside("quantities").values())
+
     def _beside(self, name: str) -> dict[str, Path]:
         return {path.stem: path for path in sorted((self.folder / name).glob("*.toml"))}
 
@@ -137,7 +143,7 @@ class Bank:
         """Template name to its folder, in alphabetical order."""
         found = sorted(
             path for path in self.folder.glob("**/template.toml")
-            if path.parent not in {self.folder / "blueprints", self.folder / "cards"}
+            if path.parent not in {self.folder / n for n in ("blueprints", "cards", "quantities")}
         )  # fmt: skip
         names = [named(path.parent.name, f"{self.root}: template", BankError) for path in found]
         twins = {name for name in names if names.count(name) > 1}
@@ -242,7 +248,8 @@ class Bank:
         words = self._words(rules)
         digest = digest_of(*(read_bytes(path, BankError) for path in files), source, *words)
         ordered: dict[str, Text] = {lang: texts[lang] for lang in order}
-        template = Template(name, rules, chain, ordered, digest, folder, self.about)
+        quantities = self.quantities.get(rules.solver, Quantities())
+        template = Template(name, rules, chain, ordered, digest, folder, self.about, quantities)
         try:
             check_against_chain(template)
         except QuizgenError as error:

@@ -7,6 +7,7 @@ from typing import Any, Literal
 
 import msgspec
 
+from quizgen.bank.levels import Made
 from quizgen.maths.numbers import written
 
 Scalar = int | float | str
@@ -86,6 +87,7 @@ class Rules(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     apart: tuple[str, ...] = ()
     beyond: bool = False
     precision: tuple[str, ...] = ()
+    levels: tuple[Made, ...] = ("guided",)
 
 
 def claim_of(rules: Rules, name: str) -> ClaimRule:

@@ -17,6 +17,7 @@ import msgspec
 
 from quizgen.bank.about import About
 from quizgen.bank.limits import problems
+from quizgen.bank.quantities import Quantities
 from quizgen.bank.rules import DrawRule, FigureRule, KeepRule, PartRule, Rules, minutes_of
 from quizgen.errors import BankError, FormulaError
 from quizgen.maths.chain import Chain
@@ -47,6 +48,9 @@ class Template:
     path : pathlib.Path
     about : About
         What its bank says about itself.
+    quantities : Quantities
+        What the letters of its solver mean; only forms made from the chain say so, which is why
+        ``digest`` leaves it out.
     """
 
     id: str
@@ -56,6 +60,7 @@ class Template:
     digest: str
     path: Path = field(default=Path())
     about: About = field(default=About())
+    quantities: Quantities = field(default=Quantities())
 
     def __repr__(self) -> str:
         return f"<Template {self.id}, in {', '.join(self.texts)}>"

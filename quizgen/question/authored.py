@@ -25,13 +25,13 @@ def passage(entry: Entry, name: str, lang: str) -> tuple[Block, ...]:
         Naming file, entry, field, language and column.
     """
     with _at(entry, name, lang) as text:
-        return fill_blocks(blocks(text), _printed, _no_program)
+        return fill_blocks(blocks(text), printed, _no_program)
 
 
 def sentence(entry: Entry, name: str, lang: str) -> tuple[Inline, ...]:
     """The same as ``passage`` for a sentence, as inlines."""
     with _at(entry, name, lang) as text:
-        return fill(inlines(text), _printed)
+        return fill(inlines(text), printed)
 
 
 @contextmanager
@@ -44,7 +44,14 @@ def _at(entry: Entry, name: str, lang: str) -> Iterator[str]:
         raise BankError(f"{entry.place}: {name}.{lang}: {error}") from error
 
 
-def _printed(part: Slot | Formula) -> tuple[Inline, ...]:
+def printed(part: Slot | Formula) -> tuple[Inline, ...]:
+    """Mathematics of a sentence, ready for printing.
+
+    Raises
+    ------
+    BankError
+        If a blank stands there.
+    """
     if isinstance(part, Slot):
         raise BankError(f"{{{{ {part.name} }}}} cannot be filled in here")
     return (inline(part.expr),)

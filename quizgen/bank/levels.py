@@ -1,0 +1,12 @@
+"""The levels at which a draw can be asked, by name; ``question.levels`` makes them."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+Made = Literal["guided"]
+"""Levels that are made from the chain."""
+EXAM = "exam"
+"""As its author wrote it: the level of whoever asks for none."""
+CHOICES = (EXAM, "guided")
+"""What can be asked for."""
