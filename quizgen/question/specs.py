@@ -214,7 +214,7 @@ def exact_first(spec: T, key: Numbers, lang: str) -> str:
         ),
         lang,
     )
-    return f"{exactly} ≈ {rounded}" if "/" in exactly else rounded
+    return f"{exactly} ≈ {rounded}" if exactly != rounded and "/" in exactly else rounded
 
 
 def readable_fractions(key: Numbers) -> bool:
