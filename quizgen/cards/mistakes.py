@@ -120,8 +120,10 @@ def _template(item: Item) -> str:
 
 
 def _note(part: MarkedPart, item: Item, wish: Wish, path: Path) -> Note:
-    drawn = item.keys[0].draw
-    pairs = {lang: put_into_words(drawn, lang, number=item.number) for lang in wish.langs}
+    drawn, level = item.keys[0].draw, item.keys[0].level
+    pairs = {
+        lang: put_into_words(drawn, lang, number=item.number, level=level) for lang in wish.langs
+    }
     question, key = next(iter(pairs.values()))
     places = [i for i, one in enumerate(question.parts) if one.field.id == part.id]
     if not places:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Unpack
 import click
 
 from quizgen import render
+from quizgen.bank.levels import CHOICES, EXAM
 from quizgen.cli.command import command
 from quizgen.cli.options import SEED, BankOptions, Whole, bank_options, checked, open_bank, split
 from quizgen.cli.terminal import Progress
@@ -44,6 +45,7 @@ class Options(BankOptions):
     topic: str | None
     minutes: int | None
     lang: str | None
+    level: str | None
     formats: str
     form: str
     out: Path | None
@@ -60,6 +62,11 @@ class Options(BankOptions):
     "--lang",
     type=click.Choice(choices(), case_sensitive=False),
     help=f"Language. [default: {FIRST}]",
+)
+@click.option(
+    "--level",
+    type=click.Choice(CHOICES, case_sensitive=False),
+    help=f"As in an exam, or step by step. [default: {EXAM}]",
 )
 @click.option(
     "--format", "formats", default="html,pdf", show_default=True,
@@ -111,17 +118,22 @@ def _filled_in(form: Path, paper: Paper) -> bool:
 
 
 def _paper(options: Options, tell: Progress) -> Paper:
+    import msgspec
+
     from quizgen.paper.paper import build, rebuild, reference_paper
 
     bank = open_bank(options)
     if options["code"]:
         if options["seed"] is not None or options["lang"]:
             raise CodeError("--code already fixes seed and language; leave --seed and --lang out")
+        if options["level"]:
+            raise CodeError("--code already fixes the level; leave --level out")
         if options["topic"] is not None or options["minutes"] is not None:
             raise CodeError("--code already fixes the questions; leave --topic and --minutes out")
         given = _blueprint(options, bank) if options["blueprint"] else None
         return rebuild(bank, options["code"], given, progress=tell)
-    blueprint = _blueprint(options, bank)
+    level = options["level"] or EXAM
+    blueprint = msgspec.structs.replace(_blueprint(options, bank), level=level)
     lang = options["lang"] or FIRST
     if options["reference"]:
         return reference_paper(bank, blueprint, lang, progress=tell)

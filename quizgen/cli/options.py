@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, ParamSpec, TypedDict, TypeVar
 
 import click
 
+from quizgen.bank.levels import CHOICES, EXAM
 from quizgen.locale import FIRST, languages
 from quizgen.paper.code import LARGEST_SEED
 
@@ -57,6 +58,15 @@ def language_option(command: Callable[P, T]) -> Callable[P, T]:
     return click.option("--lang", type=kind, default=FIRST, show_default=True, help="Language.")(
         command
     )
+
+
+def level_option(command: Callable[P, T]) -> Callable[P, T]:
+    """Add ``--level``, one of the levels there are."""
+    kind = click.Choice(CHOICES, case_sensitive=False)
+    return click.option(
+        "--level", type=kind, default=EXAM, show_default=True,
+        help="As in an exam, or step by step.",
+    )(command)  # fmt: skip
 
 
 def checked(option: str, name: str, allowed: Collection[str]) -> str:

@@ -13,6 +13,7 @@ from quizgen.cli.options import (
     bank_options,
     checked,
     language_option,
+    level_option,
     open_bank,
     topic_option,
 )
@@ -38,6 +39,7 @@ class Options(BankOptions):
     lang: str
     count: int
     seed: str | None
+    level: str
     fresh: bool
 
 
@@ -45,6 +47,7 @@ class Options(BankOptions):
 @click.option("--topic", help="Only this topic.")
 @click.option("--tier", metavar="[A|B|C|D]", help="Only this tier.")
 @language_option
+@level_option
 @click.option("--count", type=Whole(1, 200), default=10, show_default=True,
               help="How many questions.")  # fmt: skip
 @click.option("--seed", help="Any text: the same text gives the same questions.")
@@ -111,7 +114,7 @@ def _wish(options: Options, bank: Bank) -> Wish:
     tier = None if tier is None else checked("--tier", tier, TIERS)
     folder = str(options["bank"].resolve()) if options["bank"] else ""
     lang, seed = options["lang"], options["seed"] or ""
-    wish = Wish(lang, options["count"], topic, tier, folder, seed)
+    wish = Wish(lang, options["count"], topic, tier, folder, seed, options["level"])
     if not fitting(bank, wish):
         there = [one for one in TIERS if fitting(bank, Wish(lang, topic=topic, tier=one))]
         what = f"no question of topic {topic or 'any'}, tier {tier or 'any'}, language {lang}"

@@ -7,7 +7,14 @@ from typing import Unpack
 
 import click
 
-from quizgen.cli.options import SEED, BankOptions, bank_options, language_option, open_bank
+from quizgen.cli.options import (
+    SEED,
+    BankOptions,
+    bank_options,
+    language_option,
+    level_option,
+    open_bank,
+)
 
 
 class Options(BankOptions):
@@ -16,6 +23,7 @@ class Options(BankOptions):
     seed: int
     reference: bool
     lang: str
+    level: str
     html: Path | None
 
 
@@ -24,6 +32,7 @@ class Options(BankOptions):
 @click.option("--seed", type=SEED, default=0, show_default=True, help="Number that fixes the draw.")
 @click.option("--reference", is_flag=True, help="The numbers printed in the notes.")
 @language_option
+@level_option
 @click.option("--html", type=click.Path(path_type=Path), help="Write a page of it instead.")
 @bank_options
 def preview(name: str, **options: Unpack[Options]) -> None:
@@ -35,7 +44,9 @@ def preview(name: str, **options: Unpack[Options]) -> None:
     template = open_bank(options).template(name)
     seed = REFERENCE if options["reference"] else options["seed"]
     page = options["html"]
-    paper = single(template, seed, options["lang"], figures=page is not None)
+    paper = single(
+        template, seed, options["lang"], level=options["level"], figures=page is not None
+    )
     if page is None:
         click.echo(question_text(paper.items[0]))
         return

@@ -9,6 +9,7 @@
     tier = "A"            # and/or: topic = "optics", templates = ["rgb-to-hsv"]
     count = 5
     points = 2            # marks of each question, shared out over its parts (default: its own)
+    level = "guided"      # exam or guided (default: that of the paper)
 
 What the paper as a whole is to hold may be asked for: ``total = 100`` points exactly,
 ``minutes = [110, 120]``, at least ``figures = 6`` of ``figure_kinds = 4`` and ``photographs = 2``.
@@ -27,6 +28,7 @@ from pathlib import Path
 import msgspec
 
 from quizgen.bank.folder import Bank, builtin
+from quizgen.bank.levels import CHOICES, EXAM
 from quizgen.bank.limits import MOST_MINUTES, MOST_POINTS
 from quizgen.errors import BlueprintError
 from quizgen.locale import languages, word
@@ -47,6 +49,7 @@ class SlotRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     topic: str | None = None
     templates: tuple[str, ...] = ()
     points: float | None = None
+    level: str | None = None
 
 
 class Authored(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
@@ -69,13 +72,17 @@ class Authored(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 
 
 class Blueprint(Authored, frozen=True):
-    """What a paper consists of: of slots, or of a topic within a time."""
+    """What a paper consists of: of slots, or of a topic within a time.
+
+    ``level`` is that of the questions whose slot names none.
+    """
 
     name: str = ""
     source: str = ""
     topic: str = ""
     budget: int = 0
     file: Path | None = None
+    level: str = EXAM
 
 
 EVERYTHING = "all"
@@ -210,6 +217,8 @@ def _problems(slot: SlotRule) -> Iterator[str]:
         yield f"tier {slot.tier!r} (allowed: A, B, C, D)"
     if slot.points is not None and not 0 < slot.points <= MOST_POINTS:
         yield f"points must be positive and at most {MOST_POINTS}"
+    if slot.level is not None and slot.level not in CHOICES:
+        yield f"level {slot.level!r} (allowed: {', '.join(CHOICES)})"
     if not 1 <= slot.count <= MOST_QUESTIONS:
         yield f"count must be 1 to {MOST_QUESTIONS}"
     names = (*slot.templates, *(() if slot.topic is None else (slot.topic,)))

@@ -82,6 +82,13 @@ def weights(blueprint: Blueprint) -> Iterator[float | None]:
     yield from repeat(None)
 
 
+def levels(blueprint: Blueprint) -> Iterator[str]:
+    """The level wanted of each question, without end: its slot's, else that of the paper."""
+    for slot in blueprint.slot:
+        yield from repeat(slot.level or blueprint.level, slot.count)
+    yield from repeat(blueprint.level)
+
+
 def _slotted(bank: Bank, blueprint: Blueprint, seed: str) -> list[str]:
     """Fill the slots: each template is used once before any is used again."""
     uses: dict[str, int] = {}

@@ -12,6 +12,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from quizgen.bank.levels import CHOICES, EXAM
 from quizgen.errors import ChoiceError, CodeError
 from quizgen.locale import choices
 
@@ -25,7 +26,10 @@ REFERENCE = "reference"
 LARGEST_SEED = 10**9
 DIGEST_LENGTH = 6
 
-_CODE = re.compile(rf"(.+)-(\d{{1,10}}|{REFERENCE})-([a-z]+)-([0-9a-f]{{{DIGEST_LENGTH}}})")
+_LEVELS = "|".join(level for level in CHOICES if level != EXAM)
+_CODE = re.compile(
+    rf"(.+)-(\d{{1,10}}|{REFERENCE})-([a-z]+)(?:-({_LEVELS}))?-([0-9a-f]{{{DIGEST_LENGTH}}})"
+)
 
 
 @dataclass(frozen=True)
@@ -42,15 +46,19 @@ class Code:
         A language, or ``both``.
     digest : str
         Of the files behind the paper.
+    level : str
+        What its questions are asked at; that of the exam is not printed.
     """
 
     blueprint: str
     seed: str
     choice: str
     digest: str
+    level: str = EXAM
 
     def __str__(self) -> str:
-        return f"{self.blueprint}-{self.seed}-{self.choice}-{self.digest}"
+        level = "" if self.level == EXAM else f"-{self.level}"
+        return f"{self.blueprint}-{self.seed}-{self.choice}{level}-{self.digest}"
 
     @property
     def is_reference(self) -> bool:
@@ -74,7 +82,8 @@ def parse_code(text: str) -> Code:
         raise CodeError(
             f"{text!r} is not a paper's code: language {match[3]!r} (there are {allowed})"
         )
-    return Code(*match.groups())
+    blueprint, seed, choice, level, digest = match.groups()
+    return Code(blueprint, seed, choice, digest, level or EXAM)
 
 
 def checked_seed(seed: int) -> int:
@@ -90,9 +99,19 @@ def checked_seed(seed: int) -> int:
     raise ChoiceError(f"seed: {seed!r} (allowed: whole numbers from 0 to {LARGEST_SEED})")
 
 
-def digest_of(source: str, templates: Iterable[Template]) -> str:
-    """Digest of the engine, a blueprint's text and the files of the templates in a paper."""
+def digest_of(source: str, templates: Iterable[Template], levels: Iterable[str]) -> str:
+    """Digest of the engine, a blueprint's text and the files of the templates in a paper.
+
+    Parameters
+    ----------
+    source : str
+        Text of the blueprint.
+    templates : iterable of Template
+    levels : iterable of str
+        At which each of them is asked: those made from the chain name its quantities.
+    """
     total = hashlib.sha256(f"{ENGINE}\n{source}".encode())
-    for template in templates:
-        total.update(f"{template.id}:{template.digest}\n".encode())
+    for template, level in zip(templates, levels, strict=True):
+        names = "" if level == EXAM else f":{level}:{template.quantities.digest}"
+        total.update(f"{template.id}:{template.digest}{names}\n".encode())
     return total.hexdigest()[:DIGEST_LENGTH]

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from fractions import Fraction
+from itertools import repeat
+from typing import NamedTuple
+
+import msgspec
 
 from quizgen.bank.draw import Draw, draw
 from quizgen.bank.folder import Bank
+from quizgen.bank.levels import EXAM
 from quizgen.bank.prose import Block, CodeBlock
 from quizgen.bank.template import Template
 from quizgen.errors import BlueprintError, CodeError, DrawError
@@ -17,10 +22,11 @@ from quizgen.locale import chosen
 from quizgen.maths.notation import people
 from quizgen.outside import located
 from quizgen.paper.blueprint import Blueprint, SlotRule, named_blueprint
-from quizgen.paper.choose import choose, variety, weights
+from quizgen.paper.choose import choose, levels, variety, weights
 from quizgen.paper.code import REFERENCE, Code, checked_seed, digest_of, parse_code
 from quizgen.paper.whole import working_time
 from quizgen.question.compose import Key, Question, identity, instance, put_into_words
+from quizgen.question.levels import level_of
 
 REDRAWS = 50
 """Tries to avoid the same numbers twice in one paper."""
@@ -138,14 +144,27 @@ def build(
         If there is no such language, or the seed is out of range.
     """
     langs = chosen(choice, bank.languages)
-    drawn = list(_draws(bank, blueprint, checked_seed(seed)))
-    code = _code(blueprint, str(seed), choice, drawn)
+    asked = [*_levels(_draws(bank, blueprint, checked_seed(seed)), levels(blueprint))]
+    code = _code(blueprint, str(seed), choice, asked)
     items = []
-    marked = zip(drawn, weights(blueprint), strict=False)
+    marked = zip(asked, weights(blueprint), strict=False)
     for number, (one, points) in enumerate(marked, 1):
         items.append(_item(one, langs, str(number), points, figures=figures))
-        progress(one.template.id)
+        progress(one.drawn.template.id)
     return Paper(str(code), blueprint, langs, tuple(items), variety(bank, blueprint))
+
+
+class _Wanted(NamedTuple):
+    """A draw and the level that it is asked at."""
+
+    drawn: Draw
+    level: str
+
+
+def _levels(drawn: Iterable[Draw], wanted: Iterable[str]) -> Iterator[_Wanted]:
+    """The level of each question, as far as it has such a form."""
+    for one, level in zip(drawn, wanted, strict=False):
+        yield _Wanted(one, level_of(one, level))
 
 
 def rebuild(
@@ -173,7 +192,7 @@ def rebuild(
         If it is not a code, or the templates behind it have changed since.
     """
     wanted = parse_code(code)
-    plan = blueprint or _plan(wanted, bank)
+    plan = msgspec.structs.replace(blueprint or _plan(wanted, bank), level=wanted.level)
     if wanted.is_reference:
         paper = reference_paper(bank, plan, wanted.choice, figures=figures, progress=progress)
     else:
@@ -223,24 +242,31 @@ def reference_paper(
         folders = [bank.folder_of(name) for name in blueprint.reference]
     templates = [bank.template(folder.name) for folder in folders]
     drawn = [instance(t, REFERENCE if t.rules.reference is not None else 0) for t in templates]
+    asked = [*_levels(drawn, repeat(blueprint.level))]
     items = []
-    for number, one in enumerate(drawn, 1):
+    for number, one in enumerate(asked, 1):
         items.append(_item(one, langs, str(number), figures=figures))
-        progress(one.template.id)
-    return Paper(str(_code(blueprint, REFERENCE, choice, drawn)), blueprint, langs, tuple(items))
+        progress(one.drawn.template.id)
+    code = _code(blueprint, REFERENCE, choice, asked)
+    return Paper(str(code), blueprint, langs, tuple(items))
 
 
-def single(template: Template, seed: str | int, lang: str, *, figures: bool = True) -> Paper:
+def single(
+    template: Template, seed: str | int, lang: str, *, level: str = EXAM, figures: bool = True
+) -> Paper:
     """A paper of one question, for looking at a template."""
     title = {"en": template.id}
     blueprint = Blueprint(title, (SlotRule(templates=(template.id,)),), name=template.id)
-    item = _item(instance(template, seed), (lang,), "1", figures=figures)
+    drawn = instance(template, seed)
+    wanted = _Wanted(drawn, level_of(drawn, level))
+    item = _item(wanted, (lang,), "1", figures=figures)
     return Paper(f"{template.id}-{seed}", blueprint, (lang,), (item,))
 
 
-def _code(blueprint: Blueprint, seed: str, choice: str, drawn: list[Draw]) -> Code:
-    digest = digest_of(blueprint.source, (one.template for one in drawn))
-    return Code(blueprint.name, seed, choice, digest)
+def _code(blueprint: Blueprint, seed: str, choice: str, asked: list[_Wanted]) -> Code:
+    templates = [one.drawn.template for one in asked]
+    digest = digest_of(blueprint.source, templates, [one.level for one in asked])
+    return Code(blueprint.name, seed, choice, digest, blueprint.level)
 
 
 def _draws(bank: Bank, blueprint: Blueprint, seed: int) -> Iterator[Draw]:
@@ -262,14 +288,17 @@ def _draws(bank: Bank, blueprint: Blueprint, seed: int) -> Iterator[Draw]:
 
 
 def _item(
-    one: Draw,
+    one: _Wanted,
     langs: tuple[str, ...],
     number: str,
     points: float | None = None,
     *,
     figures: bool = True,
 ) -> Item:
-    pairs = [put_into_words(one, lang, number=number, figures=figures) for lang in langs]
+    pairs = [
+        put_into_words(one.drawn, lang, number=number, level=one.level, figures=figures)
+        for lang in langs
+    ]
     first = pairs[0][0]
     questions = tuple(_worth(_programs_once(question, first), points) for question, _ in pairs)
     return Item(number, questions, tuple(key for _, key in pairs))

@@ -15,7 +15,7 @@ from quizgen.practice.choosing import fitting, nth
 from quizgen.practice.results import TopicResult, by_topic
 from quizgen.practice.state import Outcome, PartState, State
 from quizgen.practice.task import Task
-from quizgen.question.compose import Key, Question, compose
+from quizgen.question.compose import Key, Question, instance, put_into_words
 
 
 @dataclass(frozen=True)
@@ -73,15 +73,11 @@ class Session:
         """
         number = self.state.done + 1
         name = nth(self.bank, self.templates, self.state.seed, number)
-        question, key = compose(
-            self.bank.template(name),
-            self.state.seed,
-            self.state.wish.lang,
-            slot=str(number),
-            number=str(number),
-        )
+        drawn = instance(self.bank.template(name), self.state.seed, number)
+        wish = self.state.wish
+        question, key = put_into_words(drawn, wish.lang, number=str(number), level=wish.level)
         keyed = key_question(Item(str(number), (question,), (key,)))
-        marker = Marker(keyed, Options(self.state.wish.lang))
+        marker = Marker(keyed, Options(wish.lang))
         parts = zip(question.parts, key.solution.parts, keyed.parts, self._parts(key), strict=True)
         tasks = (Task(question.topic, *one, marker=marker) for one in parts)
         return Turn(number, question, tuple(tasks))

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import msgspec
 
+from quizgen.bank.levels import EXAM
 from quizgen.errors import RenderError
 from quizgen.files import write_all
 from quizgen.practice.state import State, Wish
@@ -88,7 +89,10 @@ class Shelf:
 
 
 def _digest(wish: Wish) -> str:
-    return hashlib.sha256(msgspec.json.encode(wish)).hexdigest()[:16]
+    told = msgspec.to_builtins(wish)
+    if wish.level == EXAM:  # wishes were kept before there were levels
+        del told["level"]
+    return hashlib.sha256(msgspec.json.encode(told)).hexdigest()[:16]
 
 
 def _read(path: Path) -> State | None:

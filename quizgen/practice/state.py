@@ -6,6 +6,8 @@ import secrets
 
 import msgspec
 
+from quizgen.bank.levels import EXAM
+
 
 class Wish(msgspec.Struct, frozen=True):
     """What to practise.
@@ -21,6 +23,8 @@ class Wish(msgspec.Struct, frozen=True):
         Folder of the bank; empty for the built-in one.
     seed : str
         That a session is to have; empty for one that nobody has held before.
+    level : str
+        Of its questions.
     """
 
     lang: str = "en"
@@ -29,6 +33,7 @@ class Wish(msgspec.Struct, frozen=True):
     tier: str | None = None
     bank: str = ""
     seed: str = ""
+    level: str = EXAM
 
 
 class Outcome(msgspec.Struct, frozen=True):

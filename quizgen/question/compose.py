@@ -13,8 +13,9 @@ from typing import Any
 from markupsafe import Markup
 
 from quizgen.bank.draw import Draw, draw, reference
+from quizgen.bank.levels import EXAM
 from quizgen.bank.pools import named
-from quizgen.bank.prose import Block, Inline, Items, Paragraph, Styled, slots
+from quizgen.bank.prose import Block, Inline
 from quizgen.bank.rules import Scalar
 from quizgen.bank.template import Template
 from quizgen.errors import BankError
@@ -22,18 +23,17 @@ from quizgen.figures import Figure
 from quizgen.figures import render as render_figure
 from quizgen.marking.specs import AnySpec
 from quizgen.maths.notation import to_text
-from quizgen.maths.numbers import key_text, to_float, written
+from quizgen.maths.numbers import key_text, to_float
 from quizgen.maths.units import factor
 from quizgen.outside import located
-from quizgen.question.contract import Built, Control, Named
-from quizgen.question.filling import Filler, plain
-from quizgen.question.kinds import KINDS, build
+from quizgen.question.contract import Control
+from quizgen.question.filling import plain
+from quizgen.question.kinds import KINDS
+from quizgen.question.levels import LEVELS, level_of
+from quizgen.question.levels.asking import Asked, Choice
 from quizgen.question.markup import blocks, inline
 from quizgen.question.shown import listed, pieces
-from quizgen.question.solution import Solution, solve
-
-Choice = tuple[str, tuple[Inline, ...]]
-"""A mark (letter or number) and what stands beside it."""
+from quizgen.question.solution import Solution
 
 
 @dataclass(frozen=True)
@@ -135,6 +135,7 @@ class Key:
     chain: dict[str, Any] | None
     draw: Draw
     figure: Figure | None = None
+    level: str = EXAM
 
     def __repr__(self) -> str:
         return f"<Key {self.number} of {self.identity}>"
@@ -151,7 +152,7 @@ def compose(
     lang: str = "en",
     *,
     slot: str | int = "0",
-    number: str = "1",
+    level: str = EXAM,
     figures: bool = True,
 ) -> tuple[Question, Key]:
     """Draw a template and put it into words.
@@ -165,8 +166,8 @@ def compose(
         Language of the question.
     slot : str or int
         The question's place in the paper: part of what determines its numbers.
-    number : str
-        Its printed number.
+    level : str
+        ``exam`` or ``guided``.
     figures : bool
         Whether to draw the figures.
 
@@ -181,25 +182,35 @@ def compose(
     DrawError
         If no admissible numbers exist.
     """
-    return put_into_words(instance(template, seed, slot), lang, number=number, figures=figures)
+    drawn = instance(template, seed, slot)
+    return put_into_words(drawn, lang, level=level, figures=figures)
 
 
 def put_into_words(
-    drawn: Draw, lang: str, *, number: str = "1", figures: bool = True
+    drawn: Draw, lang: str, *, number: str = "1", level: str = EXAM, figures: bool = True
 ) -> tuple[Question, Key]:
-    """Compose an instance that has already been drawn."""
+    """Compose an instance that has already been drawn.
+
+    Raises
+    ------
+    BankError
+        If the template is not written in this language or a sentence is missing.
+    ChoiceError
+        If there is no such level.
+    """
     template = drawn.template
     if lang not in template.languages:
         known = ", ".join(template.languages)
         raise BankError(f"template {template.id!r} is not written in {lang!r} (only in {known})")
     with located(template.file):
-        return _worded(drawn, lang, number, figures=figures)
+        return _worded(drawn, lang, number, level_of(drawn, level), figures=figures)
 
 
-def _worded(drawn: Draw, lang: str, number: str, *, figures: bool) -> tuple[Question, Key]:
+def _worded(
+    drawn: Draw, lang: str, number: str, level: str, *, figures: bool
+) -> tuple[Question, Key]:
     template = drawn.template
-    built = tuple(build(drawn, index) for index in range(len(template.rules.part)))
-    filler = Filler(drawn, lang, hidden=True)
+    asking = LEVELS[level].asking(drawn, lang)
     question = Question(
         template=template.id,
         number=number,
@@ -208,64 +219,41 @@ def _worded(drawn: Draw, lang: str, number: str, *, figures: bool) -> tuple[Ques
         topic=template.rules.topic,
         title=template.texts[lang].title,
         minutes=Fraction(template.minutes),
-        stem=filler.blocks(filler.text.stem),
-        parts=tuple(_part(filler, index, number, part) for index, part in enumerate(built)),
+        stem=asking.stem,
+        parts=tuple(_part(part, lang, number) for part in asking.parts),
         figure=_figure(drawn, lang, quiz=True) if figures else None,
     )
     key = Key(
         template=template.id,
         number=number,
-        identity=identity(drawn),
-        specs=tuple(part.spec for part in built),
-        solution=solve(drawn, lang, built),
+        identity=identity(drawn, level),
+        specs=tuple(part.spec for part in asking.parts),
+        solution=asking.solution,
         chain=chain_table(drawn),
         draw=drawn,
         figure=_figure(drawn, lang, quiz=False) if figures else None,
+        level=level,
     )
     return question, key
 
 
-def identity(drawn: Draw) -> str:
+def identity(drawn: Draw, level: str = EXAM) -> str:
     """Name of the variant: two questions are the same if and only if this is the same."""
     numbers = [f"{name}={key_text(value)}" for name, value in sorted(drawn.shown.items())]
     words = [f"{name}={value}" for name, value in sorted(drawn.words.items())]
-    return f"{drawn.template.id}({', '.join(numbers + words + named(drawn))})"
+    whole = f"{drawn.template.id}({', '.join(numbers + words + named(drawn))})"
+    return whole if level == EXAM else f"{whole}/{level}"
 
 
-def _part(filler: Filler, index: int, number: str, built: Built[Any]) -> Part:
-    template = filler.drawn.template
-    label = template.labels[index]
-    body = _body(filler, label, built.statements)
-    if label and not body:
-        raise BankError(f"{template.path / filler.lang}.md: section {label!r} is missing")
+def _part(asked: Asked, lang: str, number: str) -> Part:
     field = Field(
-        id=f"{number}{label}",
-        control=built.control,
-        asks=tuple(map(pieces, KINDS[built.spec.kind].hints(built.spec, filler.lang))),
-        options=_choices(filler, built.options),
-        targets=_choices(filler, built.targets),
+        id=f"{number}{asked.label}",
+        control=asked.control,
+        asks=tuple(map(pieces, KINDS[asked.spec.kind].hints(asked.spec, lang))),
+        options=asked.options,
+        targets=asked.targets,
     )
-    return Part(label, written(template.rules.part[index].points), body, field)
-
-
-STATEMENT = "claim"
-"""The blank in a part's section that its statement fills."""
-
-
-def _body(filler: Filler, label: str, statements: tuple[Named, ...]) -> tuple[Block, ...]:
-    """The section of a part, and what it asks: its statement, or several in a numbered list."""
-    section = filler.text.sections.get(label, ()) if label else ()
-    if len(statements) == 1 and statements[0][0] == "claims":
-        if STATEMENT in slots(section):
-            return filler.saying(STATEMENT, *statements[0]).blocks(section)
-        asked = Styled("strong", filler.sentence(*statements[0]))
-        return (*filler.blocks(section), Paragraph((asked,)))
-    listed = tuple((Paragraph(filler.sentence(*place)),) for place in statements)
-    return (*filler.blocks(section), *((Items(listed, ordered=True),) if listed else ()))
-
-
-def _choices(filler: Filler, names: tuple[Named, ...]) -> tuple[Choice, ...]:
-    return tuple((mark, filler.sentence("options", name)) for mark, name in names)
+    return Part(asked.label, asked.points, asked.body, field)
 
 
 def figure_values(drawn: Draw) -> dict[str, Any]:

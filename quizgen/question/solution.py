@@ -13,6 +13,7 @@ from quizgen.bank.draw import Draw
 from quizgen.bank.prose import Block, Inline, Words
 from quizgen.marking.mark import show
 from quizgen.marking.specs import AnySpec, Numbers, OneNumber
+from quizgen.maths.chain import ChainStep
 from quizgen.question.contract import Built
 from quizgen.question.filling import NBSP, Filler, plain
 from quizgen.question.kinds import KINDS
@@ -85,21 +86,13 @@ class Solution:
     precision: tuple[Block, ...] = ()
 
 
-def solve(drawn: Draw, lang: str, built: tuple[Built[Any], ...]) -> Solution:
-    """Work an instance out in one language.
-
-    Parameters
-    ----------
-    drawn : Draw
-    lang : str
-    built : tuple of Built
-        Its parts as their kinds make them.
-    """
+def solve(drawn: Draw, lang: str, parts: tuple[PartSolution, ...]) -> Solution:
+    """The solved parts of an instance with the remarks on the whole, in one language."""
     filler = Filler(drawn, lang)
     return Solution(
         lang=lang,
         title=filler.text.title,
-        parts=tuple(_part(filler, index, part) for index, part in enumerate(built)),
+        parts=parts,
         check=filler.section("check"),
         note=filler.section("note"),
         precision=precision_table(drawn, lang),
@@ -107,22 +100,24 @@ def solve(drawn: Draw, lang: str, built: tuple[Built[Any], ...]) -> Solution:
     )
 
 
-def _part(filler: Filler, index: int, built: Built[Any]) -> PartSolution:
+def solved_part(filler: Filler, index: int, built: Built[Any]) -> PartSolution:
+    """Work one authored part out.
+
+    Parameters
+    ----------
+    filler : Filler
+    index : int
+    built : Built
+        The part as its kind makes it.
+    """
     drawn, spec = filler.drawn, built.spec
     label = drawn.template.labels[index]
     explained = filler.text.sentence("why", label or "a") is not None
     return PartSolution(
         label=label,
-        lines=tuple(
-            Line(
-                worked(drawn, step),
-                filler.sentence("steps", step.name),
-                drawn.template.chain.formulas.get(step.name, ""),
-            )
-            for step in drawn.steps(index)
-        ),
+        lines=tuple(line_of(filler, step) for step in drawn.steps(index)),
         shown=pieces(KINDS[spec.kind].printed(spec, filler.lang)),
-        mistakes=tuple(_mistakes(filler, built)),
+        mistakes=tuple(mistakes_of(filler, built)),
         options=tuple(
             (*_right(filler, section, name), *_cited(built.source)) for section, name in built.right
         ),
@@ -131,7 +126,14 @@ def _part(filler: Filler, index: int, built: Built[Any]) -> PartSolution:
     )
 
 
-def _mistakes(filler: Filler, built: Built[Any]) -> Iterator[Mistake]:
+def line_of(filler: Filler, step: ChainStep) -> Line:
+    """A step of the chain as the solution shows it."""
+    formula = filler.drawn.template.chain.formulas.get(step.name, "")
+    return Line(worked(filler.drawn, step), filler.sentence("steps", step.name), formula)
+
+
+def mistakes_of(filler: Filler, built: Built[Any]) -> Iterator[Mistake]:
+    """The known mistakes of a part with the answers that they give."""
     for trap, wrong in built.mistakes.items():
         spec = written_down(wrong, built.spec.traps[trap])
         shown = pieces(_rounded(spec, filler.lang))

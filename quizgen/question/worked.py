@@ -55,17 +55,18 @@ def _with_numbers(drawn: Draw, expr: Expr) -> Side:
     """The formula with numbers in place; equal unless one of them is shown rounded."""
     quantities = sorted(names(expr))
     sign = "≈" if any(drawn.is_rounded(name) for name in quantities) else "="
-    node = typeset.layout(expr, leaves={name: _node(drawn, name) for name in quantities})
+    node = typeset.layout(expr, leaves={name: drawn_node(drawn, name) for name in quantities})
     if isinstance(expr, Sym):
         return Side(sign, node, quantity_text(drawn, expr.name))
-    return Side(sign, node, to_text(expr, {name: _typed(drawn, name) for name in quantities}))
+    return Side(sign, node, to_text(expr, {name: drawn_typed(drawn, name) for name in quantities}))
 
 
-def _node(drawn: Draw, name: str) -> typeset.Node:
+def drawn_node(drawn: Draw, name: str) -> typeset.Node:
+    """The number of a quantity with its unit, to stand in a formula."""
     return typeset.quantity(drawn.text(name), unit_shown(drawn.template.units[name]))
 
 
-def _typed(drawn: Draw, name: str) -> str:
+def drawn_typed(drawn: Draw, name: str) -> str:
     """A quantity inside a typed formula: in brackets unless it is a number alone."""
     text = quantity_text(drawn, name)
     return text if re.fullmatch(rf"[0-9.{people.GAP}]+", text) else f"({text})"

@@ -38,10 +38,12 @@ class Printed:
     mistakes: tuple[tuple[str, str], ...]
 
 
-def all_templates(bank: Bank, seed: int, lang: str = "both") -> Paper:
+def all_templates(bank: Bank, seed: int, lang: str = "both", level: str = "exam") -> Paper:
     """A paper in which every template of the bank stands once; one draw serves all languages."""
     slots = tuple(SlotRule(templates=(name,)) for name in bank.paths)
-    blueprint = Blueprint({"en": "Everything"}, slots, name="everything", source="everything")
+    blueprint = Blueprint(
+        {"en": "Everything"}, slots, name="everything", source="everything", level=level
+    )
     return build(bank, blueprint, seed, lang, figures=False)
 
 

@@ -41,7 +41,9 @@ def test_a_language_that_is_not_there_is_named():
 def test_the_digest_is_of_engine_blueprint_and_template_files(bank):
     template = bank.template(NAME)
     text = f"1\nsource{NAME}:{template.digest}\n"
-    assert digest_of("source", [template]) == hashlib.sha256(text.encode()).hexdigest()[:6]
+    assert (
+        digest_of("source", [template], ["exam"]) == hashlib.sha256(text.encode()).hexdigest()[:6]
+    )
 
 
 @pytest.mark.parametrize("file", ["template.toml", "en.md", "bn.md", "solver"])

@@ -202,7 +202,7 @@ def test_shipped_blueprints_load(name):
         ("topic = 'optics'\ntitle = {en = 'x'}\n[[slot]]\ntier = 'A'", "unknown field `topic`"),
         (
             "title = {en = 'x'}\n[[slot]]\nkount = 1",
-            "allowed: count, points, templates, tier, topic",
+            "allowed: count, level, points, templates, tier, topic",
         ),
         ("title = {en = 'x'}\n[[slot]]\ntier = 'E'", "allowed: A, B, C, D"),
         ("title = {en = 'x'}\n[[slot]]\ncount = 0", "count must be"),

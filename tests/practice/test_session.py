@@ -26,7 +26,7 @@ WISH = Wish(count=2, topic="projection", tier="A")
 def key_of(turn, state):
     template = builtin().template(turn.question.template)
     number = str(turn.number)
-    return compose(template, state.seed, state.wish.lang, slot=number, number=number)[1]
+    return compose(template, state.seed, state.wish.lang, slot=number)[1]
 
 
 def session(wish=WISH, seed="s"):

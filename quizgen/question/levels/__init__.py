@@ -1,0 +1,28 @@
+"""Levels: the same draw as in an exam or step by step; a module for each.
+
+In: a draw and a language. Out: an ``Asking``: stem, parts with their specifications, solution.
+Must never know: an output, a paper.
+"""
+
+from __future__ import annotations
+
+from quizgen.bank.draw import Draw
+from quizgen.bank.levels import CHOICES, EXAM
+from quizgen.errors import one_of
+from quizgen.question.levels import exam, guided
+from quizgen.question.levels.asking import Level
+
+LEVELS: dict[str, Level] = {EXAM: exam, "guided": guided}
+"""Level to its module."""
+
+
+def level_of(drawn: Draw, wanted: str) -> str:
+    """The level at which a draw is asked: the wanted one if it has such a form, else the exam's.
+
+    Raises
+    ------
+    ChoiceError
+        If there is no such level.
+    """
+    one_of("level", wanted, CHOICES)
+    return wanted if LEVELS[wanted].fits(drawn) else EXAM

@@ -1,0 +1,268 @@
+"""One step of the chain as a question of its own: its name, its formulas, its value."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
+
+from flint import fmpq
+
+from quizgen import typeset
+from quizgen.bank.draw import Draw
+from quizgen.bank.plan import shuffled
+from quizgen.bank.prose import (
+    Block,
+    Code,
+    CodeBlock,
+    Formula,
+    Inline,
+    Items,
+    Paragraph,
+    Styled,
+    Table,
+    Words,
+    fill,
+)
+from quizgen.bank.traps import APART, answer_names
+from quizgen.errors import MathError
+from quizgen.marking.kinds import angle, number, quantity
+from quizgen.marking.specs import OneNumber, decode
+from quizgen.maths.chain import ChainStep
+from quizgen.maths.notation import to_text
+from quizgen.maths.numbers import key_text, short_decimal, to_float
+from quizgen.maths.precision import working_precision
+from quizgen.maths.systems import compile_expr, exact, taken_branch
+from quizgen.maths.tolerance import RULES
+from quizgen.maths.tree import Call, Expr, Num, names, walk
+from quizgen.maths.units import factor
+from quizgen.maths.values import Value
+from quizgen.question.authored import printed
+from quizgen.question.shown import Maths, named
+from quizgen.question.specs import answer_of, counts, notes
+from quizgen.question.worked import drawn_node, drawn_typed
+
+USUAL = {"rel": "0.005"}
+"""What is accepted where the rule of the part does not fit the step."""
+_BANNED = (1000, 10**6, 10**9)
+"""Factors in a wrong formula that only change a unit."""
+
+
+class Way(NamedTuple):
+    """A formula that may be taken for a step: the right one, or that of a mistake."""
+
+    trap: str
+    shown: Maths
+    value: Value
+
+
+def thing(drawn: Draw, name: str, lang: str) -> tuple[Inline, ...]:
+    """A quantity in a sentence: what it is called, and its letter."""
+    said = fill(drawn.template.quantities.name(name, lang), printed)
+    return (*said, Words(" ("), named(name), Words(")")) if said else (named(name),)
+
+
+def has_name(drawn: Draw, name: str) -> bool:
+    """Whether it is said in every language what a quantity is."""
+    known = drawn.template.quantities
+    return all(known.name(name, lang) for lang in drawn.template.languages)
+
+
+def introduced(drawn: Draw) -> frozenset[str]:
+    """Letters that the question itself uses: in formulas and programs, or as capitals."""
+    text = drawn.template.texts[drawn.template.languages[0]]
+    sections = [text.sections[label] for label in drawn.template.labels if label in text.sections]
+    return frozenset(name for part in (text.stem, *sections) for name in _letters(part))
+
+
+_WORD = re.compile(r"[A-Za-z]\w*")
+_CAPITAL = re.compile(r"(?<![\w'])[B-HJ-Z](?!\w)")
+"""A letter that is no word of English."""
+
+
+def _letters(parts: tuple[Block | Inline, ...]) -> Iterator[str]:
+    for part in parts:
+        match part:
+            case Formula(expr):
+                yield from names(expr)
+            case CodeBlock(text) | Code(text):
+                yield from _WORD.findall(text)
+            case Words(text):
+                yield from _CAPITAL.findall(text)
+            case Paragraph(children) | Styled(_, children):
+                yield from _letters(children)
+            case Items(items):
+                yield from (name for item in items for name in _letters(item))
+            case Table(head, rows):
+                yield from (n for row in (head, *rows) for cell in row for n in _letters(cell))
+            case _:
+                pass
+
+
+def formula(drawn: Draw, step: ChainStep, expr: Expr, known: frozenset[str]) -> Maths:
+    """A step's formula, with numbers in place of letters that nobody has introduced."""
+    strangers = names(expr) - known
+    node = typeset.layout(expr, leaves={name: drawn_node(drawn, name) for name in strangers})
+    typed = to_text(expr, {name: drawn_typed(drawn, name) for name in strangers})
+    return Maths(typeset.relation(["="], [typeset.name(step.name), node]), f"{step.name} = {typed}")
+
+
+def is_bare(drawn: Draw, step: ChainStep, known: frozenset[str]) -> bool:
+    """Whether the formula of a step would be printed as nothing but its value."""
+    expr = branch(drawn, step.expr)
+    return not isinstance(expr, Call) and not names(expr) & known
+
+
+def right_way(drawn: Draw, step: ChainStep, known: frozenset[str]) -> Way:
+    """The right formula, in the branch that applies."""
+    return Way("", formula(drawn, step, branch(drawn, step.expr), known), drawn.values[step.name])
+
+
+def branch(drawn: Draw, expr: Expr) -> Expr:
+    """A formula in the branch that applies to this draw."""
+    with working_precision():
+        return taken_branch(expr, drawn.values, exact())
+
+
+def wrong_ways(drawn: Draw, step: ChainStep, known: frozenset[str]) -> list[Way]:
+    """The formulas of the step's mistakes that give another value, each once, in a drawn order."""
+    right = right_way(drawn, step, known)
+    found = {right.shown.typed: right}
+    for trap, expr in _wrong(drawn, step):
+        shown = formula(drawn, step, branch(drawn, expr), known)
+        value = value_of(drawn, expr)
+        if value is None or _only_units(expr, step.expr) or _same(value, right.value):
+            continue
+        found.setdefault(shown.typed, Way(trap, shown, value))
+    ways = [way for way in found.values() if way.trap]
+    return shuffled(f"{key_of(drawn)}/{step.name}/ways", ways)
+
+
+def key_of(drawn: Draw) -> str:
+    """What the choices of a level are drawn from."""
+    template = drawn.template
+    return f"{template.origin}/{template.rules.version}/{drawn.seed}/{drawn.slot}/levels"
+
+
+def _wrong(drawn: Draw, step: ChainStep) -> Iterator[tuple[str, Expr]]:
+    """The mistakes of a step that have a sentence in every language."""
+    template = drawn.template
+    for trap, steps in template.chain.traps.items():
+        told = all(text.sentence("traps", trap) for text in template.texts.values())
+        for wrong in steps:
+            if wrong.name == step.name and told and trap not in template.rules.drop:
+                yield trap, wrong.expr
+
+
+def _only_units(wrong: Expr, right: Expr) -> bool:
+    """Whether a factor such as 1000 stands in a wrong formula that is there for the units alone."""
+
+    def numbers(expr: Expr) -> set[object]:
+        return {node.value for node in walk(expr) if isinstance(node, Num)}
+
+    odd = numbers(wrong) - numbers(right)
+    return any(size in (value, 1 / value) for value in odd if value for size in _BANNED)  # type: ignore[operator]
+
+
+def value_of(drawn: Draw, expr: Expr) -> Value | None:
+    """What a formula gives with the right values before it; None if nothing."""
+    with working_precision():
+        try:
+            value: Value = compile_expr(expr, exact())(drawn.values)
+        except (MathError, ZeroDivisionError, OverflowError):
+            return None
+    return value
+
+
+def _same(a: Value, b: Value) -> bool:
+    with working_precision():
+        return bool(abs(a - b) <= fmpq(1, 10**6) * abs(b))
+
+
+def value_spec(drawn: Draw, index: int, step: ChainStep) -> OneNumber:
+    """What the value of a step is marked by: the rule of its part, and the step's own mistakes."""
+    answer = _rule_of(drawn, index, step)
+    unit = str(answer.get("unit", step.unit))
+    table = _table(answer, unit, _counted(drawn, index, step))
+    with working_precision():
+        value = drawn.values[step.name] / factor(unit)
+        table |= {"of": [step.name], "value": key_text(value), **_tolerance(answer, value)}
+        traps = dict(_usable(drawn, step, _spec(table), value, unit))
+    return _spec({**table, "traps": traps, "notes": notes(drawn, traps)} if traps else table)
+
+
+def _spec(table: Mapping[str, object]) -> OneNumber:
+    return decode(_SHAPES[str(table["kind"])], table)
+
+
+_SHAPES: dict[str, type[OneNumber]] = {
+    "number": number.Spec, "quantity": quantity.Spec, "angle": angle.Spec
+}  # fmt: skip
+
+
+def _usable(
+    drawn: Draw, step: ChainStep, spec: OneNumber, value: Value, unit: str
+) -> Iterator[tuple[str, str]]:
+    """Mistakes that can be told from the key and from each other, with what they give."""
+    width = APART * spec.outer_width(to_float(value))
+    taken = [to_float(value)]
+    for trap, expr in _wrong(drawn, step):
+        wrong = value_of(drawn, expr)
+        if wrong is None:
+            continue
+        number = to_float(wrong / factor(unit))
+        if all(abs(number - other) > width for other in taken):
+            taken.append(number)
+            yield trap, key_text(wrong / factor(unit))
+
+
+def _rule_of(drawn: Draw, index: int, step: ChainStep) -> Mapping[str, Any]:
+    """The part's answer as far as it concerns a step: of its own quantities unit and rule."""
+    answer = dict(answer_of(drawn, index))
+    of = answer.get("of", ())
+    labels = {name: label for label, name in of.items()} if isinstance(of, Mapping) else {}
+    if step.name in answer_names(answer):
+        cell = answer.get("cells", {}).get(labels.get(step.name), {})
+        kept = {k: v for k, v in answer.items() if k not in RULES} if {*RULES} & {*cell} else answer
+        return {**kept, **cell, "own": True}
+    return {k: v for k, v in answer.items() if k in {*RULES, "kind", "bare", "within"}}
+
+
+def _counted(drawn: Draw, index: int, step: ChainStep) -> dict[str, list[str]]:
+    """The words for what an asked quantity counts."""
+    answer = answer_of(drawn, index)
+    if step.name not in answer_names(answer):
+        return {}
+    found = counts(drawn, index).get("counts", [])
+    if isinstance(found, Mapping):
+        of = answer["of"]
+        labels = [
+            label
+            for label in found
+            if (of.get(label) if isinstance(of, Mapping) else label) == step.name
+        ]
+        found = found[labels[0]] if labels else []
+    return {"counts": found} if found else {}
+
+
+def _table(answer: Mapping[str, Any], unit: str, counted: dict[str, list[str]]) -> dict[str, Any]:
+    """Kind and unit of the value."""
+    if unit == "deg":
+        return {"kind": "angle", "period": 0}
+    if unit and unit != "1":
+        bare = answer["kind"] != "quantity" or answer.get("bare", False)
+        return {"kind": "quantity", "unit": unit, "bare": bare}
+    percent = {"percent": True} if answer.get("percent") else {}
+    return {"kind": "number", **percent, **counted}
+
+
+def _tolerance(answer: Mapping[str, Any], value: Value) -> Mapping[str, Any]:
+    """The part's rule where it fits: decimals and distances are meant for the asked quantity."""
+    stated = {rule: answer[rule] for rule in (*RULES, "within") if rule in answer}
+    if answer.get("own"):
+        return stated or USUAL
+    if value == 0:
+        return {"exact": True}
+    if {"decimals", "abs", "exact"} & {*stated}:
+        return {"exact": True} if short_decimal(value) else USUAL
+    return stated or USUAL

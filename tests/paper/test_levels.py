@@ -1,0 +1,70 @@
+"""A paper at a level, from its making to its marks, through files; its code makes it again."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import msgspec
+import pytest
+from road import Desk, all_templates, fields, typed
+
+from quizgen.bank.folder import builtin
+from quizgen.bank.levels import CHOICES, EXAM
+from quizgen.errors import CodeError
+from quizgen.paper.blueprint import Blueprint, SlotRule, load_blueprint
+from quizgen.paper.code import parse_code
+from quizgen.paper.key import key_bytes
+from quizgen.paper.paper import build, rebuild
+
+LEVELS = [level for level in CHOICES if level != EXAM]
+
+
+def at(level, name="trial"):
+    return msgspec.structs.replace(load_blueprint(name), level=level)
+
+
+@pytest.mark.parametrize("level", LEVELS)
+@pytest.mark.parametrize(
+    "seed", [1, *(pytest.param(n, marks=pytest.mark.slow) for n in range(2, 8))]
+)
+def test_what_is_printed_is_marked_right_from_files(bank, tmp_path, level, seed):
+    desk = Desk(tmp_path, all_templates(bank, seed, level=level))
+    for lang in ("en", "bn"):
+        printed = list(fields(desk.paper, lang))
+        desk.toml({field.id: typed(field, field.answer) for field in printed})
+        desk.json({field.id: typed(field, field.answer, side=1) for field in printed}, lang)
+    for found in desk.marks():
+        lost = {part: one["note"] for part, one in found.items() if one["status"] == "wrong"}
+        right = [one for one in found.values() if one["status"] == "correct"]
+        assert not lost
+        assert len(right) >= len(printed)
+
+
+@pytest.mark.parametrize("level", LEVELS)
+def test_a_code_holds_its_level_and_makes_the_paper_again(level):
+    paper = build(builtin(), at(level), 5, "both", figures=False)
+    assert f"-both-{level}-" in paper.code
+    assert parse_code(paper.code).level == level
+    again = rebuild(builtin(), paper.code, figures=False)
+    assert key_bytes(again) == key_bytes(paper)
+    exam = build(builtin(), at(EXAM), 5, "both", figures=False)
+    assert exam.points == paper.points
+    with pytest.raises(CodeError):
+        rebuild(builtin(), paper.code.replace(f"-{level}", ""), figures=False)
+
+
+def test_a_slot_may_have_a_level_of_its_own():
+    slots = (
+        SlotRule(templates=("rgb-to-hsv",), level="guided"),
+        SlotRule(templates=("hsv-to-rgb",)),
+    )
+    paper = build(builtin(), Blueprint({"en": "x"}, slots, name="x"), 1, figures=False)
+    assert [item.keys[0].level for item in paper.items] == ["guided", EXAM]
+    assert all(item.points == Fraction(6) for item in paper.items)
+
+
+def test_a_question_without_a_calculation_stays_as_it_is():
+    slots = (SlotRule(templates=("why-pinhole-model",)),)
+    plan = Blueprint({"en": "x"}, slots, name="x", level="guided")
+    (item,) = build(builtin(), plan, 1, figures=False).items
+    assert item.keys[0].level == EXAM

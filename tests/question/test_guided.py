@@ -1,0 +1,125 @@
+"""Calculations step by step: values worked out by hand, mistakes where they happen, full marks."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+
+from quizgen.bank.draw import draw, reference
+from quizgen.bank.folder import builtin
+from quizgen.marking.options import Options
+from quizgen.paper.key import key_question
+from quizgen.paper.marking import Marker
+from quizgen.paper.paper import Item
+from quizgen.question.compose import put_into_words
+from quizgen.question.levels import LEVELS
+from quizgen.question.levels.asking import shared_out
+
+CALCULATING = [name for name in builtin().paths if builtin().rules(name).solver]
+
+
+def guided(drawn, lang="en"):
+    return put_into_words(drawn, lang, level="guided", figures=False)
+
+
+def marker_of(drawn, lang="en"):
+    question, key = guided(drawn, lang)
+    keyed = key_question(Item("1", (question,), (key,)))
+    return Marker(keyed, Options(lang)), {part.id: part for part in keyed.parts}
+
+
+def lens():
+    """f = 50 mm, z = 550 mm in the notes."""
+    return reference(builtin().template("thin-lens-image-distance"))
+
+
+def test_the_steps_of_a_lens_come_in_their_order_with_the_values_of_the_notes():
+    drawn = lens()
+    question, key = guided(drawn)
+    f, z = Fraction(str(drawn.shown["f"])), Fraction(str(drawn.shown["z"]))
+    image = 1 / (1 / f - 1 / z)
+    labels = [part.label for part in question.parts]
+    assert labels == ["a1", "a2", "a3", "b1", "b2", "c"]
+    values = [Fraction(str(spec.value)) for spec in key.specs if hasattr(spec, "value")]
+    assert values == [1 / image, image, image / z, image - f]
+
+
+def test_a_mistake_is_named_at_the_step_where_it_happens_and_only_there():
+    drawn = draw(builtin().template("blur-disc-diameter"), 0)  # f = 50 mm, N_1 = 8, image at 50 mm
+    marker, parts = marker_of(drawn)
+    assert marker.mark(parts["1a1"], "12.5 mm").verdict.verdict == "wrong"  # twice the diameter
+    carried = marker.mark(parts["1a3"], "500 um").verdict
+    assert (carried.note, carried.credit) == ("carried-forward", 1)
+
+
+def test_a_known_mistake_of_an_intermediate_step_is_told_with_its_sentence():
+    drawn = reference(builtin().template("rgb-to-hsv"))
+    question, key = guided(drawn)
+    marker, parts = marker_of(drawn)
+    red, green, blue = (Fraction(str(drawn.shown[name])) for name in "RGB")
+    place = next(i for i, spec in enumerate(key.specs) if spec.of == ["V"])
+    first = question.parts[place].field.id
+    verdict = marker.mark(parts[first], str((red + green + blue) / 3)).verdict
+    assert verdict.note == "trap:mean-as-value"
+    assert "mean of the three channels" in verdict.message
+    assert "mean-as-value" in [mistake.name for mistake in key.solution.parts[place].mistakes]
+
+
+def test_a_wrong_formula_is_answered_with_the_sentence_of_its_mistake():
+    drawn = lens()
+    question, key = guided(drawn)
+    place = next(i for i, part in enumerate(question.parts) if part.field.options)
+    marker, parts = marker_of(drawn)
+    for reason in key.solution.parts[place].reasons:
+        verdict = marker.mark(parts[question.parts[place].field.id], reason.value).verdict
+        told = (
+            builtin()
+            .template("thin-lens-image-distance")
+            .texts["en"]
+            .sentence("traps", reason.name)
+        )
+        assert verdict.verdict == "wrong"
+        assert told[0].text.split("$")[0][:20] in verdict.message
+
+
+@pytest.mark.parametrize("name", CALCULATING)
+@pytest.mark.parametrize("lang", ["en", "bn"])
+def test_what_the_solution_prints_gets_the_marks_of_the_exam(name, lang):
+    template = builtin().template(name)
+    for seed in range(2):
+        drawn = draw(template, seed)
+        if not LEVELS["guided"].fits(drawn):
+            continue
+        question, key = guided(drawn, lang)
+        marker, parts = marker_of(drawn, lang)
+        marks = Fraction(0)
+        for part, solved in zip(question.parts, key.solution.parts, strict=True):
+            result = marker.mark(parts[part.field.id], solved.answer)
+            marks += result.points if result.marks is None else result.marks
+        exam, _ = put_into_words(drawn, lang, figures=False)
+        assert marks == question.points == exam.points
+
+
+@pytest.mark.parametrize("name", CALCULATING)
+def test_both_languages_are_marked_alike(name):
+    drawn = draw(builtin().template(name), 3)
+    if LEVELS["guided"].fits(drawn):
+        (_, english), (_, bangla) = guided(drawn), guided(drawn, "bn")
+        assert english.specs == bangla.specs
+        assert english.identity == bangla.identity
+
+
+@pytest.mark.parametrize(
+    ("total", "weights", "shares"),
+    [
+        ("3", ["1", "1", "1"], ["1", "1", "1"]),
+        ("1", ["1", "1", "1"], ["1/2", "1/4", "1/4"]),
+        ("2", ["1/2", "1/2", "1"], ["1/2", "1/2", "1"]),
+        ("1/2", ["1", "1", "1"], ["1/4", "1/4", "1/4"]),
+        ("6", ["1", "1", "1", "1", "1", "1", "1"], ["1", "1", "1", "3/4", "3/4", "3/4", "3/4"]),
+    ],
+)
+def test_marks_are_shared_out_in_quarters(total, weights, shares):
+    found = shared_out(Fraction(total), [Fraction(weight) for weight in weights])
+    assert found == tuple(map(Fraction, shares))
