@@ -38,7 +38,7 @@ def run(lines, *arguments):
 def first_question(seed="s", lang="en", number=1):
     name = nth(builtin(), fitting(builtin(), Wish(lang, 1, "projection", "A")), seed, number)
     template = builtin().template(name)
-    return compose(template, seed, lang, slot=str(number), number=str(number), figures=False)[1]
+    return compose(template, seed, lang, slot=str(number), figures=False)[1]
 
 
 def test_right_answers_end_in_a_summary():
