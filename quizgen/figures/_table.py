@@ -12,6 +12,7 @@ from quizgen.errors import BankError
 from quizgen.figures import (
     artefacts,
     bayer,
+    blur_curve,
     blur_disc,
     depth_of_field,
     distorted_grid,
@@ -58,6 +59,7 @@ class FigureModule(Protocol):
 FIGURES: Mapping[str, FigureModule] = {
     "artefacts": artefacts,
     "bayer": bayer,
+    "blur_curve": blur_curve,
     "blur_disc": blur_disc,
     "depth_of_field": depth_of_field,
     "distorted_grid": distorted_grid,

@@ -22,6 +22,7 @@ REFERENCE = {
     "gaussian": {"sigma": 2, "k": 2},
     "thin_lens": {"f": 50, "z": 200},
     "bayer": MOSAIC,
+    "blur_curve": {"f": 50, "s": 3, "N_1": 8, "N_2": 2, "c": 30, "high": 300},
     "blur_disc": {"D": 25, "z_p": 60, "z_s": 61},
     "artefacts": {"kind": 2},
     "depth_of_field": {"N_1": 16, "N_2": 1.8, "order": 1},
@@ -40,6 +41,7 @@ HIDDEN = {
     "gaussian": ["0.1995", "4.55"],
     "thin_lens": ["66.67"],
     "bayer": ["115", "65"],
+    "blur_curve": ["2.338", "4.185"],  # X-C01
     "blur_disc": ["0.4167"],
     "artefacts": ["t_0"],
     "depth_of_field": ["16", "1.8"],
@@ -103,10 +105,22 @@ def camera_draws():
         yield "depth_of_field", {"f": f, "s": s, "N_1": 2.8, "N_2": 22, **depths}
 
 
+def curve_draws():
+    """Plots of the blur disc: one and two curves, limits on the axis, beyond it and at infinity."""
+    for f, s, number in ((35, 2, 1.4), (50, 3, 8), (100, 6, 16), (40, 2.5, 22)):
+        for c, high in ((20, 100), (60, 150), (80, 200)):
+            yield (
+                "blur_curve",
+                {"f": f, "s": s, "N_1": number, "N_2": number / 2, "c": c, "high": high},
+            )
+        yield "blur_curve", {"f": f, "s": s, "N_1": number, "far": 20, "high": 1000}
+
+
 def draws():  # noqa: C901 - one loop a figure
     """Figure names and values all over the ranges of the curriculum (A3, C11-C14, D17a, S11, S14)."""
     rng = random.Random(20)
     yield from camera_draws()
+    yield from curve_draws()
     for _ in range(25):
         yield from (("pinhole", values) for values in _pinhole(rng))
     for _ in range(12):

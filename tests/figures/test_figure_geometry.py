@@ -417,3 +417,29 @@ def test_equations_say_whether_they_are_exact():
     assert given(1234567.0) == "1234567"
     assert given(0.1 + 0.2) == "0.3"
     assert equation("x", 12345.0) == "x = 12345"
+
+
+# blur curve --------------------------------------------------------------------------------
+
+
+def test_blur_curves_have_the_heights_of_the_curriculum():
+    # X-C03: f = 50, N = 2, s = 2.05 m, z = 4.1 m gives 0.3125 mm; f/8 a quarter of it
+    got = parts("blur_curve", f=50, s=2.05, N_1=2, N_2=8, high=400)
+    (_, origin, _) = got["axes"][0]
+    right, top = np.array(got["grid"]).reshape(-1, 2).max(axis=0)
+    for curve, diameter in zip(got["curves"], (312.5, 78.125), strict=True):
+        z = (curve[:, 0] - origin[0]) / (right - origin[0]) * 10
+        height = (curve[:, 1] - origin[1]) / (top - origin[1]) * 400
+        assert np.interp(4.1, z, height) == pytest.approx(diameter, rel=5e-3)
+        assert z[height.argmin()] == pytest.approx(2.05, abs=0.01)
+        assert height.min() == pytest.approx(0, abs=0.1)
+
+
+def test_limits_of_the_sharp_zone_are_those_of_the_curriculum():
+    # X-C01: f = 50, N = 8, c = 0.03, s = 3 m is sharp from 2.338 m to 4.185 m
+    got = parts("blur_curve", f=50, s=3, N_1=8, c=30, high=300)
+    (_, origin, _) = got["axes"][0]
+    right, _ = np.array(got["grid"]).reshape(-1, 2).max(axis=0)
+    at = [(line[0, 0] - origin[0]) / (right - origin[0]) * 10 for line in got["limits"][:2]]
+    assert at == pytest.approx([2.338, 4.185], abs=2e-3)
+    assert "limits" not in parts("blur_curve", quiz=True, f=50, s=3, N_1=8, c=30, high=300)
