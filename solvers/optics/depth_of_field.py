@@ -37,6 +37,5 @@ with evaluate(False):
             "inverted": Step(q, front / rear),
             "third-rule": Step(q, 2),
             "half-rule": Step(q, 1),
-            "limits-ratio": Step(q, far / near),
         },
     )
