@@ -41,7 +41,17 @@ PARAMETERS = {
         whole=True,
     ),
     "variant": Parameter("", "variant of the scene", 0.0, 0.0, 3.0, whole=True),
+    "way": Parameter(
+        "",
+        "way of what moves, read from the top row: 0 by variant, 1 right, 2 left, 3 up, 4 down",
+        0.0,
+        0.0,
+        4.0,
+        whole=True,
+    ),
 }
+
+_WAYS = ("seen", "right", "left", "up", "down")
 
 _WIDE, _HIGH = 144, 96
 _GAP, _TOP = 8.0, 18.0
@@ -73,7 +83,7 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
     from quizgen.figures._photo import place
 
     kind = KINDS[int(values["kind"])]
-    scene, camera = photographed(kind, int(values["variant"]))
+    scene, camera = photographed(kind, int(values["variant"]), int(values["way"]))
     wide = (WIDTH - 3 * _GAP) / 2
     high = wide * _HIGH / _WIDE
     pen = Pen(WIDTH, 2 + high + (_TOP if not quiz else 2))
@@ -87,7 +97,7 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
     pen.onto(figure, background="#ffffff")
 
 
-def photographed(kind: str, variant: int) -> tuple[Scene, Camera]:
+def photographed(kind: str, variant: int, way: int = 0) -> tuple[Scene, Camera]:
     """Scene and camera that show one artefact.
 
     Parameters
@@ -96,11 +106,15 @@ def photographed(kind: str, variant: int) -> tuple[Scene, Camera]:
         One of ``KINDS``.
     variant : int
         0 to 3: where the main thing stands, and which way it moves.
+    way : int
+        As ``PARAMETERS`` says; for rolling shutter and motion blur only.
     """
     from quizgen.camera import Camera, Scene
 
     side = 1.0 if variant % 2 else -1.0
     things, behind = _things(kind, side, variant)
+    if way and kind in ("rolling shutter", "motion blur"):
+        things = _turned(things, way)
     camera = Camera(gamma="srgb").but(**_CAMERAS[kind])
     return Scene(_WIDE, _HIGH, things, behind, seed=variant), camera
 
@@ -159,6 +173,24 @@ def _lamp(side: float, glare: Colour) -> tuple[Thing, ...]:
     house = _box(-38 * side, 14, 46, 68, (0.03, 0.03, 0.045))
     window = _box(-46 * side, -2, 10, 12, (0.45, 0.28, 0.08))
     return house, window, _box(0, 44, 144, 10, (0.05, 0.05, 0.05)), post, lamp
+
+
+def _turned(things: tuple[Thing, ...], way: int) -> tuple[Thing, ...]:
+    """The same things, those that move at the same speed in another direction."""
+    from dataclasses import replace
+    from math import hypot
+
+    from quizgen.camera import Length
+
+    across, down = {1: (1, 0), 2: (-1, 0), 3: (0, -1), 4: (0, 1)}[way]
+
+    def one(thing: Thing) -> Thing:
+        speed = hypot(*(part.value for part in thing.velocity))
+        if not speed:
+            return thing
+        return replace(thing, velocity=(Length(across * speed), Length(down * speed)))
+
+    return tuple(one(thing) for thing in things)
 
 
 def _car(side: float, speed: float) -> tuple[Thing, ...]:
@@ -220,5 +252,6 @@ def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words; in a quiz, say what is seen, not what it is called."""
     words = words_of("artefacts", lang)
     kind = KINDS[int(values["kind"])]
-    told = f"{words['figure']} {words[f'{kind} seen']}"
+    way = _WAYS[int(values["way"])] if kind == "rolling shutter" else "seen"
+    told = f"{words['figure']} {words[f'{kind} {way}']}"
     return told if quiz else f"{told} {words['called']} {words[kind]}{words['stop']}"

@@ -86,6 +86,8 @@ def camera_draws():
     """Values of the figures that the camera simulator takes, all over their ranges."""
     for kind in range(12):
         yield "artefacts", {"kind": kind, "variant": kind % 4}
+    for way in range(1, 5):
+        yield "artefacts", {"kind": 2, "way": way}
     for first, second in ((380, 780), (480, 488), (507, 555), (555, 560), (700, 400), (604, 458)):
         for log in (0, 1):
             yield "luminosity", {"m_1": first, "m_2": second, "log": log, "night": log}

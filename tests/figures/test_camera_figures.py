@@ -171,6 +171,17 @@ def test_rolling_shutter_leans_towards_the_movement():
         assert way * (columns[-1] - columns[0]) > 3
 
 
+@pytest.mark.parametrize(("way", "lean", "longer"), [(1, 1, 0), (2, -1, 0), (3, 0, -1), (4, 0, 1)])
+def test_rolling_shutter_leans_stretches_or_squeezes(way, lean, longer):
+    # X-B09 and X-D18: read from the top, 0.225 rows a row: 56 rows become 56/1.225 or 56/0.775
+    _, photo = _pictures("artefacts", {"kind": 2, "way": way}, quiz=True)
+    orange = (photo[..., 0] - photo[..., 2]) > 100
+    rows = np.flatnonzero(orange.any(axis=1))
+    ends = [np.flatnonzero(orange[row]).mean() for row in (rows[2], rows[-3])]
+    assert ends[1] - ends[0] == pytest.approx(lean * 0.225 * (rows[-3] - rows[2]), abs=1.5)
+    assert len(rows) == pytest.approx({0: 56, -1: 45.7, 1: 72.3}[longer], abs=2.1)
+
+
 def test_no_artefact_is_named_in_the_question():
     words = "bloom|streak|vignett|barrel|pincushion|blur|focus|hot pix|clip|moir"
     names = re.compile(words, re.IGNORECASE)
