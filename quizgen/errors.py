@@ -73,6 +73,10 @@ class RenderError(QuizgenError):
     """An output could not be made or written."""
 
 
+class StoreError(QuizgenError):
+    """A database cannot be opened."""
+
+
 class KeyFileError(QuizgenError):
     """A key or an answer file cannot be read."""
 

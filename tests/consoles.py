@@ -87,7 +87,11 @@ def run(text: str, folder: Path) -> subprocess.CompletedProcess[str]:
         "UV_NO_SYNC": "1",
         "UV_OFFLINE": "1",
         "XDG_CONFIG_HOME": str(folder / "settings"),
+        "XDG_DATA_HOME": str(folder / "data"),
+        "BROWSER": "true",
     }
+    if re.search(r"\bquizgen serve\b", text):  # ends by Ctrl-C alone
+        text = f"timeout --preserve-status --signal=INT 10 {text}"
     return subprocess.run(text, shell=True, cwd=folder, env=environment, capture_output=True,
                           text=True, stdin=subprocess.DEVNULL, check=False)  # fmt: skip
 

@@ -33,9 +33,10 @@ LAYERS = {
     "render": "errors outside files locale typeset bank question paper",
     "cards": "errors outside files locale maths typeset bank figures question paper render",
     "tradeoff": "errors outside files locale maths arrays typeset bank figures render",
+    "web": "errors outside files locale maths typeset bank figures marking question paper practice render",
     "audit": "errors outside files locale maths bank figures marking question paper render",
     "cli": "errors outside files png locale maths bank camera figures marking question paper practice render cards "
-    "tradeoff audit",
+    "tradeoff audit web",
 }
 """Package to the packages below it that it may use. Solvers use ``maths.model`` alone."""
 

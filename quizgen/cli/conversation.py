@@ -18,6 +18,8 @@ from quizgen.outside import visible
 from quizgen.practice.session import Session, Turn
 from quizgen.practice.shelf import Shelf
 from quizgen.practice.task import Next, Task
+from quizgen.question.compose import Part
+from quizgen.question.solution import PartSolution
 from quizgen.render.text import blocks, inline
 
 COLOURS = {"correct": "green", "partial": "yellow", "wrong": "red"}
@@ -116,7 +118,7 @@ class Conversation:
         self._say("figure", alt=figure.alt)
         self._say("figure-file", path=path)
 
-    def _ask(self, task: Task) -> None:
+    def _ask(self, task: Task[Part, PartSolution]) -> None:
         """Ask a part until it is done."""
         self._show_part(task)
         while task.outcome is None:
@@ -132,7 +134,7 @@ class Conversation:
         finally:
             self._keep()
 
-    def _take(self, task: Task, typed: str) -> None:
+    def _take(self, task: Task[Part, PartSolution], typed: str) -> None:
         if typed == "?":
             self._hint(task)
         elif typed == "!":
@@ -166,7 +168,7 @@ class Conversation:
         listed = f"{self.words[name]}, {practice_words(FIRST)[name]}"
         return typed.casefold() in {word.casefold() for word in listed.split(", ")}
 
-    def _show_part(self, task: Task) -> None:
+    def _show_part(self, task: Task[Part, PartSolution]) -> None:
         part = task.part
         label = f"({part.label}) " if part.label else ""
         click.echo()
@@ -177,7 +179,7 @@ class Conversation:
             say(f"[{hint}]", "   ", "    ")
         say(self.words["help"], "   ", "   ", dim=True)
 
-    def _answer(self, task: Task, typed: str) -> None:
+    def _answer(self, task: Task[Part, PartSolution], typed: str) -> None:
         feedback = task.answer(typed)
         verdict = feedback.verdict
         match feedback.then:
@@ -197,7 +199,7 @@ class Conversation:
         elif feedback.then is Next.OUT_OF_TRIES:
             self._solution(task)
 
-    def _judged(self, task: Task) -> bool:
+    def _judged(self, task: Task[Part, PartSolution]) -> bool:
         """Whether the learner finds the own answer right."""
         self._say("self-mark", points=task.solved.answer)
         while True:
@@ -207,14 +209,14 @@ class Conversation:
             if self._means("no-words", typed):
                 return False
 
-    def _hint(self, task: Task) -> None:
+    def _hint(self, task: Task[Part, PartSolution]) -> None:
         why = task.hint()
         if why is None:
             self._say("no-more-hints")
         else:
             self._say("hint", hint=inline(why))
 
-    def _solution(self, task: Task) -> None:
+    def _solution(self, task: Task[Part, PartSolution]) -> None:
         for line in task.solved.lines:
             say(inline(line.maths), "   ", "      ")
             say(inline(line.why), "      ", "      ")

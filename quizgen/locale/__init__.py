@@ -13,6 +13,7 @@ figures        figures in words
 speech         mathematics in words, printed and read aloud
 cards          short words on flashcards
 tradeoff       the page of what accuracy costs
+web            the pages of ``quizgen serve``
 ============== ==================================================================
 
 A template has one ``<lang>.md`` besides.

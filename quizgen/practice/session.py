@@ -15,7 +15,8 @@ from quizgen.practice.choosing import fitting, nth
 from quizgen.practice.results import TopicResult, by_topic
 from quizgen.practice.state import Outcome, PartState, State
 from quizgen.practice.task import Task
-from quizgen.question.compose import Key, Question, instance, put_into_words
+from quizgen.question.compose import Key, Part, Question, instance, put_into_words
+from quizgen.question.solution import PartSolution
 
 
 @dataclass(frozen=True)
@@ -24,7 +25,7 @@ class Turn:
 
     number: int
     question: Question
-    tasks: tuple[Task, ...]
+    tasks: tuple[Task[Part, PartSolution], ...]
 
     @property
     def outcomes(self) -> tuple[Outcome, ...]:

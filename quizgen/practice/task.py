@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
+from typing import Any, Generic, Protocol, TypeVar
 
-from quizgen.bank.prose import Inline
 from quizgen.marking.verdict import Verdict
 from quizgen.paper.key import KeyPart
 from quizgen.paper.marking import Marker
 from quizgen.practice.state import Outcome, PartState
-from quizgen.question.compose import Part
-from quizgen.question.solution import PartSolution
 
 TRIES = 3
 """Wrong answers after which the solution is shown."""
@@ -49,15 +48,27 @@ class Feedback:
     left: int
 
 
-class Task:
+class Hinted(Protocol):
+    """A worked solution, whose lines say why they are written: the hints."""
+
+    @property
+    def lines(self) -> Sequence[Any]:
+        """Lines with ``why``, in order."""
+
+
+P = TypeVar("P")
+S = TypeVar("S", bound=Hinted)
+
+
+class Task(Generic[P, S]):
     """One part, asked until it is right, given up, or out of tries.
 
     Parameters
     ----------
     topic : str
-    part : Part
+    part : P
         What is shown.
-    solved : PartSolution
+    solved : S
         Its worked solution, to be shown when the task is done.
     keyed : KeyPart
         What it is marked by.
@@ -70,8 +81,8 @@ class Task:
     def __init__(
         self,
         topic: str,
-        part: Part,
-        solved: PartSolution,
+        part: P,
+        solved: S,
         keyed: KeyPart,
         state: PartState,
         *,
@@ -87,7 +98,7 @@ class Task:
         """How it went, once it is done."""
         return self.state.outcome
 
-    def hint(self) -> tuple[Inline, ...] | None:
+    def hint(self) -> Any:
         """The next hint: why the next step of the solution is taken; None if there is no more."""
         if self.state.hints >= len(self.solved.lines):
             return None

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Generic, Literal, Protocol, TypeVar
+from typing import Generic, Literal, NamedTuple, Protocol, TypeVar
 
 from quizgen.bank.draw import Draw
 from quizgen.marking.specs import AnySpec
@@ -24,6 +24,13 @@ Named = tuple[str, str]
 """A mark (letter or number) and the name of a sentence, or a section and a name in it."""
 
 
+class Box(NamedTuple):
+    """A value of an answer that has several: its name, empty where it is its place, and unit."""
+
+    name: str
+    unit: str = ""
+
+
 @dataclass(frozen=True, slots=True)
 class Control:
     """How a learner answers: all that an output needs to know about a kind.
@@ -34,10 +41,17 @@ class Control:
         What is filled in.
     lines : int
         Ruled lines that writing it by hand takes; 0 where the options themselves are ticked.
+    boxes : tuple of Box
+        Where an answer has several values, a box for each in the order in which they are typed; a
+        learner may type all of them in one line just as well.
+    named : bool
+        Whether a value needs its name before it, as cells of a table do.
     """
 
     form: Form
     lines: int = 1
+    boxes: tuple[Box, ...] = ()
+    named: bool = False
 
     @property
     def ticked(self) -> bool:

@@ -11,7 +11,7 @@ from quizgen.locale import word
 from quizgen.marking.judging.wording import confusable, fold
 from quizgen.marking.kinds.gap import Spec
 from quizgen.marking.mark import show as printed
-from quizgen.question.contract import Built, Control
+from quizgen.question.contract import Box, Built, Control
 from quizgen.question.specs import answer_of, reasoned, specification, synonyms, why
 
 
@@ -37,7 +37,7 @@ def build(drawn: Draw, index: int) -> Built[Spec]:
             terms=confusable(drawn.template.about.terms, chain(*accept)),
             why=why(drawn, [*named, *slips]),
         ),
-        Control("gaps"),
+        Control("gaps", boxes=tuple(Box("") for _ in gaps) if len(gaps) > 1 else ()),
         statements=tuple(("options", name) for name in gaps) if "take" in answer else (),
         right=tuple(("reasons", name) for _, name in reasoned(drawn, named)),
         reasons=tuple((f"({mark}) {terms[0]}", name) for mark, name, terms in wrong),

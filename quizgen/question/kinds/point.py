@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from quizgen.bank.draw import Draw
 from quizgen.locale import word
 from quizgen.marking.kinds.point import Spec
 from quizgen.maths.constants import Scalar
 from quizgen.maths.numbers import key_text
 from quizgen.maths.values import Value
-from quizgen.question.contract import Built
+from quizgen.question.contract import Box, Built, Control
 from quizgen.question.hints import given, rounding, unit
 from quizgen.question.specs import exact_first, numeric
 
@@ -20,7 +22,9 @@ def each(values: tuple[Value, ...]) -> list[Scalar]:
 
 def build(drawn: Draw, index: int) -> Built[Spec]:
     """The coordinates, and those that each mistake gives."""
-    return numeric(Spec, drawn, index, "values", each)
+    built = numeric(Spec, drawn, index, "values", each)
+    boxes = tuple(Box("", built.spec.unit) for _ in built.spec.values)
+    return replace(built, control=Control("line", boxes=boxes))
 
 
 def hints(spec: Spec, lang: str) -> tuple[str, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from quizgen.bank.draw import Draw
 from quizgen.bank.prose import Inline, Words
@@ -13,7 +14,7 @@ from quizgen.maths.constants import Scalar
 from quizgen.maths.numbers import key_text
 from quizgen.maths.units import shown
 from quizgen.maths.values import Value
-from quizgen.question.contract import Built
+from quizgen.question.contract import Box, Built, Control
 from quizgen.question.hints import given, rounding
 from quizgen.question.shown import Shown, assigned, listed, named, said
 from quizgen.question.specs import answer_of, numeric
@@ -31,7 +32,9 @@ def build(drawn: Draw, index: int) -> Built[Spec]:
     units = [str(answer.get("unit", drawn.template.units.get(name, ""))) for name in names]
     stated = {label: unit for label, unit in zip(labels, units, strict=True) if unit}
     named = dict(zip(labels, names, strict=True))
-    return numeric(Spec, drawn, index, "values", write, of=named, units=stated)
+    built = numeric(Spec, drawn, index, "values", write, of=named, units=stated)
+    boxes = tuple(map(Box, labels, units))
+    return replace(built, control=Control("line", boxes=boxes, named=True))
 
 
 def hints(spec: Spec, lang: str) -> tuple[Shown, ...]:

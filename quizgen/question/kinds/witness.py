@@ -11,7 +11,7 @@ from quizgen.marking.mark import show
 from quizgen.maths.notation import parse, people, to_text
 from quizgen.maths.numbers import exact_text, key_text
 from quizgen.maths.tree import Num, substitute
-from quizgen.question.contract import Built, Control
+from quizgen.question.contract import Box, Built, Control
 from quizgen.question.shown import Shown, assigned, said
 from quizgen.question.specs import answer_of, specification
 
@@ -35,7 +35,7 @@ def build(drawn: Draw, index: int) -> Built[Spec]:
         predicate=stated(answer["predicate"]),
         where=[stated(text) for text in answer.get("where", ())],
     )
-    return Built(spec, Control("lines", lines=2))
+    return Built(spec, Control("lines", lines=2, boxes=tuple(map(Box, spec.symbols)), named=True))
 
 
 def _short(drawn: Draw, formula: str | int) -> str:

@@ -1,0 +1,49 @@
+"""``quizgen serve``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Unpack
+
+import click
+
+from quizgen.cli.options import BankOptions, Whole, bank_options
+
+
+class Options(BankOptions):
+    """Where to listen, and where to keep what is done."""
+
+    port: int
+    show: bool
+    database: str | None
+
+
+@click.command()
+@click.option("--port", type=Whole(0, 65535), default=0, help="Port; a free one if left out.")
+@click.option("--open/--no-open", "show", default=True, help="Open the browser.")
+@click.option(
+    "--database",
+    metavar="ADDRESS",
+    help="Where to keep what is done: sqlite:///FILE, postgresql+psycopg://...",
+)
+@bank_options
+def serve(**options: Unpack[Options]) -> None:
+    """Practise and sit the exam in a browser on this machine."""
+    from quizgen.web.settings import Settings
+
+    settings = Settings(
+        options["database"] or f"sqlite:///{database_file()}",
+        options["bank"].resolve() if options["bank"] else None,
+        trusted=options["trust"],
+    )
+    from quizgen.web.server import run
+
+    run(settings, options["port"], show=options["show"], tell=click.echo)
+
+
+def database_file() -> Path:
+    """Where a learner's own database stands."""
+    from platformdirs import user_data_path
+
+    folder = user_data_path("quizgen", ensure_exists=True)
+    return folder / "learning.sqlite3"

@@ -1,0 +1,59 @@
+"""One answer from the fields that a page has for it, as it would have been typed in one line."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from quizgen.question.contract import Control
+
+_BETWEEN = "; "
+
+
+def joined(control: Control, values: Sequence[str], marks: Sequence[str] = ()) -> str:
+    """What the fields of a part say, in one line; empty if nothing stands in them.
+
+    Parameters
+    ----------
+    control : Control
+        How the part is answered.
+    values : sequence of str
+        What stands in its fields in their order: the ticked marks, for pairs the mark of a target
+        per option, for an order the mark at each place.
+    marks : sequence of str
+        Marks of the options that pairs begin with.
+    """
+    filled = [value.strip() for value in values]
+    if not any(filled):
+        return ""
+    join = _JOINED.get(control.form)
+    if join is not None:
+        return join(filled, marks)
+    if not control.boxes or len(filled) == 1:
+        return filled[0]
+    if control.named:
+        named = zip(control.boxes, filled, strict=False)
+        return _BETWEEN.join(f"{box.name} = {value}" for box, value in named if value)
+    return _BETWEEN.join(filled)
+
+
+def _listed(filled: list[str], _marks: Sequence[str]) -> str:
+    return ", ".join(filter(None, filled))
+
+
+def _pairs(filled: list[str], marks: Sequence[str]) -> str:
+    pairs = zip(marks, filled, strict=False)
+    return ", ".join(f"{mark}:{chosen}" for mark, chosen in pairs if chosen)
+
+
+def _in_order(filled: list[str], _marks: Sequence[str]) -> str:
+    return " ".join(filter(None, filled))
+
+
+_JOINED: dict[str, Callable[[list[str], Sequence[str]], str]] = {
+    "one": _listed,
+    "many": _listed,
+    "truth": _listed,
+    "pairs": _pairs,
+    "order": _in_order,
+}
+"""Forms whose fields hold marks, and how these are typed."""

@@ -1,0 +1,103 @@
+"""The application: its routes, and what stands around them."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import AsyncIterator
+from importlib.resources import files
+
+from starlette.applications import Starlette
+from starlette.concurrency import run_in_threadpool
+from starlette.exceptions import HTTPException
+from starlette.middleware import Middleware
+from starlette.middleware.base import BaseHTTPMiddleware, RequestResponseEndpoint
+from starlette.requests import Request
+from starlette.responses import Response
+from starlette.routing import Mount, Route
+from starlette.staticfiles import StaticFiles
+
+from quizgen.errors import QuizgenError
+from quizgen.locale import languages
+from quizgen.render.fonts import WEB
+from quizgen.web import practice
+from quizgen.web.forms import one, posted
+from quizgen.web.guard import Guard
+from quizgen.web.settings import Settings
+from quizgen.web.site import Site
+from quizgen.web.views import language_style, page, to
+
+
+def application(settings: Settings) -> Starlette:
+    """The application.
+
+    Parameters
+    ----------
+    settings : Settings
+
+    Raises
+    ------
+    BankError, StoreError
+        If the bank or the database cannot be opened.
+    """
+    site = Site(settings)
+
+    @contextlib.asynccontextmanager
+    async def lifespan(_app: Starlette) -> AsyncIterator[None]:
+        site.workers.warm()
+        yield
+        site.close()
+
+    app = Starlette(
+        routes=[
+            *practice.ROUTES,
+            Route("/settings", settle, methods=["POST"]),
+            Route("/static/languages.css", language_sheet),
+            Mount("/static/fonts", StaticFiles(directory=WEB)),
+            Mount("/static", StaticFiles(directory=str(files("quizgen.web") / "static"))),
+        ],
+        middleware=[
+            Middleware(Guard, settings=settings),
+            Middleware(BaseHTTPMiddleware, dispatch=known),
+        ],
+        exception_handlers={HTTPException: refused, QuizgenError: failed},
+        lifespan=lifespan,
+    )
+    app.state.site = site
+    return app
+
+
+async def known(request: Request, call_next: RequestResponseEndpoint) -> Response:
+    """Say who asks."""
+    if not request.url.path.startswith("/static/"):
+        site: Site = request.app.state.site
+        request.state.learner = await run_in_threadpool(site.store.learner)
+    return await call_next(request)
+
+
+async def settle(request: Request) -> Response:
+    """Choose the language, and go back."""
+    form = await posted(request)
+    lang, back = one(form, "lang"), one(form, "back")
+    if lang in languages():
+        site: Site = request.app.state.site
+        await run_in_threadpool(site.store.settle, request.state.learner.id, {"lang": lang})
+    inside = back.startswith("/") and not back.startswith(("//", "/\\"))
+    return to(back if inside else "/")
+
+
+async def language_sheet(_request: Request) -> Response:
+    """The style of languages with lines of their own height."""
+    return Response(language_style(), media_type="text/css")
+
+
+async def refused(request: Request, error: Exception) -> Response:
+    """A page for what is not there or not allowed."""
+    status = error.status_code if isinstance(error, HTTPException) else 500
+    name = f"error.{status}" if status in {400, 403, 404, 405, 413} else "error.400"
+    return page(request, "message.html.j2", status, title="error.title", text=name)
+
+
+async def failed(request: Request, error: Exception) -> Response:
+    """A page for a template that is wrong; its author reads why."""
+    del error
+    return page(request, "message.html.j2", 500, title="error.title", text="error.500")

@@ -1,0 +1,46 @@
+"""Forms as they are posted: only with the token of our own pages."""
+
+from __future__ import annotations
+
+import secrets
+
+from starlette.datastructures import FormData
+from starlette.exceptions import HTTPException
+from starlette.requests import Request
+
+from quizgen.web.guard import form_token
+from quizgen.web.site import Site
+
+LONGEST = 10_000
+"""Characters of one field."""
+MOST = 400
+"""Fields of a form."""
+
+
+async def posted(request: Request) -> FormData:
+    """The form that was sent.
+
+    Raises
+    ------
+    HTTPException
+        403 without the token, 400 where it is no form, or longer than any of ours.
+    """
+    form = await request.form(max_files=0, max_fields=MOST, max_part_size=LONGEST * 4)
+    site: Site = request.app.state.site
+    expected = form_token(site.settings.token)
+    if not secrets.compare_digest(one(form, "token").encode(), expected.encode()):
+        raise HTTPException(403, "This form is not one of these pages.")
+    if any(not isinstance(v, str) or len(v) > LONGEST for _, v in form.multi_items()):
+        raise HTTPException(400, "A field is too long.")
+    return form
+
+
+def one(form: FormData, name: str) -> str:
+    """A field's text; empty if there is none."""
+    value = form.get(name, "")
+    return value if isinstance(value, str) else ""
+
+
+def every(form: FormData, name: str) -> list[str]:
+    """All texts of a field, in order."""
+    return [value for value in form.getlist(name) if isinstance(value, str)]

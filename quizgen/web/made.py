@@ -1,0 +1,198 @@
+"""A question ready to be shown: its pieces as HTML, and the key that stays on the server.
+
+Made in a worker process; plain structs, so that they travel as bytes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import cache
+from pathlib import Path
+
+import msgspec
+
+from quizgen.bank.folder import Bank, builtin
+from quizgen.bank.levels import EXAM
+from quizgen.bank.prose import Block, Inline
+from quizgen.paper.key import KeyQuestion, key_question
+from quizgen.paper.paper import Item
+from quizgen.question.compose import Field, Key, Part, Question, instance, put_into_words
+from quizgen.question.contract import Control
+from quizgen.question.levels import level_of
+from quizgen.question.markup import blocks, display, inline
+from quizgen.question.shown import named
+from quizgen.question.solution import Mistake, PartSolution
+
+GUIDED = "guided"
+
+Html = str
+"""Markup made here; whatever a learner typed never gets into it."""
+
+
+class MadeField(msgspec.Struct, frozen=True):
+    """Where the answer of a part goes."""
+
+    id: str
+    control: Control
+    names: list[Html]
+    """Names of the boxes, typeset."""
+    options: list[tuple[str, Html]]
+    targets: list[tuple[str, Html]]
+    hint: Html
+
+    @property
+    def marks(self) -> list[str]:
+        """Marks of the options."""
+        return [mark for mark, _ in self.options]
+
+
+class MadeLine(msgspec.Struct, frozen=True):
+    """A step of the worked solution."""
+
+    maths: Html
+    why: Html
+    formula: str
+
+
+class MadePart(msgspec.Struct, frozen=True):
+    """A part and its worked solution."""
+
+    label: str
+    points: float
+    body: Html
+    field: MadeField
+    lines: list[MadeLine]
+    answer: Html
+    right: list[Html]
+    why: Html
+    reasons: list[tuple[Html, Html]]
+    mistakes: list[tuple[Html, Html]]
+
+
+class Wanted(msgspec.Struct, frozen=True):
+    """Which question: the same one gives the same page."""
+
+    template: str
+    seed: str
+    lang: str
+    slot: str = "0"
+    number: str = "1"
+    level: str = EXAM
+
+
+class Made(msgspec.Struct, frozen=True):
+    """A question in one language."""
+
+    wanted: Wanted
+    identity: str
+    title: str
+    topic: str
+    tier: str
+    minutes: float
+    stem: Html
+    figure: Html
+    solved_figure: Html
+    dark: str
+    parts: list[MadePart]
+    check: Html
+    note: Html
+    why: Html
+    key: KeyQuestion
+    guided: bool
+    """Whether its steps can be asked one after another instead."""
+
+
+@cache
+def _bank(root: Path | None, *, trusted: bool) -> Bank:
+    return Bank(root, trusted=trusted) if root else builtin()
+
+
+def make(root: Path | None, trusted: bool, wanted: Wanted) -> bytes:
+    """Compose a question and put it into markup.
+
+    Parameters
+    ----------
+    root : pathlib.Path or None
+        Folder of the bank, the built-in one if there is none.
+    trusted : bool
+    wanted : Wanted
+
+    Raises
+    ------
+    BankError, DrawError
+        If the template is wrong.
+    """
+    template = _bank(root, trusted=trusted).template(wanted.template)
+    drawn = instance(template, wanted.seed, wanted.slot)
+    question, key = put_into_words(drawn, wanted.lang, number=wanted.number, level=wanted.level)
+    return msgspec.json.encode(made(wanted, question, key))
+
+
+def made(wanted: Wanted, question: Question, key: Key) -> Made:
+    """A composed question as markup."""
+    steps = wanted.level != GUIDED and level_of(key.draw, GUIDED) == GUIDED
+    lang, solution = question.lang, key.solution
+    figure, solved = question.figure, key.figure
+    other = solved if solved and (figure is None or solved.svg != figure.svg) else None
+    return Made(
+        wanted,
+        key.identity,
+        question.title,
+        question.topic,
+        question.tier,
+        float(question.minutes),
+        stem=_blocks(question.stem, lang),
+        figure=figure.svg.decode() if figure else "",
+        solved_figure=other.svg.decode() if other else "",
+        dark=next((one.dark for one in (figure, solved) if one), ""),
+        parts=[
+            _part(part, solved_part, lang)
+            for part, solved_part in zip(question.parts, solution.parts, strict=True)
+        ],
+        check=_blocks(solution.check, lang),
+        note=_blocks(solution.note, lang),
+        why=_blocks(solution.why, lang),
+        key=key_question(Item(wanted.number, (question,), (key,))),
+        guided=steps,
+    )
+
+
+def _part(part: Part, solved: PartSolution, lang: str) -> MadePart:
+    return MadePart(
+        part.label,
+        float(part.points),
+        _blocks(part.body, lang),
+        _field(part.field, lang),
+        [
+            MadeLine(str(display(line.maths, lang)), _inline(line.why, lang), line.formula)
+            for line in solved.lines
+        ],
+        _inline(solved.shown, lang),
+        [_inline(option, lang) for option in solved.options],
+        _inline(solved.why, lang),
+        _pairs(solved.reasons, lang),
+        _pairs(solved.mistakes, lang),
+    )
+
+
+def _field(field: Field, lang: str) -> MadeField:
+    return MadeField(
+        field.id,
+        field.control,
+        [_inline((named(box.name),), lang) if box.name else "" for box in field.control.boxes],
+        [(mark, _inline(text, lang)) for mark, text in field.options],
+        [(mark, _inline(text, lang)) for mark, text in field.targets],
+        _inline(field.hint, lang),
+    )
+
+
+def _pairs(mistakes: Iterable[Mistake], lang: str) -> list[tuple[Html, Html]]:
+    return [(_inline(one.shown, lang), _inline(one.sentence, lang)) for one in mistakes]
+
+
+def _blocks(parts: tuple[Block, ...], lang: str) -> Html:
+    return str(blocks(parts, lang))
+
+
+def _inline(parts: tuple[Inline, ...], lang: str) -> Html:
+    return str(inline(parts, lang))

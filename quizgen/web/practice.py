@@ -1,0 +1,174 @@
+"""Practising: choose, answer, hints, solution, a fresh variant."""
+
+from __future__ import annotations
+
+import secrets
+from typing import Any
+
+from starlette.concurrency import run_in_threadpool
+from starlette.exceptions import HTTPException
+from starlette.requests import Request
+from starlette.responses import HTMLResponse, Response
+from starlette.routing import Route
+
+from quizgen.practice.choosing import fitting
+from quizgen.practice.state import Wish
+from quizgen.web.echo import read_back
+from quizgen.web.forms import every, one, posted
+from quizgen.web.made import GUIDED, Wanted
+from quizgen.web.site import Site
+from quizgen.web.store import Attempt, Which
+from quizgen.web.turn import Place, Turn
+from quizgen.web.views import lang_of, page, said, to
+
+TIERS = tuple("ABCD")
+
+
+async def home(request: Request) -> Response:
+    """Where practice begins."""
+    site: Site = request.app.state.site
+    lang = lang_of(request)
+    topics = [(name, site.bank.topic_title(name, lang)) for name in site.bank.topics]
+    latest = await run_in_threadpool(site.store.latest, request.state.learner.id, 1)
+    going_on = latest[0] if latest and latest[0].ended is None else None
+    return page(request, "home.html.j2", topics=topics, tiers=TIERS, going_on=going_on)
+
+
+async def begin(request: Request) -> Response:
+    """Choose a question and go to it."""
+    form = await posted(request)
+    wish = {name: one(form, name) for name in ("topic", "tier")}
+    return await _asked(request, wish)
+
+
+async def _asked(request: Request, wish: dict[str, str]) -> Response:
+    """A question that fits a wish: one that was asked the least."""
+    site: Site = request.app.state.site
+    names = fitting(
+        site.bank,
+        Wish(lang_of(request), topic=wish.get("topic") or None, tier=wish.get("tier") or None),
+    )
+    if not names:
+        return page(request, "message.html.j2", 404, title="practice.title", text="practice.none")
+    times = await run_in_threadpool(site.store.times, request.state.learner.id)
+    fewest = min(times.get(name, 0) for name in names)
+    template = secrets.choice([name for name in names if times.get(name, 0) == fewest])
+    return await _begun(request, Which(template, _seed()), wish)
+
+
+def _seed() -> str:
+    return secrets.token_hex(4)
+
+
+async def _begun(request: Request, which: Which, wish: dict[str, Any]) -> Response:
+    site: Site = request.app.state.site
+    attempt = await run_in_threadpool(site.store.begin, request.state.learner.id, which, wish)
+    return to(f"/q/{attempt.id}")
+
+
+async def _attempt(request: Request) -> Attempt:
+    site: Site = request.app.state.site
+    name = request.path_params["attempt"]
+    found = await run_in_threadpool(site.store.attempt, request.state.learner.id, name)
+    if found is None:
+        raise HTTPException(404)
+    return found
+
+
+async def _turn(request: Request) -> Turn:
+    site: Site = request.app.state.site
+    attempt = await _attempt(request)
+    wanted = Wanted(attempt.template, attempt.seed, lang_of(request), level=attempt.level)
+    return Turn(await site.workers.question(wanted), attempt)
+
+
+def _place(request: Request, turn: Turn) -> Place:
+    place = turn.place(request.path_params["part"])
+    if place is None:
+        raise HTTPException(404)
+    return place
+
+
+async def question(request: Request) -> Response:
+    """The question, as far as it has got."""
+    turn = await _turn(request)
+    return page(request, "question.html.j2", turn=turn, made=turn.made,
+                said_last=turn.place(request.query_params.get("said", "")))  # fmt: skip
+
+
+async def _kept(request: Request, turn: Turn, place: Place) -> Response:
+    site: Site = request.app.state.site
+    seen = turn.keep()
+    await run_in_threadpool(site.store.keep, turn.attempt, seen)
+    return to(f"/q/{turn.attempt.id}?said={place.name}#part-{place.name}")
+
+
+async def answer(request: Request) -> Response:
+    """Mark a part, or do what else its buttons say."""
+    form = await posted(request)
+    turn = await _turn(request)
+    place = _place(request, turn)
+    action = one(form, "do")
+    values = every(form, "a")
+    if action == "hint":
+        place.task.hint()
+        place.progress.values = values
+    elif action in {"right", "wrong"} and place.to_judge:
+        place.task.mark_yourself(right=action == "right")
+    elif action == "solution" and not place.done:
+        place.task.give_up()
+        place.progress.values = values
+    elif action in {"", "answer"}:
+        turn.answer(place, values)
+    return await _kept(request, turn, place)
+
+
+async def echo(request: Request) -> Response:
+    """How what stands in the fields is read; never whether it is right."""
+    form = await posted(request)
+    turn = await _turn(request)
+    place = _place(request, turn)
+    read = read_back(place.part.field, turn.made.key, every(form, "a"))
+    return HTMLResponse(said(lang_of(request), "practice.read", value=read) if read else "")
+
+
+async def variant(request: Request) -> Response:
+    """The same question with other numbers."""
+    await posted(request)
+    attempt = await _attempt(request)
+    return await _begun(request, Which(attempt.template, _seed(), attempt.level), attempt.wish)
+
+
+async def again(request: Request) -> Response:
+    """The same question with the same numbers, from its beginning."""
+    await posted(request)
+    attempt = await _attempt(request)
+    return await _begun(request, attempt.which, attempt.wish)
+
+
+async def guided(request: Request) -> Response:
+    """The same question step by step."""
+    await posted(request)
+    attempt = await _attempt(request)
+    which = Which(attempt.template, attempt.seed, GUIDED)
+    return await _begun(request, which, attempt.wish)
+
+
+async def following(request: Request) -> Response:
+    """The next question of the same wish."""
+    await posted(request)
+    attempt = await _attempt(request)
+    return await _asked(request, attempt.wish)
+
+
+ROUTES = [
+    Route("/", home),
+    Route("/practice", begin, methods=["POST"]),
+    Route("/q/{attempt}", question),
+    Route("/q/{attempt}/again", again, methods=["POST"]),
+    Route("/q/{attempt}/variant", variant, methods=["POST"]),
+    Route("/q/{attempt}/guided", guided, methods=["POST"]),
+    Route("/q/{attempt}/next", following, methods=["POST"]),
+    Route("/q/{attempt}/{part}", answer, methods=["POST"]),
+    Route("/q/{attempt}/{part}/read", echo, methods=["POST"]),
+]

@@ -1,0 +1,56 @@
+"""Listening, on this machine alone."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import socket
+import webbrowser
+from collections.abc import Callable
+
+import uvicorn
+
+from quizgen.errors import StoreError
+from quizgen.web.app import application
+from quizgen.web.guard import ENTRANCE
+from quizgen.web.settings import LOCAL, Settings
+
+
+def run(settings: Settings, port: int, *, show: bool, tell: Callable[[str], object]) -> None:
+    """Serve until interrupted.
+
+    Parameters
+    ----------
+    settings : Settings
+    port : int
+        0 for a free one.
+    show : bool
+        Whether to open the browser.
+    tell : callable
+        Told the address.
+
+    Raises
+    ------
+    StoreError
+        If the port is taken.
+    """
+    app = application(settings)
+    listening = _listening(port)
+    address = f"http://{LOCAL[0]}:{listening.getsockname()[1]}{ENTRANCE}?key={settings.token}"
+    tell(f"quizgen is at {address}\nCtrl-C ends it; nothing that was answered is lost.")
+    if show:
+        webbrowser.open(address)
+    config = uvicorn.Config(app, log_level="warning", access_log=False, server_header=False)
+    with contextlib.suppress(KeyboardInterrupt):  # the way in which it ends
+        asyncio.run(uvicorn.Server(config).serve(sockets=[listening]))
+
+
+def _listening(port: int) -> socket.socket:
+    listening = socket.socket()
+    listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        listening.bind((LOCAL[0], port))
+    except OSError as error:
+        listening.close()
+        raise StoreError(f"port {port}: {error.strerror or error}") from error
+    return listening

@@ -1,0 +1,33 @@
+"""What a running server shares: its bank, its database, its workers."""
+
+from __future__ import annotations
+
+from quizgen.bank.folder import Bank, builtin
+from quizgen.web.settings import Settings
+from quizgen.web.store import Store
+from quizgen.web.workers import Workers
+
+
+class Site:
+    """What a running server shares.
+
+    Parameters
+    ----------
+    settings : Settings
+
+    Raises
+    ------
+    BankError, StoreError
+        If the bank or the database cannot be opened.
+    """
+
+    def __init__(self, settings: Settings) -> None:
+        self.settings = settings
+        self.bank = Bank(settings.bank, trusted=settings.trusted) if settings.bank else builtin()
+        self.store = Store(settings.database)
+        self.workers = Workers(settings)
+
+    def close(self) -> None:
+        """End the processes and give the connections back."""
+        self.workers.close()
+        self.store.close()

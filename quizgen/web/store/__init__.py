@@ -1,0 +1,9 @@
+"""What learners did, kept in a database: SQLite in a file, or PostgreSQL.
+
+In: plain values. Out: plain values. Must never know: requests, pages, questions.
+"""
+
+from quizgen.web.store.base import Store
+from quizgen.web.store.rows import Attempt, Learner, Seen, Which
+
+__all__ = ["Attempt", "Learner", "Seen", "Store", "Which"]

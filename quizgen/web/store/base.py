@@ -1,0 +1,170 @@
+"""Opening the database, and everything that is read from it and written to it."""
+
+from __future__ import annotations
+
+import secrets
+import time
+from collections.abc import Mapping
+from typing import Any, TypeVar
+
+import msgspec
+from sqlalchemy import (
+    Connection,
+    Engine,
+    RowMapping,
+    create_engine,
+    event,
+    func,
+    insert,
+    select,
+    update,
+)
+from sqlalchemy.engine import make_url
+from sqlalchemy.exc import ArgumentError, SQLAlchemyError
+
+from quizgen.errors import StoreError
+from quizgen.web.store.migrate import upgrade
+from quizgen.web.store.rows import Attempt, Learner, Seen, Which
+from quizgen.web.store.tables import ATTEMPT, LEARNER, SEEN
+
+T = TypeVar("T")
+
+ALONE = "me"
+"""Name of the learner of a server for one person."""
+
+
+class Store:
+    """A database.
+
+    Parameters
+    ----------
+    address : str
+        ``sqlite:///file`` or ``postgresql+psycopg://...``.
+
+    Raises
+    ------
+    StoreError
+        If it cannot be opened, or was written by a newer version.
+    """
+
+    def __init__(self, address: str) -> None:
+        try:
+            self.engine = _engine(address)
+            with self.engine.begin() as connection:
+                upgrade(connection)
+        except (SQLAlchemyError, ArgumentError, ImportError, OSError) as error:
+            said = str(error).partition("\n")[0]
+            raise StoreError(f"{_shown(address)}: {said}") from error
+
+    def close(self) -> None:
+        """Give the connections back."""
+        self.engine.dispose()
+
+    def learner(self, name: str = ALONE) -> Learner:
+        """A learner by name; a new one if nobody has it yet."""
+        with self.engine.begin() as connection:
+            found = _learner(connection, name)
+            if found is None:
+                row = {"name": name, "settings": {}, "since": time.time()}
+                connection.execute(insert(LEARNER).values(row))
+                found = _learner(connection, name)
+        assert found is not None  # noqa: S101 - it was just written
+        return found
+
+    def settle(self, learner: int, changed: Mapping[str, Any]) -> None:
+        """Change some settings of a learner."""
+        with self.engine.begin() as connection:
+            query = select(LEARNER.c.settings).where(LEARNER.c.id == learner).with_for_update()
+            known = connection.execute(query).scalar_one()
+            connection.execute(
+                update(LEARNER).where(LEARNER.c.id == learner).values(settings={**known, **changed})
+            )
+
+    def begin(self, learner: int, which: Which, wish: Mapping[str, Any]) -> Attempt:
+        """Begin a question."""
+        attempt = Attempt(
+            secrets.token_urlsafe(12), learner, which.template, which.seed, which.level,
+            dict(wish), {}, time.time(),
+        )  # fmt: skip
+        with self.engine.begin() as connection:
+            connection.execute(insert(ATTEMPT).values(msgspec.to_builtins(attempt)))
+        return attempt
+
+    def attempt(self, learner: int, name: str) -> Attempt | None:
+        """A learner's own attempt; None if there is none of this name, or it is another's."""
+        query = select(ATTEMPT).where(ATTEMPT.c.id == name, ATTEMPT.c.learner == learner)
+        with self.engine.connect() as connection:
+            row = connection.execute(query).mappings().first()
+        return _value(row, Attempt) if row else None
+
+    def latest(self, learner: int, most: int = 50) -> list[Attempt]:
+        """A learner's attempts, the latest first."""
+        query = (
+            select(ATTEMPT)
+            .where(ATTEMPT.c.learner == learner)
+            .order_by(ATTEMPT.c.begun.desc())
+            .limit(most)
+        )
+        with self.engine.connect() as connection:
+            rows = connection.execute(query).mappings().all()
+        return [_value(row, Attempt) for row in rows]
+
+    def keep(self, attempt: Attempt, seen: tuple[Seen, ...] = ()) -> None:
+        """Keep how far an attempt has got, and how parts of it went."""
+        values = {"state": attempt.state, "ended": attempt.ended}
+        with self.engine.begin() as connection:
+            connection.execute(update(ATTEMPT).where(ATTEMPT.c.id == attempt.id).values(values))
+            for one in seen:
+                row = {"learner": attempt.learner, **msgspec.to_builtins(one)}
+                connection.execute(insert(SEEN).values(row))
+
+    def seen(self, learner: int) -> list[Seen]:
+        """How every part went that a learner has ended, the latest last."""
+        names = [SEEN.c[name] for name in Seen.__struct_fields__]
+        query = select(*names).where(SEEN.c.learner == learner).order_by(SEEN.c.at, SEEN.c.id)
+        with self.engine.connect() as connection:
+            rows = connection.execute(query).mappings().all()
+        return [_value(row, Seen) for row in rows]
+
+    def times(self, learner: int) -> dict[str, int]:
+        """Template to how often a learner was asked it."""
+        query = (
+            select(ATTEMPT.c.template, func.count())
+            .where(ATTEMPT.c.learner == learner)
+            .group_by(ATTEMPT.c.template)
+        )
+        with self.engine.connect() as connection:
+            return {str(name): int(count) for name, count in connection.execute(query)}
+
+
+def _learner(connection: Connection, name: str) -> Learner | None:
+    query = select(LEARNER.c.id, LEARNER.c.name, LEARNER.c.settings).where(LEARNER.c.name == name)
+    row = connection.execute(query).mappings().first()
+    return _value(row, Learner) if row else None
+
+
+def _engine(address: str) -> Engine:
+    url = make_url(address)
+    if url.get_backend_name() != "sqlite":
+        return create_engine(url, pool_pre_ping=True)
+    engine = create_engine(url, connect_args={"check_same_thread": False, "timeout": 10})
+
+    @event.listens_for(engine, "connect")
+    def _set_up(connection: Any, _record: object) -> None:
+        for setting in ("journal_mode=WAL", "synchronous=NORMAL", "foreign_keys=ON"):
+            connection.execute(f"PRAGMA {setting}")
+
+    return engine
+
+
+def _shown(address: str) -> str:
+    """The address without its password."""
+    try:
+        return make_url(address).render_as_string(hide_password=True)
+    except ArgumentError:
+        return "--database"
+
+
+def _value(row: RowMapping, kind: type[T]) -> T:
+    """A row as a value; names of columns are a kind of text of their own."""
+    return msgspec.convert({str(name): value for name, value in row.items()}, kind)

@@ -1,0 +1,60 @@
+"""The tables. Times are seconds since 1970, in UTC; tables of JSON hold what only pages read."""
+
+from __future__ import annotations
+
+from sqlalchemy import (
+    JSON,
+    Boolean,
+    Column,
+    Float,
+    ForeignKey,
+    Index,
+    Integer,
+    MetaData,
+    String,
+    Table,
+)
+
+METADATA = MetaData()
+
+LEARNER = Table(
+    "learner",
+    METADATA,
+    Column("id", Integer, primary_key=True),
+    Column("name", String(200), nullable=False, unique=True),
+    Column("settings", JSON, nullable=False),
+    Column("since", Float, nullable=False),
+)
+"""Who learns; a server for one person has one."""
+
+ATTEMPT = Table(
+    "attempt",
+    METADATA,
+    Column("id", String(32), primary_key=True),
+    Column("learner", ForeignKey("learner.id", ondelete="CASCADE"), nullable=False),
+    Column("template", String(200), nullable=False),
+    Column("seed", String(80), nullable=False),
+    Column("level", String(20), nullable=False),
+    Column("wish", JSON, nullable=False),
+    Column("state", JSON, nullable=False),
+    Column("begun", Float, nullable=False),
+    Column("ended", Float),
+    Index("attempt_of", "learner", "ended", "begun"),
+)
+"""One question that somebody practises; ``wish`` is what it was chosen by."""
+
+SEEN = Table(
+    "seen",
+    METADATA,
+    Column("id", Integer, primary_key=True),
+    Column("learner", ForeignKey("learner.id", ondelete="CASCADE"), nullable=False),
+    Column("template", String(200), nullable=False),
+    Column("topic", String(200), nullable=False),
+    Column("part", String(20), nullable=False),
+    Column("note", String(200), nullable=False),
+    Column("right", Boolean, nullable=False),
+    Column("first", Boolean, nullable=False),
+    Column("at", Float, nullable=False),
+    Index("seen_of", "learner", "at"),
+)
+"""How a part went: right, right at once, and the note of the last mistake."""

@@ -1,0 +1,136 @@
+"""A question that somebody practises: its parts as tasks, and how far each has got."""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+import msgspec
+
+from quizgen.marking.options import Options
+from quizgen.marking.verdict import Verdict
+from quizgen.paper.marking import Marker
+from quizgen.practice.boxes import joined
+from quizgen.practice.state import PartState
+from quizgen.practice.task import TRIES, Feedback, Next, Task
+from quizgen.web.made import Made, MadePart
+from quizgen.web.store import Attempt, Seen
+
+
+class Progress(msgspec.Struct):
+    """How far a part has got, and what stands in its fields."""
+
+    state: PartState = msgspec.field(default_factory=PartState)
+    values: list[str] = msgspec.field(default_factory=list)
+    asked_back: str = ""
+    """What stands there, if it could not be read as meant."""
+
+
+class Place:
+    """A part on the page: its task, its fields, what was said of it last."""
+
+    def __init__(
+        self, task: Task[MadePart, MadePart], progress: Progress, verdict: Verdict | None
+    ) -> None:
+        self.task, self.progress, self.verdict = task, progress, verdict
+        self.part = task.part
+
+    @property
+    def name(self) -> str:
+        """Its name in addresses."""
+        return self.part.field.id
+
+    @property
+    def done(self) -> bool:
+        """Whether it is answered, given up or skipped."""
+        return self.task.outcome is not None
+
+    @property
+    def left(self) -> int:
+        """Tries that are left."""
+        return TRIES - self.task.state.tries
+
+    @property
+    def to_judge(self) -> bool:
+        """Whether the learner has to say whether it was right."""
+        return not self.done and self.verdict is not None and self.verdict.self_marked
+
+    def value(self, index: int) -> str:
+        """What stands in a field."""
+        return self.progress.values[index] if index < len(self.progress.values) else ""
+
+
+class Turn:
+    """A question and how far it has got.
+
+    Parameters
+    ----------
+    made : Made
+        In the language of who asks.
+    attempt : Attempt
+    """
+
+    def __init__(self, made: Made, attempt: Attempt) -> None:
+        self.made, self.attempt = made, attempt
+        kept = attempt.state.get("parts", {})
+        self._marker = Marker(made.key, Options(made.wanted.lang))
+        self.places = [
+            self._place(part, keyed, msgspec.convert(kept.get(part.field.id, {}), Progress))
+            for part, keyed in zip(made.parts, made.key.parts, strict=True)
+        ]
+
+    def _place(self, part: MadePart, keyed: Any, progress: Progress) -> Place:
+        task = Task(self.made.topic, part, part, keyed, progress.state, marker=self._marker)
+        typed = progress.asked_back or progress.state.typed
+        verdict = self._marker.mark(keyed, typed).verdict if typed else None
+        return Place(task, progress, verdict)
+
+    def place(self, name: str) -> Place | None:
+        """A part by its name."""
+        return next((place for place in self.places if place.name == name), None)
+
+    @property
+    def finished(self) -> bool:
+        """Whether every part is done."""
+        return all(place.done for place in self.places)
+
+    def answer(self, place: Place, values: list[str]) -> Feedback | None:
+        """Mark what stands in the fields of a part; None if that is nothing, or it is done."""
+        typed = joined(place.part.field.control, values, place.part.field.marks)
+        place.progress.values = values
+        if not typed or place.done:
+            return None
+        feedback = place.task.answer(typed)
+        place.verdict = feedback.verdict
+        place.progress.asked_back = typed if feedback.then is Next.ASK_BACK else ""
+        return feedback
+
+    def keep(self) -> tuple[Seen, ...]:
+        """Write into the attempt how far the question has got; say which parts have just ended."""
+        before = self.attempt.state.get("ended", [])
+        ended = [place for place in self.places if place.done]
+        self.attempt.state = {
+            "parts": {p.name: msgspec.to_builtins(p.progress) for p in self.places},
+            "ended": [place.name for place in ended],
+            "notes": self.attempt.state.get("notes", {}) | self._notes(),
+        }
+        if self.finished and self.attempt.ended is None:
+            self.attempt.ended = time.time()
+        return tuple(self._seen(place) for place in ended if place.name not in before)
+
+    def _notes(self) -> dict[str, str]:
+        """The last mistake of each part that had one."""
+        return {
+            p.name: p.verdict.note
+            for p in self.places
+            if p.verdict and p.verdict.graded and p.verdict.verdict != "correct"
+        }
+
+    def _seen(self, place: Place) -> Seen:
+        outcome = place.task.outcome
+        right, first = (outcome.right, outcome.first) if outcome else (False, False)
+        note = self.attempt.state["notes"].get(place.name, "")
+        return Seen(
+            self.made.wanted.template, self.made.topic, place.part.label, note, right, first,
+            time.time(),
+        )  # fmt: skip

@@ -1,0 +1,138 @@
+"""Practising in the browser, over its addresses: answers typed as forms post them."""
+
+from __future__ import annotations
+
+import html
+import re
+
+import pytest
+
+from quizgen.question.compose import compose
+
+
+def text(page: str) -> str:
+    return html.unescape(" ".join(re.sub(r"<[^>]*>", " ", page).split()))
+
+
+def verdicts(page: str) -> list[str]:
+    return re.findall(r'<div class="verdict (\w+)">', page)
+
+
+def test_from_the_first_page_to_a_question(client, token):
+    page = client.get("/").text
+    assert "Image Acquisition" in page
+    asked = client.post("/practice", data={"token": token, "topic": "optics", "tier": ""})
+    assert asked.status_code == 200
+    assert re.fullmatch(r"/q/[\w-]{16}", asked.url.path)
+    assert 'name="a"' in asked.text
+
+
+def test_a_topic_that_nobody_knows_has_no_question(client, token):
+    asked = client.post("/practice", data={"token": token, "topic": "astrology"})
+    assert asked.status_code == 404
+    assert "No question fits" in asked.text
+
+
+def test_right_wrong_and_unreadable_answers(client, token, begin, bank):
+    at = begin("point-to-image-plane")
+    _, key = compose(bank.template("point-to-image-plane"), "3", "en")
+    x, y = key.solution.parts[0].answer.strip("()").split("; ")
+    unread = client.post(f"{at}/1", data={"token": token, "a": [x, "?"]})
+    assert verdicts(unread.text) == ["asked"]
+    swapped = client.post(f"{at}/1", data={"token": token, "a": [y, x]})
+    assert verdicts(swapped.text) == ["wrong"]
+    assert "2 left" in text(swapped.text)
+    right = client.post(f"{at}/1", data={"token": token, "a": [x.replace(".", ","), y]})
+    assert verdicts(right.text) == ["correct"]
+    assert "How this question works" in right.text
+    assert f'value="{x.replace(".", ",")}"' in right.text, "what was typed stays"
+    assert client.get(at).text.count("verdict correct") == 1, "and is there again after a reload"
+
+
+def test_three_wrong_answers_show_the_solution(client, token, begin):
+    at = begin("point-to-image-plane")
+    for _ in range(3):
+        page = client.post(f"{at}/1", data={"token": token, "a": ["123", "456"]}).text
+    assert 'class="steps"' in page
+    after = client.post(f"{at}/1", data={"token": token, "a": ["1", "2"]}).text
+    assert verdicts(after) == ["wrong"]
+
+
+def test_the_language_changes_and_the_numbers_stay(client, token, begin):
+    at = begin("point-to-image-plane")
+    english = client.get(at).text
+    client.post("/settings", data={"token": token, "lang": "bn", "back": at})
+    bangla = client.get(at).text
+    client.post("/settings", data={"token": token, "lang": "en", "back": at})
+    assert 'lang="bn"' in bangla
+    stems = [
+        re.search(r'<div class="stem">(.*?)</div>', page, re.DOTALL)[1]
+        for page in (english, bangla)
+    ]
+    numbers = [sorted(re.findall(r"<mn>([\d.]+)</mn>|(\d+)", stem)) for stem in stems]
+    assert numbers[0] == numbers[1]
+    assert re.search(r"[\u0980-\u09ff]", stems[1])
+
+
+@pytest.mark.parametrize(
+    ("typed", "read"),
+    [(["2/3", "0,5"], True), (["-", "1"], False), (["2.", "1"], False), (["2", ""], False),
+     (["<script>", "1"], False)],
+)  # fmt: skip
+def test_a_field_shows_how_it_is_read_and_never_whether_it_is_right(
+    client, token, begin, typed, read
+):
+    at = begin("point-to-image-plane")
+    answer = client.post(f"{at}/1/read", data={"token": token, "a": typed})
+    assert answer.status_code == 200
+    assert bool(answer.text) == read
+    assert "<script" not in answer.text
+    assert not re.search("right|correct|wrong|trap", answer.text, re.IGNORECASE)
+
+
+def test_hints_come_one_by_one_and_solution_ends_a_part(client, token, begin):
+    at = begin("point-to-image-plane")
+    one = client.post(f"{at}/1", data={"token": token, "do": "hint", "a": ["", ""]}).text
+    two = client.post(f"{at}/1", data={"token": token, "do": "hint", "a": ["", ""]}).text
+    count = [
+        re.search(r'<ol class="hints">(.*?)</ol>', page, re.DOTALL)[1].count("<li>")
+        for page in (one, two)
+    ]
+    assert count == [1, 2]
+    shown = client.post(f"{at}/1", data={"token": token, "do": "solution", "a": ["", ""]}).text
+    assert 'class="result"' in shown
+
+
+def test_a_variant_is_the_same_question_with_other_numbers(client, token, begin):
+    at = begin("point-to-image-plane")
+    page = client.get(at).text
+    fresh = client.post(f"{at}/variant", data={"token": token})
+    assert fresh.url.path != at
+    title = re.search("<h1.*?</h1>", page)[0]
+    assert title in fresh.text
+    stem = re.search(r'<div class="stem">.*?</div>', page, re.DOTALL)[0]
+    assert stem not in fresh.text
+
+
+def test_working_it_through_asks_the_steps_of_the_same_question(client, token, begin):
+    at = begin("rgb-to-hsv")
+    page = client.get(at).text
+    guided = client.post(f"{at}/guided", data={"token": token})
+    stem = re.search(r'<div class="stem">(.*?)</div>', page, re.DOTALL)[1]
+    assert text(stem)[:60] in text(guided.text)
+    assert guided.text.count('<section class="part"') > page.count('<section class="part"')
+
+
+def test_what_is_not_there_is_said(client, token, begin):
+    at = begin("point-to-image-plane")
+    assert client.get("/q/nobody").status_code == 404
+    assert client.post(f"{at}/9z", data={"token": token, "a": "1"}).status_code == 404
+    assert client.get("/q/../../etc").status_code == 404
+
+
+def test_what_is_typed_is_text(client, token, begin):
+    at = begin("point-to-image-plane")
+    page = client.post(
+        f"{at}/1", data={"token": token, "a": ['"><script>alert(1)</script>', "1"]}
+    ).text
+    assert "<script>alert" not in page
