@@ -12,24 +12,22 @@ from typing import NamedTuple
 
 import msgspec
 
-from quizgen.bank.draw import Draw, draw
+from quizgen.bank.draw import Draw
 from quizgen.bank.folder import Bank
 from quizgen.bank.levels import EXAM
 from quizgen.bank.prose import Block, CodeBlock
 from quizgen.bank.template import Template
-from quizgen.errors import BlueprintError, CodeError, DrawError
+from quizgen.errors import BlueprintError, CodeError
 from quizgen.locale import chosen
 from quizgen.maths.notation import people
 from quizgen.outside import located
 from quizgen.paper.blueprint import Blueprint, SlotRule, named_blueprint
 from quizgen.paper.choose import choose, levels, variety, weights
 from quizgen.paper.code import REFERENCE, Code, checked_seed, digest_of, parse_code
+from quizgen.paper.draws import draws
 from quizgen.paper.whole import working_time
-from quizgen.question.compose import Key, Question, identity, instance, put_into_words
+from quizgen.question.compose import Key, Question, instance, put_into_words
 from quizgen.question.levels import level_of
-
-REDRAWS = 50
-"""Tries to avoid the same numbers twice in one paper."""
 
 Progress = Callable[[str], None]
 """Told the template of each question as it is done."""
@@ -144,7 +142,9 @@ def build(
         If there is no such language, or the seed is out of range.
     """
     langs = chosen(choice, bank.languages)
-    asked = [*_levels(_draws(bank, blueprint, checked_seed(seed)), levels(blueprint))]
+    seed = checked_seed(seed)
+    drawn = draws(bank, choose(bank, blueprint, seed), seed)
+    asked = [*_levels(drawn, levels(blueprint))]
     code = _code(blueprint, str(seed), choice, asked)
     items = []
     marked = zip(asked, weights(blueprint), strict=False)
@@ -267,24 +267,6 @@ def _code(blueprint: Blueprint, seed: str, choice: str, asked: list[_Wanted]) ->
     templates = [one.drawn.template for one in asked]
     digest = digest_of(blueprint.source, templates, [one.level for one in asked])
     return Code(blueprint.name, seed, choice, digest, blueprint.level)
-
-
-def _draws(bank: Bank, blueprint: Blueprint, seed: int) -> Iterator[Draw]:
-    """Draw the questions in order; numbers that the paper has already are drawn again."""
-    seen: set[str] = set()
-    for place, name in enumerate(choose(bank, blueprint, seed), 1):
-        template = bank.template(name)
-        for again in range(REDRAWS):
-            one = draw(template, seed, f"{place}.{again}" if again else place)
-            if identity(one) not in seen:
-                break
-        else:
-            raise DrawError(
-                f"{template.file}: would stand in the paper again, and has no other numbers: "
-                "ask for fewer questions, or let other templates take the place"
-            )
-        seen.add(identity(one))
-        yield one
 
 
 def _item(

@@ -1,0 +1,96 @@
+"""The numbers of a paper's questions: none stands twice, and none tells another's answer."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+
+from quizgen.bank.draw import Draw, draw
+from quizgen.bank.folder import Bank
+from quizgen.bank.template import Template
+from quizgen.bank.traps import answer_names
+from quizgen.errors import DrawError
+from quizgen.maths.numbers import to_float
+from quizgen.maths.values import Value
+from quizgen.question.compose import identity
+
+REDRAWS = 50
+"""Tries to avoid the same numbers twice in one paper."""
+OTHER_ANSWERS = 30
+"""Tries to avoid an answer that the paper asks, or states, somewhere else."""
+COUNTED = 10
+"""Whole numbers below are asked in many questions, and tell nothing."""
+DIGITS = 3
+"""Digits of a number that is not in another question by chance."""
+
+
+@dataclass
+class _Seen:
+    """What the questions so far ask and state."""
+
+    questions: set[str] = field(default_factory=set)
+    asked: set[str] = field(default_factory=set)
+    given: set[str] = field(default_factory=set)
+
+    def add(self, one: Draw) -> None:
+        self.questions.add(identity(one))
+        self.asked |= _asked(one)
+        self.given |= _given(one)
+
+    def tells(self, one: Draw) -> bool:
+        """Whether a draw asks what is asked or stated already, or states what is asked."""
+        asked = _asked(one)
+        return bool(asked & self.asked or asked & self.given or self.asked & _given(one))
+
+
+def draws(bank: Bank, names: Iterable[str], seed: int) -> Iterator[Draw]:
+    """Draw the questions of a paper in order.
+
+    Raises
+    ------
+    DrawError
+        If a question would stand in the paper again and has no other numbers.
+    """
+    seen = _Seen()
+    for place, name in enumerate(names, 1):
+        one = _other(bank.template(name), seed, place, seen)
+        seen.add(one)
+        yield one
+
+
+def _other(template: Template, seed: int, place: int, seen: _Seen) -> Draw:
+    """The first draw that is new and tells nothing; if there is none, the first that is new."""
+    new: list[Draw] = []
+    for again in range(REDRAWS):
+        one = draw(template, seed, f"{place}.{again}" if again else place)
+        if identity(one) not in seen.questions:
+            new.append(one)
+            if not seen.tells(one):
+                return one
+        if new and again >= OTHER_ANSWERS:
+            return new[0]
+    raise DrawError(
+        f"{template.file}: would stand in the paper again, and has no other numbers: "
+        "ask for fewer questions, or let other templates take the place"
+    )
+
+
+def _asked(one: Draw) -> set[str]:
+    """Numbers that are asked for, small whole ones aside."""
+    names = [name for part in one.template.rules.part for name in answer_names(part.answer)]
+    values = [one.shown_values[name] for name in names]
+    return {_digits(v) for v in values if abs(to_float(v)) >= COUNTED or to_float(v) % 1}
+
+
+def _given(one: Draw) -> set[str]:
+    """Numbers that a question states, as far as they have digits enough."""
+    return {text for text in map(_digits, one.shown.values()) if _significant(text) >= DIGITS}
+
+
+def _digits(value: Value) -> str:
+    return f"{abs(to_float(value)):.4g}"
+
+
+def _significant(text: str) -> int:
+    """Digits without zeros at the ends."""
+    return len(text.partition("e")[0].replace(".", "").strip("0"))
