@@ -48,6 +48,7 @@ class Options(BankOptions):
     seeds: int
     only: tuple[str, ...]
     teach: bool
+    papers: int | None
     debug: bool
 
 
@@ -61,6 +62,11 @@ class Options(BankOptions):
     is_flag=True,
     help="Examine instead whether questions teach: answers that vary, reasons, letters.",
 )
+@click.option(
+    "--papers",
+    type=Whole(1, 10**5),
+    help="Make so many papers of each blueprint, and name questions that tell another's answer.",
+)
 @click.option("--debug", is_flag=True, help="Show where in Python an error came from.")
 @bank_options
 def lint(**options: Unpack[Options]) -> None:
@@ -72,6 +78,8 @@ def lint(**options: Unpack[Options]) -> None:
     for name in options["only"]:
         bank.folder_of(name)
     names = options["only"] or tuple(bank.paths)
+    if options["papers"]:
+        sys.exit(_told(bank, options["papers"]))
     if options["teach"]:
         sys.exit(_taught(bank, names, options))
     rows, broken = [], []
@@ -105,6 +113,31 @@ def _taught(bank: Bank, names: tuple[str, ...], options: Options) -> int:
     errors = {row[0] for row in rows if row[2] == "error"}
     click.echo(f"{len(errors)} of {len(names)} templates with errors")
     return int(bool(errors))
+
+
+def _told(bank: Bank, count: int) -> int:
+    """Print which questions of a paper tell what another one asks; 1 if any does."""
+    from quizgen.audit.leaks import leaks
+    from quizgen.paper.blueprint import load_blueprint
+    from quizgen.paper.paper import build
+
+    found: dict[str, list[int]] = {}
+    for name in bank.blueprints:
+        blueprint = load_blueprint(name, bank)
+        with Progress(f"lint {name}", count) as progress:
+            for seed in range(count):
+                progress(str(seed))
+                for one in leaks(build(bank, blueprint, seed, "both", figures=False)):
+                    asks = " ".join(filter(None, (one.asker, one.label)))
+                    said = f"{one.teller}: tells the answer of {asks}: {one.what}"
+                    found.setdefault(said, []).append(seed)
+    for said, seeds in found.items():
+        rate = f"({len(seeds)} of {count} papers, first seed {seeds[0]})"
+        click.echo(visible(f"{said} {rate}"), err=True)
+    papers = count * len(bank.blueprints)
+    told = f"{len(found)} answers told" if found else "none tells an answer of its own"
+    click.echo(f"{papers} papers of {', '.join(bank.blueprints) or 'no blueprint'}: {told}")
+    return int(bool(found))
 
 
 def _examined(bank: Bank, name: str, options: Options) -> tuple[tuple[str, ...], list[str]]:

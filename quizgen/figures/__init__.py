@@ -97,6 +97,14 @@ def render(name: str, values: Mapping[str, float], *, quiz: bool, lang: str) -> 
     return _render(name, tuple(full.items()), quiz, lang)
 
 
+def in_words(name: str, values: Mapping[str, float], *, quiz: bool, lang: str) -> str:
+    """What a figure shows, in words, without drawing it; parameters and errors as of ``render``."""
+    from quizgen.figures._table import figure_module
+
+    full = complete(name, parameters(name), values)
+    return people.names_in(figure_module(name).alt(full, lang, quiz=quiz))
+
+
 @lru_cache(maxsize=256)
 def _render(name: str, items: tuple[tuple[str, float], ...], quiz: bool, lang: str) -> Figure:
     from quizgen.figures._svg import with_title
@@ -104,7 +112,7 @@ def _render(name: str, items: tuple[tuple[str, float], ...], quiz: bool, lang: s
 
     module = figure_module(name)
     body, width, height = _body(name, items, quiz)
-    words = people.names_in(module.alt(dict(items), lang, quiz=quiz))
+    words = in_words(name, dict(items), quiz=quiz, lang=lang)
     return Figure(with_title(body, width, height, words, lang), words, width, height, module.DARK)
 
 
@@ -117,4 +125,4 @@ def _body(name: str, items: tuple[tuple[str, float], ...], quiz: bool) -> tuple[
     return body(lambda figure: module.draw(figure, dict(items), quiz=quiz))
 
 
-__all__ = ["Figure", "Parameter", "parameters", "render"]
+__all__ = ["Figure", "Parameter", "in_words", "parameters", "render"]

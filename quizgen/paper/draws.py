@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from quizgen.bank.draw import Draw, draw
@@ -12,6 +12,8 @@ from quizgen.bank.traps import answer_names
 from quizgen.errors import DrawError
 from quizgen.maths.numbers import to_float
 from quizgen.maths.values import Value
+from quizgen.paper.blueprint import Blueprint
+from quizgen.paper.choose import choose
 from quizgen.question.compose import identity
 
 REDRAWS = 50
@@ -43,16 +45,18 @@ class _Seen:
         return bool(asked & self.asked or asked & self.given or self.asked & _given(one))
 
 
-def draws(bank: Bank, names: Iterable[str], seed: int) -> Iterator[Draw]:
+def draws(bank: Bank, blueprint: Blueprint, seed: int) -> Iterator[Draw]:
     """Draw the questions of a paper in order.
 
     Raises
     ------
+    BlueprintError
+        If no template fits a slot.
     DrawError
         If a question would stand in the paper again and has no other numbers.
     """
     seen = _Seen()
-    for place, name in enumerate(names, 1):
+    for place, name in enumerate(choose(bank, blueprint, seed), 1):
         one = _other(bank.template(name), seed, place, seen)
         seen.add(one)
         yield one

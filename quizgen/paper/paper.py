@@ -22,7 +22,7 @@ from quizgen.locale import chosen
 from quizgen.maths.notation import people
 from quizgen.outside import located
 from quizgen.paper.blueprint import Blueprint, SlotRule, named_blueprint
-from quizgen.paper.choose import choose, levels, variety, weights
+from quizgen.paper.choose import levels, variety, weights
 from quizgen.paper.code import REFERENCE, Code, checked_seed, digest_of, parse_code
 from quizgen.paper.draws import draws
 from quizgen.paper.whole import working_time
@@ -142,9 +142,7 @@ def build(
         If there is no such language, or the seed is out of range.
     """
     langs = chosen(choice, bank.languages)
-    seed = checked_seed(seed)
-    drawn = draws(bank, choose(bank, blueprint, seed), seed)
-    asked = [*_levels(drawn, levels(blueprint))]
+    asked = [*_levels(draws(bank, blueprint, checked_seed(seed)), levels(blueprint))]
     code = _code(blueprint, str(seed), choice, asked)
     items = []
     marked = zip(asked, weights(blueprint), strict=False)

@@ -1,0 +1,241 @@
+"""What one question of a paper tells about another: its formula, its number, its words, its order.
+
+A question is looked through as it is printed: stem, hints, figure's words, options, pairs, claims,
+programs. What it may not hold is what another question asks: formulas of the steps to its answer
+(and a keyed formula), its number where nobody would hit it by chance, the sentence that is right,
+the key points of a text, the order of steps. What a question prints itself is no secret of it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+from quizgen.audit.alike import Form, equation, forms, in_program
+from quizgen.bank.draw import Draw
+from quizgen.bank.plan import plan_of
+from quizgen.bank.prose import Block, Code, CodeBlock, Inline, Items, Paragraph, Styled, Table
+from quizgen.errors import FormulaError
+from quizgen.figures import in_words
+from quizgen.marking.kinds import choice, expression, gap, match, order, text
+from quizgen.marking.mark import show
+from quizgen.marking.reading.formulas import author
+from quizgen.maths.notation import ReadError, parse, to_text
+from quizgen.maths.tree import Expr, substitute
+from quizgen.paper.paper import Item, Paper
+from quizgen.question.compose import Key, Question, figure_values
+from quizgen.question.contract import Built
+from quizgen.question.kinds import build
+from quizgen.question.shown import Maths
+from quizgen.render.text import blocks, inline
+
+DIGITS, WHOLE = 3, 4
+"""Digits of a number, and of a whole one, that is not there by chance: zeros at the ends aside."""
+WORDS = 5
+"""Different words that a sentence must have to be recognised in another one."""
+SAME = 0.85
+"""Share of a sentence's words that another one must have to say the same."""
+POINTS = 2
+"""Key points of a text that one sentence of another question must name to tell them."""
+NUMBERS = frozenset({"number", "quantity", "angle", "point", "table", "set", "interval", "code"})
+
+_SENTENCE = re.compile(r"(?<=[.।?;]) ")
+GAP = "____"
+STEM = 5
+"""Letters by which words are compared."""
+USUAL = frozenset(str(2**power - less) for power in range(17) for less in (0, 1))
+"""Numbers of levels and largest values: everybody has them in mind."""
+_NUMBER = re.compile(r"(?<![\w./])[-−]?\d+(?:[ \u00a0\u202f,]\d{3})*(?:\.\d+)?(?![\w.]*\d)")
+_WORD = re.compile(r"[^\W\d_\u0980-\u09ff][\w'-]{3,}|[\u0980-\u09ff]{3,}")
+
+
+@dataclass(frozen=True)
+class Leak:
+    """A question tells what another one asks."""
+
+    teller: str
+    asker: str
+    label: str
+    what: str
+
+
+@dataclass
+class Said:
+    """What a question prints in one language."""
+
+    sentences: list[str] = field(default_factory=list)
+    formulas: set[Form] = field(default_factory=set)
+
+    @cached_property
+    def numbers(self) -> set[str]:
+        """Numbers of enough digits, without blanks and signs."""
+        return {n for sentence in self.sentences for n in _numbers(sentence)}
+
+    @cached_property
+    def words(self) -> list[tuple[str, frozenset[str]]]:
+        """Each sentence with its words."""
+        return [(sentence, _words(sentence)) for sentence in self.sentences]
+
+
+@dataclass(frozen=True)
+class Secret:
+    """What one part asks, and must not stand in another question."""
+
+    label: str
+    formulas: Mapping[Form, str]
+    numbers: frozenset[str]
+    sentences: tuple[tuple[str, str], ...]
+    points: text.Spec | None
+    steps: tuple[str, ...]
+
+
+def leaks(paper: Paper) -> list[Leak]:
+    """Every question of a paper that tells what another one asks, in any of its languages."""
+    found: dict[Leak, None] = {}
+    for place in range(len(paper.langs)):
+        told = [said(item.questions[place], item.keys[place].draw) for item in paper.items]
+        for asker, own in zip(paper.items, told, strict=True):
+            for secret in secrets(asker, place, own):
+                for teller, other in zip(paper.items, told, strict=True):
+                    if teller is not asker:
+                        names = teller.keys[0].template, asker.keys[0].template
+                        what = dict.fromkeys(_told(secret, other))
+                        found |= dict.fromkeys(Leak(*names, secret.label, w) for w in what)
+    return list(found)
+
+
+def _told(secret: Secret, other: Said) -> Iterator[str]:
+    yield from (f"formula {secret.formulas[f]}" for f in secret.formulas if f in other.formulas)
+    yield from (f"number {n}" for n in sorted(secret.numbers & other.numbers))
+    for must, may in secret.sentences:
+        needed, words = _words(must), _words(f"{must} {may}")
+        for told, others in other.words if len(words) >= WORDS else ():
+            if needed <= others and len(words & others) >= SAME * len(words):
+                yield f"{must} {may}".strip().join("''") + f" in {told!r}"
+    if secret.points:
+        yield from _named_points(secret.points, other)
+    places = [other.sentences.index(step) for step in secret.steps if step in other.sentences]
+    if len(places) > 1 and places == sorted(places):
+        yield f"order of {len(places)} steps"
+
+
+def _named_points(spec: text.Spec, other: Said) -> Iterator[str]:
+    """Sentences that name several key points, and most of them."""
+    groups = {name: [f" {t.casefold()}" for t in terms] for name, terms in spec.groups().items()}
+    for sentence in other.sentences if len(groups) >= POINTS else ():
+        line = f" {sentence.casefold()}"
+        found = [name for name, terms in groups.items() if any(term in line for term in terms)]
+        if len(found) >= POINTS and 2 * len(found) > len(groups):
+            yield f"key points {', '.join(found)} in {sentence!r}"
+
+
+def said(question: Question, drawn: Draw) -> Said:
+    """What a question prints: sentences and formulas."""
+    shown: list[Block] = [*question.stem]
+    for part in question.parts:
+        rows = [text for _, text in (*part.field.options, *part.field.targets)]
+        shown += [*part.body, *(Paragraph(row) for row in (*rows, *part.field.asks))]
+    found = Said([one.strip(" -") for line in blocks(shown) for one in _SENTENCE.split(line)])
+    rule = drawn.template.rules.figure
+    if rule and rule.quiz:
+        alt = in_words(rule.name, figure_values(drawn), quiz=True, lang=question.lang)
+        found.sentences += _SENTENCE.split(alt)
+    for expr in _formulas(shown):
+        found.formulas.update(forms(expr))
+    return found
+
+
+def _formulas(parts: Iterable[Block | Inline]) -> Iterator[Expr]:
+    """Formulas in print and in programs."""
+    for part in parts:
+        if isinstance(part, Maths):
+            yield from _read(part.typed)
+        elif isinstance(part, Code):
+            yield from _read(part.text)
+        elif isinstance(part, CodeBlock):
+            yield from in_program(part.text)
+        elif isinstance(part, (Paragraph, Styled)):
+            yield from _formulas(part.children)
+        elif isinstance(part, Items):
+            yield from _formulas(block for item in part.items for block in item)
+        elif isinstance(part, Table):
+            yield from _formulas(c for row in (part.head, *part.rows) for cell in row for c in cell)
+
+
+def _read(typed: str) -> Iterator[Expr]:
+    try:
+        yield parse(typed)
+    except (ReadError, FormulaError):
+        return
+
+
+def secrets(item: Item, place: int, own: Said) -> Iterator[Secret]:
+    """What each part of a question asks, in the language at a place."""
+    question, key = item.questions[place], item.keys[place]
+    for index, part in enumerate(question.parts):
+        built = build(key.draw, index)
+        asked = _asked_formulas(key, index)
+        shown = show(built.spec, question.lang) if built.spec.kind in NUMBERS else ""
+        steps = built.spec.steps if isinstance(built.spec, order.Spec) else []
+        options = {mark: inline(text) for mark, text in part.field.options}
+        yield Secret(
+            part.label,
+            {form: name for form, name in asked.items() if form not in own.formulas},
+            frozenset(_numbers(shown)) - own.numbers,
+            tuple(_right_sentences(question, index, built)),
+            built.spec if isinstance(built.spec, text.Spec) else None,
+            tuple(options[mark] for mark in steps),
+        )
+
+
+def _asked_formulas(key: Key, index: int) -> dict[Form, str]:
+    """Forms of the steps to an answer, each also with the steps before it put in, and the key."""
+    found: dict[Form, str] = {}
+    inner: dict[str, Expr] = {}
+    for step in plan_of(key.draw.template).parts[index].steps:
+        inner[step.name] = substitute(step.expr, inner)
+        for expr in (step.expr, inner[step.name]):
+            found |= dict.fromkeys(equation(step.name, expr), f"{step.name} = {to_text(expr)}")
+    spec = key.specs[index]
+    if isinstance(spec, expression.Spec):
+        formula = author(spec.value, tuple(spec.symbols))
+        found |= dict.fromkeys(equation("", formula), spec.value)
+    return found
+
+
+def _right_sentences(
+    question: Question, index: int, built: Built[Any]
+) -> Iterator[tuple[str, str]]:
+    """What is right in words, options, pairs, filled gaps: what must be told, and what may be."""
+    shown, spec = question.parts[index].field, built.spec
+    options = {mark: inline(text) for mark, text in shown.options}
+    if isinstance(spec, match.Spec):
+        targets = {mark: inline(text) for mark, text in shown.targets}
+        yield from ((options[left], targets[right]) for left, right in spec.pairs.items())
+    elif isinstance(spec, choice.Spec) and options:
+        yield from (("", text) for n, text in enumerate(options.values(), 1) if n in spec.correct)
+    elif isinstance(spec, gap.Spec):
+        body = (*question.stem, *question.parts[index].body)
+        lines = [line for line in blocks(body) if GAP in line]
+        words = [accepted[0] for accepted in spec.gaps()]
+        if len(lines) == len(words):
+            yield from zip(words, lines, strict=True)
+
+
+def _numbers(text: str) -> Iterator[str]:
+    """Numbers in a text that have enough digits."""
+    for found in _NUMBER.findall(text):
+        number = re.sub(r"[ \u00a0\u202f,−-]", "", found)
+        whole, _, decimals = number.partition(".")
+        decimals = decimals.rstrip("0")
+        digits = (whole + decimals).lstrip("0") if decimals else whole.strip("0")
+        if len(digits) >= (DIGITS if decimals else WHOLE) and (decimals or whole not in USUAL):
+            yield f"{whole}.{decimals}".rstrip(".")
+
+
+def _words(text: str) -> frozenset[str]:
+    """The longer words of a text, endings aside."""
+    return frozenset(word.casefold()[:STEM] for word in _WORD.findall(text))
