@@ -29,6 +29,7 @@ REFERENCE = {
     "luminosity": {"m_1": 530, "m_2": 650},
     "noise": {"sigma": 0.04, "p": 0.09, "order": 4},
     "normalisation": {"low": 60, "high": 140},
+    "fall_off": {"f": 20, "r": 15},
     "staircase": {"n": 8},
     "grey_edits": {"n": 8, "low": 70, "high": 180, "s": 60, "order": 9},
 }
@@ -48,6 +49,7 @@ HIDDEN = {
     "luminosity": ["0.862", "0.107"],
     "noise": ["0.04", "0.09"],
     "normalisation": ["140"],
+    "fall_off": ["0.4096"],
     "staircase": ["0.1429"],
     "grey_edits": ["≤", "…"],
 }
@@ -136,6 +138,8 @@ def draws():  # noqa: C901 - one loop a figure
                     {"sigma": sigma, "k": k, "tails": tails, "mu": rng.choice([0, 128, -3])},
                 )
     yield "gaussian", {"sigma": 0.5, "sigma2": 1, "sigma3": 2}
+    yield "fall_off", {"f": 12, "r": 8}
+    yield "fall_off", {"f": 36, "r": 21, "rim": 0.8}
     for diameter in (3.125, 25):
         for sharp in (50, 60):
             for shift in (-2, -0.1, 0, 0.1, 2, 15, 40):

@@ -156,6 +156,16 @@ def test_corners_fall_off_with_the_fourth_power_of_the_cosine():
     assert fall_off == pytest.approx(1 / (1 + tangent**2) ** 2, rel=0.02)
 
 
+# X-C15: cos^4 for tan = 3/4, 5/12, 8/15, 1
+@pytest.mark.parametrize(
+    ("f", "r", "light"), [(20, 15, 0.4096), (24, 10, 0.7260), (15, 8, 0.6061), (20, 20, 0.25)]
+)
+def test_the_wall_falls_with_the_fourth_power_of_the_cosine(f, r, light):
+    (photo,) = _pictures("fall_off", {"f": f, "r": 0, "extent": r}, quiz=True)
+    linear = ((photo[36, :, 0] / 255 + 0.055) / 1.055) ** 2.4
+    assert linear[-1] / linear[48] == pytest.approx(light, abs=0.02)
+
+
 def test_false_colour_comes_from_a_grey_scene():
     ideal, photo = _pictures("artefacts", {"kind": 9}, quiz=True)
     assert np.ptp(ideal, axis=2).max() == 0

@@ -443,3 +443,17 @@ def test_limits_of_the_sharp_zone_are_those_of_the_curriculum():
     at = [(line[0, 0] - origin[0]) / (right - origin[0]) * 10 for line in got["limits"][:2]]
     assert at == pytest.approx([2.338, 4.185], abs=2e-3)
     assert "limits" not in parts("blur_curve", quiz=True, f=50, s=3, N_1=8, c=30, high=300)
+
+
+# fall_off ----------------------------------------------------------------------------------
+
+
+# X-C15: cos^4 for tan = 3/4, 5/12, 8/15, 1
+@pytest.mark.parametrize(
+    ("f", "r", "light"), [(20, 15, 0.4096), (24, 10, 0.7260), (15, 8, 0.6061), (20, 20, 0.25)]
+)
+def test_light_falls_with_the_fourth_power_of_the_cosine(f, r, light):
+    got = parts("fall_off", f=f, r=0, extent=r)
+    floor = got["axes"][0][1][1]
+    start, end = got["curve"][0][0][1] - floor, got["curve"][0][-1][1] - floor
+    assert end / start == pytest.approx(light, abs=0.003)

@@ -176,7 +176,8 @@ def _answers(printed: str) -> list[str]:
     exact = printed.rsplit(" ≈ ", maxsplit=1)[-1]
     units = {"mm": "millimetres", "px": "pixels", "m": "metres", "s": "seconds", "ms": "milliseconds", "µm": "micrometres", "lm": "lumens",
              "mW": "milliwatts", "B": "bytes", "dB": "decibels", "%": "percent",
-             "e⁻": "electrons", "bit": "bits", "stop": "stops"}  # fmt: skip
+             "e⁻": "electrons", "bit": "bits", "stop": "stops",
+             "eV": "electronvolts", "nm": "nanometres"}  # fmt: skip
     words = re.sub(r"(?<=[\d)]) (\S+?)(?=$|;)", lambda m: f" {units[m[1]]}", exact)
     bangla = exact.translate(str.maketrans("0123456789", "০১২৩৪৫৬৭৮৯"))
     bare = re.sub(r"(?<=[\d)]) (\S+?)(?=$|;)", "", exact)
