@@ -290,11 +290,15 @@ def slots(parts: Iterable[Block | Inline]) -> Iterator[str]:
 def fill(parts: tuple[Inline, ...], value: Value, program: Program = str) -> tuple[Inline, ...]:
     """Fill a sentence: slots and formulas with what ``value`` gives, code as ``program`` does."""
     done: list[Inline] = []
-    for one in (one for part in parts for one in _filled(part, value, program)):
-        if not isinstance(one, About):
-            done.append(one)
-        elif done and isinstance(before := done[-1], Words):
-            done[-1] = Words(_EQUALS.sub("≈", before.text))
+    for part in parts:
+        if isinstance(part, Words):
+            done.append(part)
+            continue
+        for one in _filled(part, value, program):
+            if not isinstance(one, About):
+                done.append(one)
+            elif done and isinstance(before := done[-1], Words):
+                done[-1] = Words(_EQUALS.sub("≈", before.text))
     return tuple(done)
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache
+from functools import cache, lru_cache
 
 from flint import fmpq
 
@@ -141,6 +141,7 @@ def factor(text: str) -> fmpq:
 SHOWN = {"um": "µm", "deg": "°", "us": "µs", "uW": "µW", "e-": "e⁻"}
 
 
+@lru_cache(maxsize=1024)
 def shown(text: str) -> str:
     """How a unit is printed: ``um/px`` becomes ``µm/px``, ``1/mm`` becomes ``mm⁻¹``.
 

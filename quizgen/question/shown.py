@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 
 from quizgen import typeset
 from quizgen.bank.prose import Inline, Words
@@ -35,9 +36,12 @@ _BEFORE_UNIT = re.compile(r"(?<=[\d⁰¹²³⁴⁵⁶⁷⁸⁹]) (?=(?![A-Z]\d)[
 
 def pieces(shown: Shown) -> tuple[Inline, ...]:
     """Pieces of a sentence; in a text powers of ten are typeset, and units stay with numbers."""
-    if not isinstance(shown, str):
-        return shown
-    return tuple(_with_powers(_BEFORE_UNIT.sub("\u00a0", shown)))
+    return _pieces(shown) if isinstance(shown, str) else shown
+
+
+@lru_cache(maxsize=4096)
+def _pieces(text: str) -> tuple[Inline, ...]:
+    return tuple(_with_powers(_BEFORE_UNIT.sub("\u00a0", text)))
 
 
 def _with_powers(text: str) -> Iterator[Inline]:

@@ -61,6 +61,7 @@ def power_of_ten(exponent: str | int) -> str:
     return f"10{(sign + (digits or '0')).translate(RAISED)}"
 
 
+@lru_cache(maxsize=4096)
 def number(text: str) -> str:
     """A number for people; a text that is no number only gets its minus sign.
 
