@@ -31,9 +31,9 @@ MAX_TRIES = 5000
 """Tries before a template is called impossible."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Draw:
-    """One admissible instance of a template.
+    """One admissible instance of a template; equal to itself alone, so that it can be a key.
 
     Parameters
     ----------

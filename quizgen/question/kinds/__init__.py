@@ -6,6 +6,7 @@ answered, what each mistake would give. Must never know: an output, a paper.
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
 from quizgen.bank.draw import Draw
@@ -53,8 +54,9 @@ KINDS: dict[str, QuestionKind[Any]] = {
 """Kind to the module in this folder."""
 
 
+@lru_cache(maxsize=128)
 def build(drawn: Draw, index: int) -> Built[Any]:
-    """One part of a draw as its kind makes it.
+    """One part of a draw as its kind makes it, the same for every language.
 
     Raises
     ------
