@@ -146,44 +146,6 @@ def lasers(page: Page) -> dict[str, Any]:
     return {"a": ratio, "b": ratio * second}
 
 
-@solves("two-lasers-from-curves")
-def lasers_on_curves(page: Page) -> dict[str, Any]:
-    """Notes 2.6: the solid curve by day, the dashed one by night."""
-    night = any(word in page.parts["a"].text for word in ("dark", "অন্ধকারে"))
-    table = V_NIGHT if night else V_DAY
-    first, second = (seen(table, page[name]) for name in ("λ_1", "λ_2"))
-    beam = ("first", "প্রথম") if first > second else ("second", "দ্বিতীয়")
-    curve = ("dashed", "ভাঙা") if night else ("solid", "টানা")
-    return {"a": page.parts["a"].saying(*beam), "b": page.parts["b"].saying(*curve)}
-
-
-@solves("two-lamps-by-day-and-by-night")
-def lamps_at_dusk(page: Page) -> dict[str, Any]:
-    """Notes 2.6 and 4.9, F03: V by day, V' by night; the ratio of fluxes decides."""
-    lights = page["λ_1"], page["λ_2"]
-    heights = [seen(table, light) for table in (V_DAY, V_NIGHT) for light in lights]
-    power = float(page["P_1"] / page["P_2"])
-    day, night = power * heights[0] / heights[1], power * heights[2] / heights[3]
-    told = {(True, True): ("lamp 1, by day", "দুই সময়েই বাতি 1"), (True, False): ("1 by day", "দিনে বাতি 1"),
-            (False, True): ("2 by day", "দিনে বাতি 2"), (False, False): ("lamp 2, by day", "দুই সময়েই বাতি 2")}  # fmt: skip
-    said = page.parts["c"].saying(*told[day > 1, night > 1])
-    return {"a": tuple(heights), "b": (day, night), "c": said}
-
-
-@solves("power-for-equal-brightness")
-def equal_brightness(page: Page) -> dict[str, Any]:
-    """Notes 4.9, F03: K_m P V by day, K'_m P V' by night."""
-    night = any(word in page.stem.rpartition("mW")[2] for word in ("dark", "অন্ধকারে"))
-    table, constant = (V_NIGHT, page["K'_m"]) if night else (V_DAY, page["K_m"])
-    first, second, third = (seen(table, page[name]) for name in ("λ_1", "λ_2", "λ_3"))
-    peak = max(table, key=lambda nm: table[nm])
-    other = -1 if page["λ_3"] * 10**9 > peak else 1
-    beyond = (Fraction(peak * 10 + other * step, 10**10) for step in range(3000))
-    alike = next(light for light in beyond if seen(table, light) <= third)
-    return {"a": float(constant * page["P_1"]) * first, "b": float(page["P_1"]) * first / second,
-            "c": alike}  # fmt: skip
-
-
 BANDS = {("gamma", "গামা"): (1e5, 1e6), ("X-ray", "এক্স-রে"): (2e4, 1.5e5),
          ("ultraviolet",): (3.27, 100), ("visible", "দৃশ্যমান"): (1.59, 3.27),
          ("infrared",): (0.001, 1.59)}  # fmt: skip

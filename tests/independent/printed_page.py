@@ -47,6 +47,7 @@ class Page:
     stem: str
     figure: str
     parts: dict[str, Part]
+    drawing: Element
     programs: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
 
@@ -96,17 +97,17 @@ def pages(html: bytes) -> list[Page]:
 
 
 def _page(node: Element) -> Page:
-    stem, figure, parts = "", "", {}
+    stem, figure, parts, drawing = "", "", {}, Element("figure")
     for child in node:
         if child.get("class") == "part":
             parts.update([_part(child)])
         elif child.tag == "figure":
-            figure = _figure(child)
+            figure, drawing = _figure(child), child
         elif child.get("lang"):
             stem += text_of(child)
     programs = tuple("".join(code.itertext()) for code in node.iter("pre"))
     rows = tuple(tuple(text_of(cell).rstrip(" |") for cell in row) for row in node.iter("tr"))
-    return Page(stem, figure, parts, programs, rows)
+    return Page(stem, figure, parts, drawing, programs, rows)
 
 
 def _part(node: Element) -> tuple[str, Part]:
