@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 from fractions import Fraction
 from itertools import permutations
@@ -13,6 +14,7 @@ from by_hand import solves
 from matplotlib.colors import rgb_to_hsv
 from numpy.typing import NDArray
 from printed_figure import Line, lines, pictures
+from printed_numbers import APERTURE, numbers, points
 from printed_page import Page
 
 Curve = Callable[[Fraction], float]
@@ -164,3 +166,67 @@ def _noise(grey: NDArray[np.uint8]) -> str:
     if np.sort(counts)[-4:].sum() < grey.size / 2:
         return "gaussian"
     return "impulse" if {0, 255} <= set(values.tolist()) else "clean"
+
+
+@solves("lines-that-stay-straight", figure=True)
+def straight_lines(page: Page) -> dict[str, Any]:
+    """Errata E02: only lines through the principal point stay straight; F20 for the others."""
+    cross = next(one for one in points(page.stem) if any(one))
+    before, after = (lines(page.drawing, name) for name in ("undistorted", "distorted"))
+    centre = _middle(lines(page.drawing, "principal-point"))
+    pairs = [
+        pair for one, two in zip(before, after, strict=True) for pair in zip(one, two, strict=True)
+    ]
+    far, moved = max(pairs, key=lambda pair: math.dist(pair[0], centre))
+    barrel = math.dist(moved, centre) < math.dist(far, centre)
+    bow = ("away from", "উল্টো") if barrel else ("towards", "ক্রসের দিকে")
+    size = ("smaller", "ছোট") if barrel else ("larger", "বড়")
+    straight = page.parts["a"].those(lambda text: _passes(text, cross))
+    return {"a": straight, "b": page.parts["b"].saying(*bow), "c": page.parts["c"].saying(*size)}
+
+
+def _middle(strokes: list[Line]) -> tuple[float, ...]:
+    places = [place for line in strokes for place in line]
+    return tuple(sum(way) / len(places) for way in zip(*places, strict=True))
+
+
+def _passes(line: str, place: tuple[Fraction, ...]) -> bool:
+    """Whether a line, named by two points or an equation, passes through a place."""
+    x, y = place
+    if "y=x" in line:
+        return x == y
+    if "=" in line:
+        return numbers(line)[0] == (x if line.strip().startswith("x") else y)
+    (a, b), (c, d) = points(line)
+    return (c - a) * (y - b) == (d - b) * (x - a)
+
+
+@solves("sharp-zone-from-plot", figure=True)
+def sharp_zone(page: Page) -> dict[str, Any]:
+    """Curriculum X-C03, F33: the disc read off the plot; it goes with 1/N."""
+    metres, high = (
+        numbers(one)[-1] for one in re.findall(r"0 (?:to|থেকে) \d+|আর 0 থেকে \d+", page.figure)[:2]
+    )
+    lattice = lines(page.drawing, "grid")
+    left, floor = lines(page.drawing, "axes")[0][1]
+    right, top = max(line[0][0] for line in lattice), max(y for line in lattice for _, y in line)
+
+    def place(line: Line) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        xs, ys = np.array(line).T
+        return (xs - left) / (right - left) * float(metres), (ys - floor) / (top - floor) * float(
+            high
+        )
+
+    drawn = [place(line) for line in lines(page.drawing, "curves")]
+    (z,) = page.amounts("m", "c")
+    told = re.search(r"(?:Curve|রেখা) 1[^.।]*", page.figure)
+    assert told
+    far, disc = map(float, numbers(told[0])[-2:])
+    first, second = sorted(drawn, key=lambda one: abs(np.interp(far, *one) - disc))
+    xs, ys = first
+    fine = np.linspace(xs[0], xs[-1], 20000)
+    sharp = fine[np.interp(fine, xs, ys) <= float(page["c"]) * 1e6]
+    discs = [float(np.interp(float(z), *one)) for one in (first, second)]
+    n = float(APERTURE.findall(page.parts["d"].text)[0]) * discs[0] / discs[1]
+    return {"a": fine[np.argmin(np.interp(fine, xs, ys))], "b": (sharp[0], sharp[-1]),
+            "c": discs[0] / 1e6, "d": n}  # fmt: skip

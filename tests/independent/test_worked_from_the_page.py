@@ -7,6 +7,7 @@ A page is rendered, read back as text (``printed_page``), worked out from the fo
 from __future__ import annotations
 
 import json
+import tomllib
 from collections.abc import Iterator
 from fractions import Fraction
 from importlib import import_module
@@ -30,28 +31,13 @@ QUICK = (1, 2, 3)
 SEEDS = [
     pytest.param(seed, marks=[pytest.mark.slow] * (seed not in QUICK)) for seed in range(1, 51)
 ]
-for module in sorted(Path(__file__).parent.glob("hand_*.py")):
+HERE = Path(__file__).parent
+for module in sorted(HERE.glob("hand_*.py")):
     import_module(module.stem)  # each enters its solvers in the table
 
-NOT_COMPUTED = {
-    "words are matched, chosen, filled in or written": [
-        "bands-of-imaging-methods", "ccd-and-cmos-artefacts", "ccd-or-cmos-properties",
-        "coordinate-conventions", "define-image-pixel-channel", "exposure-faults-and-remedies",
-        "lens-aberrations-causes-remedies", "mixing-kind-and-primaries",
-        "mixing-kind-and-resulting-colour", "pinhole-size-effects",
-        "random-generator-default-argument", "recognise-noise-from-description",
-        "rods-cones-and-peaks", "uses-of-colour-spaces", "why-bayer-green-and-demosaicing",
-        "why-pinhole-model"],
-    "statements are true or false": [
-        "true-or-false-colour", "true-or-false-noise", "true-or-false-projection"],
-    "the steps of a derivation are put in order": [
-        "blur-disc-derivation-order", "even-powers-of-r-order", "gaussian-prefactor-order",
-        "hsv-to-rgb-order", "normalisation-formula-order", "perspective-derivation-order",
-        "point-to-pixel-order"],
-    "a photograph is judged by eye": ["name-artefact-from-photo", "which-photo-which-f-number"],
-}  # fmt: skip
-"""Templates in which no answer follows from numbers on the page, with the reason."""
-LISTED = [name for names in NOT_COMPUTED.values() for name in names]
+REASONS = tomllib.loads((HERE / "not_computed.toml").read_text(encoding="utf-8"))
+"""Templates in which no answer follows from numbers on the page, by the reason."""
+LISTED = [name for names in REASONS.values() for name in names]
 
 SPELLED = {"twice as much": 2, "three by three": 3, "array of tens": 10}
 """Numbers that one language writes as a word."""
@@ -184,7 +170,7 @@ def _other(value: str) -> str:
 
 @pytest.mark.parametrize("name", builtin().paths)
 def test_every_template_is_worked_out_or_listed_with_its_reason(bank, name):
-    """Add a function to ``hand_*.py``, or the name to ``NOT_COMPUTED``."""
+    """Add a function to ``hand_*.py``, or the name to ``not_computed.toml``."""
     assert (name in SOLVERS) + LISTED.count(name) == 1
     kinds = {part.answer["kind"] for part in bank.rules(name).part}
     assert name in SOLVERS or not kinds & OWED
