@@ -44,15 +44,35 @@ def best_pinhole(page: Page) -> dict[str, Any]:
     return {"a": d, "b": n, "c": float(old) * (n / float(lens)) ** 2, "d": said}
 
 
-@solves("depth-of-field-limits")
-def depth_of_field(page: Page) -> dict[str, Any]:
-    """Curriculum X-C01, from the lens equation: where the blur disc is c wide."""
+def sharp_zone(page: Page) -> tuple[Fraction, Fraction, Fraction]:
+    """Hyperfocal distance and the ends of the zone, where the lens equation gives a disc of c."""
     f, s, c = page["f"], page["s"], page["c"]
-    n = f_number(page.stem)
-    sensor, hole = f * s / (s - f), f / n
+    sensor, hole = f * s / (s - f), f / f_number(page.stem)
     tip = [sensor * hole / (hole + way * c) for way in (-1, 1)]
     near, far = (f * image / (image - f) for image in tip)
-    return {"a": f * f / (n * c) + f, "b": near, "c": far, "d": far - near}
+    return f * hole / c + f, near, far
+
+
+@solves("depth-of-field-limits")
+def depth_of_field(page: Page) -> dict[str, Any]:
+    """Curriculum X-C01."""
+    hyperfocal_at, near, far = sharp_zone(page)
+    return {"a": hyperfocal_at, "b": near, "c": far, "d": far - near}
+
+
+SHARES = {Fraction(1, 4): ("quarter", "চার ভাগের এক"), Fraction(1, 3): ("third", "তিন ভাগের এক"),
+          Fraction(1, 2): ("half", "অর্ধেক"), Fraction(3, 5): ("three fifths", "পাঁচ ভাগের তিন"),
+          Fraction(4, 5): ("four fifths", "পাঁচ ভাগের চার"), Fraction(1): ("itself", "ঠিক H")}  # fmt: skip
+
+
+@solves("depth-of-field-split")
+def split_of_zone(page: Page) -> dict[str, Any]:
+    """Curriculum X-D09; from b/a = (H + s)/(H - s) follows s = H (q - 1)/(q + 1)."""
+    hyperfocal_at, near, far = sharp_zone(page)
+    front, behind = page["s"] - near, far - page["s"]
+    wanted = numbers(page.parts["d"].text)[0]
+    said = page.parts["d"].saying(*SHARES[(wanted - 1) / (wanted + 1)])
+    return {"a": hyperfocal_at, "b": (front, behind), "c": behind / front, "d": said}
 
 
 @solves("hyperfocal-distance")

@@ -165,7 +165,7 @@ def _other_words(spec: dict[str, Any]) -> dict[str, Any]:
 
 
 def _other(value: str) -> str:
-    return str(Fraction(value) * Fraction("1.06") + 1)
+    return str(Fraction(value) * Fraction("1.61") + 1)
 
 
 @pytest.mark.parametrize("name", builtin().paths)
