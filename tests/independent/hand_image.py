@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import re
 from fractions import Fraction
-from math import log2
+from math import hypot, log2, sqrt
 from typing import Any
 
 from by_hand import solves
-from printed_numbers import named, numbers
+from printed_numbers import named, numbers, quantities
 from printed_page import Page
 
 
@@ -45,4 +45,30 @@ def grey_edits(page: Page) -> dict[str, Any]:
         "a": places,
         "b": log2(bars),
         "c": (coarse, squeezed, min(before + added, Fraction(255))),
+    }
+
+
+@solves("data-rate-of-video")
+def data_rate(page: Page) -> dict[str, Any]:
+    """X-A12: one value per photosite, three channels of a byte per pixel."""
+    width, height = numbers(page.stem)[:2]
+    (rate,) = (value for value, unit in quantities(page.stem) if unit == "Hz")
+    (depth,) = page.amounts("bit")
+    raw = width * height * depth * rate
+    speeds = [numbers(text)[-1] * 10**9 for text in page.parts["b"].options]
+    slowest = min(place for place, speed in enumerate(speeds, 1) if speed >= raw)
+    return {"a": raw, "b": {slowest}, "c": width * height * 3 * rate, "d": page["S"] * 8 / raw}
+
+
+@solves("noise-and-rounding")
+def converter(page: Page) -> dict[str, Any]:
+    """X-C28: sqrt(sigma^2 + Delta^2/12)."""
+    noise, step = float(page["σ"]), float(page["Δ"])
+    both, finer = (hypot(noise, size / sqrt(12)) for size in (step, step / 2))
+    word = ("yes", "হ্যাঁ") if finer < 0.95 * both else ("no", "না")
+    return {
+        "a": step / sqrt(12),
+        "b": both,
+        "c": finer,
+        "d": page.parts["d"].those(word.__contains__),
     }

@@ -15,7 +15,8 @@ UNITS = {
     "%": Fraction(1, 100), "°": Fraction(1), "B": Fraction(1), "bit": Fraction(1),
     "MiB": Fraction(2**20), "MB": Fraction(10**6), "kB": Fraction(1000), "KiB": Fraction(1024),
     "Mbit/s": Fraction(10**6), "Gbit/s": Fraction(10**9), "ms/px": MILLI, "eV": Fraction(1),
-    "lp/mm": Fraction(1000), "": Fraction(1),
+    "lp/mm": Fraction(1000), "Hz": Fraction(1), "GB": Fraction(10**9), "MB/s": Fraction(10**6),
+    "": Fraction(1),
 }  # fmt: skip
 """Units of the pages, in metres, seconds, watts, lumens, pixels, bytes, degrees, and bare ratios."""
 
