@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import colorsys
 import re
+from collections.abc import Iterable
 from fractions import Fraction
 from itertools import pairwise, product
 from typing import Any
@@ -240,3 +241,34 @@ def not_linear(page: Page) -> dict[str, Any]:
     """Notes D20: a concave curve is additive nowhere but at 0."""
     assert page["γ"] > 1
     return {"b": {"a": Fraction(1, 4), "b": Fraction(1, 4)}}
+
+
+LUMA = {601: (0.299, 0.587, 0.114), 709: (0.2126, 0.7152, 0.0722)}
+"""Weights of red, green and blue: ITU-R BT.601 and BT.709."""
+
+
+def luma(standard: int, colour: Iterable[float]) -> float:
+    """The weighted sum of the channels."""
+    return sum(w * c for w, c in zip(LUMA[standard], colour, strict=True))
+
+
+@solves("luma-before-and-after-turn")
+def turned_luma(page: Page) -> dict[str, Any]:
+    """X-A07; the turn of the hue by colorsys."""
+    colour = tuple(float(page[name]) for name in "RGB")
+    h, s, v = colorsys.rgb_to_hsv(*colour)
+    (angle,) = (float(value) for value, unit in quantities(page.parts["b"].text) if unit == "°")
+    before, after = luma(709, colour), luma(709, colorsys.hsv_to_rgb((h + angle / 360) % 1, s, v))
+    words = ("lighter", "বেশি উজ্জ্বল") if after > before else ("darker", "কম উজ্জ্বল")
+    return {"a": (luma(601, colour), before), "b": after, "c": page.parts["c"].saying(*words)}
+
+
+@solves("rgb-to-cmyk")
+def inks(page: Page) -> dict[str, Any]:
+    """X-A06: the grey in all three inks becomes black."""
+    plain = [1 - page[name] for name in "RGB"]
+    black = min(plain)
+    left = [(ink - black) / (1 - black) for ink in plain]
+    names = (("cyan", "সায়ান"), ("magenta", "ম্যাজেন্টা"), ("yellow", "হলুদ"))
+    spare = page.parts["c"].saying(*names[left.index(0)])
+    return {"a": plain, "b": [*left, black], "c": spare, "d": sum(plain) - sum(left) - black}
