@@ -19,7 +19,7 @@ from starlette.staticfiles import StaticFiles
 from quizgen.errors import QuizgenError
 from quizgen.locale import languages
 from quizgen.render.fonts import WEB
-from quizgen.web import practice
+from quizgen.web import exam, practice
 from quizgen.web.forms import one, posted
 from quizgen.web.guard import Guard
 from quizgen.web.settings import Settings
@@ -50,6 +50,7 @@ def application(settings: Settings) -> Starlette:
     app = Starlette(
         routes=[
             *practice.ROUTES,
+            *exam.ROUTES,
             Route("/settings", settle, methods=["POST"]),
             Route("/static/languages.css", language_sheet),
             Mount("/static/fonts", StaticFiles(directory=WEB)),

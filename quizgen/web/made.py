@@ -14,8 +14,11 @@ import msgspec
 from quizgen.bank.folder import Bank, builtin
 from quizgen.bank.levels import EXAM
 from quizgen.bank.prose import Block, Inline
+from quizgen.errors import BlueprintError
+from quizgen.locale import BOTH
+from quizgen.paper.blueprint import named_blueprint
 from quizgen.paper.key import KeyQuestion, key_question
-from quizgen.paper.paper import Item
+from quizgen.paper.paper import Item, build, rebuild
 from quizgen.question.compose import Field, Key, Part, Question, instance, put_into_words
 from quizgen.question.contract import Control
 from quizgen.question.levels import level_of
@@ -80,6 +83,15 @@ class Wanted(msgspec.Struct, frozen=True):
     level: str = EXAM
 
 
+class WantedPaper(msgspec.Struct, frozen=True):
+    """Which paper: by its code, or anew from a blueprint and a seed; in one of its languages."""
+
+    lang: str
+    code: str = ""
+    blueprint: str = ""
+    seed: int = 0
+
+
 class Made(msgspec.Struct, frozen=True):
     """A question in one language."""
 
@@ -102,30 +114,64 @@ class Made(msgspec.Struct, frozen=True):
     """Whether its steps can be asked one after another instead."""
 
 
+class MadePaper(msgspec.Struct, frozen=True):
+    """A paper in one language."""
+
+    code: str
+    title: str
+    points: float
+    minutes: int
+    items: list[Made]
+
+
 @cache
 def _bank(root: Path | None, *, trusted: bool) -> Bank:
     return Bank(root, trusted=trusted) if root else builtin()
 
 
-def make(root: Path | None, trusted: bool, wanted: Wanted) -> bytes:
-    """Compose a question and put it into markup.
+def make(root: Path | None, trusted: bool, wanted: Wanted | WantedPaper) -> bytes:
+    """Compose a question or a paper and put it into markup.
 
     Parameters
     ----------
     root : pathlib.Path or None
         Folder of the bank, the built-in one if there is none.
     trusted : bool
-    wanted : Wanted
+    wanted : Wanted or WantedPaper
 
     Raises
     ------
-    BankError, DrawError
-        If the template is wrong.
+    QuizgenError
+        If a template is wrong, or there is no such paper.
     """
-    template = _bank(root, trusted=trusted).template(wanted.template)
-    drawn = instance(template, wanted.seed, wanted.slot)
+    bank = _bank(root, trusted=trusted)
+    if isinstance(wanted, WantedPaper):
+        return msgspec.json.encode(_paper(bank, wanted))
+    drawn = instance(bank.template(wanted.template), wanted.seed, wanted.slot)
     question, key = put_into_words(drawn, wanted.lang, number=wanted.number, level=wanted.level)
     return msgspec.json.encode(made(wanted, question, key))
+
+
+def _paper(bank: Bank, wanted: WantedPaper) -> MadePaper:
+    """A paper in all languages of the bank, so that its code is the same in each."""
+    if wanted.code:
+        paper = rebuild(bank, wanted.code)
+    else:
+        plan = named_blueprint(wanted.blueprint, bank)
+        if plan is None:
+            raise BlueprintError(f"no blueprint {wanted.blueprint!r}")
+        paper = build(bank, plan, wanted.seed, BOTH)
+    place = paper.langs.index(wanted.lang) if wanted.lang in paper.langs else 0
+    lang = paper.langs[place]
+    items = [
+        made(
+            Wanted(item.questions[place].template, "", lang, number=item.number),
+            item.questions[place],
+            item.keys[place],
+        )
+        for item in paper.items
+    ]
+    return MadePaper(paper.code, paper.title(lang), float(paper.points), paper.minutes, items)
 
 
 def made(wanted: Wanted, question: Question, key: Key) -> Made:

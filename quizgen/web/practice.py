@@ -38,6 +38,10 @@ async def begin(request: Request) -> Response:
     """Choose a question and go to it."""
     form = await posted(request)
     wish = {name: one(form, name) for name in ("topic", "tier")}
+    template = one(form, "template")
+    site: Site = request.app.state.site
+    if template in site.bank.paths:
+        return await _begun(request, Which(template, _seed()), wish)
     return await _asked(request, wish)
 
 

@@ -55,10 +55,6 @@ class Place:
         """Whether the learner has to say whether it was right."""
         return not self.done and self.verdict is not None and self.verdict.self_marked
 
-    def value(self, index: int) -> str:
-        """What stands in a field."""
-        return self.progress.values[index] if index < len(self.progress.values) else ""
-
 
 class Turn:
     """A question and how far it has got.

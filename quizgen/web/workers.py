@@ -11,7 +11,7 @@ from concurrent.futures import ProcessPoolExecutor
 
 import msgspec
 
-from quizgen.web.made import Made, Wanted, make
+from quizgen.web.made import Made, MadePaper, Wanted, WantedPaper, make
 from quizgen.web.settings import Settings
 
 KEPT = 256
@@ -38,8 +38,8 @@ class Workers:
         self.settings = settings
         context = multiprocessing.get_context("spawn")
         self.pool = ProcessPoolExecutor(settings.workers, context, _uninterrupted)
-        self._kept: OrderedDict[Wanted, Made] = OrderedDict()
-        self._due: dict[Wanted, asyncio.Future[Made]] = {}
+        self._kept: OrderedDict[Wanted | WantedPaper, Made | MadePaper] = OrderedDict()
+        self._due: dict[Wanted | WantedPaper, asyncio.Future[Made | MadePaper]] = {}
 
     def warm(self) -> None:
         """Start the processes."""
@@ -54,6 +54,23 @@ class Workers:
         BankError, DrawError
             If its template is wrong.
         """
+        found = await self._found(wanted)
+        assert isinstance(found, Made)  # noqa: S101 - what was asked for
+        return found
+
+    async def paper(self, wanted: WantedPaper) -> MadePaper:
+        """A paper, from those kept if it is among them.
+
+        Raises
+        ------
+        QuizgenError
+            If there is no such paper, or a template is wrong.
+        """
+        found = await self._found(wanted)
+        assert isinstance(found, MadePaper)  # noqa: S101 - what was asked for
+        return found
+
+    async def _found(self, wanted: Wanted | WantedPaper) -> Made | MadePaper:
         found = self._kept.get(wanted)
         if found is not None:
             self._kept.move_to_end(wanted)
@@ -62,12 +79,17 @@ class Workers:
             self._due[wanted] = asyncio.ensure_future(self._make(wanted))
         return await asyncio.shield(self._due[wanted])
 
-    async def _make(self, wanted: Wanted) -> Made:
+    async def _make(self, wanted: Wanted | WantedPaper) -> Made | MadePaper:
         try:
             bank, trusted = self.settings.bank, self.settings.trusted
             loop = asyncio.get_running_loop()
             data = await loop.run_in_executor(self.pool, make, bank, trusted, wanted)
-            found = self._kept[wanted] = msgspec.json.decode(data, type=Made)
+            found: Made | MadePaper
+            if isinstance(wanted, WantedPaper):
+                found = msgspec.json.decode(data, type=MadePaper)
+            else:
+                found = msgspec.json.decode(data, type=Made)
+            self._kept[wanted] = found
             while len(self._kept) > KEPT:
                 self._kept.popitem(last=False)
             return found

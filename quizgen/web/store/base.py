@@ -5,13 +5,12 @@ from __future__ import annotations
 import secrets
 import time
 from collections.abc import Mapping
-from typing import Any, TypeVar
+from typing import Any
 
 import msgspec
 from sqlalchemy import (
     Connection,
     Engine,
-    RowMapping,
     create_engine,
     event,
     func,
@@ -25,9 +24,9 @@ from sqlalchemy.exc import ArgumentError, SQLAlchemyError
 from quizgen.errors import StoreError
 from quizgen.web.store.migrate import upgrade
 from quizgen.web.store.rows import Attempt, Learner, Seen, Which
+from quizgen.web.store.sittings import Sittings
 from quizgen.web.store.tables import ATTEMPT, LEARNER, SEEN
-
-T = TypeVar("T")
+from quizgen.web.store.values import value
 
 ALONE = "me"
 """Name of the learner of a server for one person."""
@@ -55,6 +54,8 @@ class Store:
         except (SQLAlchemyError, ArgumentError, ImportError, OSError) as error:
             said = str(error).partition("\n")[0]
             raise StoreError(f"{_shown(address)}: {said}") from error
+        self.sittings = Sittings(self.engine)
+        """Exams that are sat."""
 
     def close(self) -> None:
         """Give the connections back."""
@@ -95,7 +96,7 @@ class Store:
         query = select(ATTEMPT).where(ATTEMPT.c.id == name, ATTEMPT.c.learner == learner)
         with self.engine.connect() as connection:
             row = connection.execute(query).mappings().first()
-        return _value(row, Attempt) if row else None
+        return value(row, Attempt) if row else None
 
     def latest(self, learner: int, most: int = 50) -> list[Attempt]:
         """A learner's attempts, the latest first."""
@@ -107,7 +108,7 @@ class Store:
         )
         with self.engine.connect() as connection:
             rows = connection.execute(query).mappings().all()
-        return [_value(row, Attempt) for row in rows]
+        return [value(row, Attempt) for row in rows]
 
     def keep(self, attempt: Attempt, seen: tuple[Seen, ...] = ()) -> None:
         """Keep how far an attempt has got, and how parts of it went."""
@@ -124,7 +125,7 @@ class Store:
         query = select(*names).where(SEEN.c.learner == learner).order_by(SEEN.c.at, SEEN.c.id)
         with self.engine.connect() as connection:
             rows = connection.execute(query).mappings().all()
-        return [_value(row, Seen) for row in rows]
+        return [value(row, Seen) for row in rows]
 
     def times(self, learner: int) -> dict[str, int]:
         """Template to how often a learner was asked it."""
@@ -140,7 +141,7 @@ class Store:
 def _learner(connection: Connection, name: str) -> Learner | None:
     query = select(LEARNER.c.id, LEARNER.c.name, LEARNER.c.settings).where(LEARNER.c.name == name)
     row = connection.execute(query).mappings().first()
-    return _value(row, Learner) if row else None
+    return value(row, Learner) if row else None
 
 
 def _engine(address: str) -> Engine:
@@ -163,8 +164,3 @@ def _shown(address: str) -> str:
         return make_url(address).render_as_string(hide_password=True)
     except ArgumentError:
         return "--database"
-
-
-def _value(row: RowMapping, kind: type[T]) -> T:
-    """A row as a value; names of columns are a kind of text of their own."""
-    return msgspec.convert({str(name): value for name, value in row.items()}, kind)

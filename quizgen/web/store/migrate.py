@@ -8,7 +8,7 @@ from sqlalchemy import Connection, inspect, text
 
 from quizgen.errors import StoreError
 
-NEWEST = "0001"
+NEWEST = "0002"
 """The last step in ``migrations/versions``."""
 
 

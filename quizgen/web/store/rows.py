@@ -67,3 +67,51 @@ class Seen(msgspec.Struct, frozen=True):
     right: bool
     first: bool
     at: float
+
+
+class Sitting(msgspec.Struct, frozen=True):
+    """An exam that somebody sits.
+
+    Parameters
+    ----------
+    id : str
+        Nobody can guess it.
+    learner : int
+    code : str
+        Of its paper.
+    begun : float
+    limit : float or None
+        Seconds it may take.
+    pauses : bool
+        Whether it may rest.
+    rested : float
+        Seconds of its pauses.
+    resting : float, optional
+        Since when it rests.
+    handed : float, optional
+        When it was handed in.
+    marks : mapping
+        Part to the share of its points that the learner gave to a sentence.
+    """
+
+    id: str
+    learner: int
+    code: str
+    begun: float
+    limit: float | None
+    pauses: bool
+    rested: float = 0.0
+    resting: float | None = None
+    handed: float | None = None
+    marks: dict[str, float] = {}
+
+    @property
+    def ends(self) -> float | None:
+        """When its time is over; None without a limit, or while it rests."""
+        if self.limit is None or self.resting is not None:
+            return None
+        return self.begun + self.limit + self.rested
+
+    def over(self, now: float) -> bool:
+        """Whether it was handed in, or its time is over."""
+        return self.handed is not None or (self.ends is not None and now > self.ends)

@@ -58,3 +58,38 @@ SEEN = Table(
     Index("seen_of", "learner", "at"),
 )
 """How a part went: right, right at once, and the note of the last mistake."""
+
+SITTING = Table(
+    "sitting",
+    METADATA,
+    Column("id", String(32), primary_key=True),
+    Column("learner", ForeignKey("learner.id", ondelete="CASCADE"), nullable=False),
+    Column("code", String(200), nullable=False),
+    Column("begun", Float, nullable=False),
+    Column("limit", Float),
+    Column("pauses", Boolean, nullable=False),
+    Column("rested", Float, nullable=False),
+    Column("resting", Float),
+    Column("handed", Float),
+    Column("marks", JSON, nullable=False),
+    Index("sitting_of", "learner", "begun"),
+)
+"""An exam that somebody sits, see ``rows.Sitting``."""
+
+ANSWER = Table(
+    "answer",
+    METADATA,
+    Column("sitting", ForeignKey("sitting.id", ondelete="CASCADE"), primary_key=True),
+    Column("part", String(20), primary_key=True),
+    Column("fields", JSON, nullable=False),
+    Column("at", Float, nullable=False),
+)
+"""What stands in the fields of a part."""
+
+FLAG = Table(
+    "flag",
+    METADATA,
+    Column("sitting", ForeignKey("sitting.id", ondelete="CASCADE"), primary_key=True),
+    Column("number", String(20), primary_key=True),
+)
+"""Questions to come back to."""

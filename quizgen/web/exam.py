@@ -1,0 +1,210 @@
+"""Sitting an exam: autosave, a clock, handing in, marks with the worked solutions beside them."""
+
+from __future__ import annotations
+
+import secrets
+import time
+from dataclasses import dataclass
+
+from starlette.concurrency import run_in_threadpool
+from starlette.datastructures import FormData
+from starlette.exceptions import HTTPException
+from starlette.requests import Request
+from starlette.responses import HTMLResponse, JSONResponse, Response
+from starlette.routing import Route
+
+from quizgen.errors import CodeError, QuizgenError
+from quizgen.paper.blueprint import EVERYTHING, named_blueprint
+from quizgen.paper.code import LARGEST_SEED, parse_code
+from quizgen.web.echo import read_back
+from quizgen.web.forms import every, one, posted
+from quizgen.web.made import MadePaper, MadePart, WantedPaper
+from quizgen.web.results import marked, outcomes
+from quizgen.web.site import Site
+from quizgen.web.store import Sitting
+from quizgen.web.views import lang_of, page, said, to
+
+FIELDS = "a-"
+"""Before the name of a part in a form."""
+MINUTES = (15, 30, 45, 60, 90)
+"""Lengths of a paper of a topic."""
+
+
+@dataclass(frozen=True)
+class Choice:
+    """A paper that can be chosen."""
+
+    name: str
+    title: str
+
+
+async def offer(request: Request) -> Response:
+    """Which exams there are, and those that were sat."""
+    site: Site = request.app.state.site
+    store = site.store.sittings
+    sittings = await run_in_threadpool(store.latest, request.state.learner.id)
+    problem = request.query_params.get("problem")
+    return page(request, "exams.html.j2", choices=_choices(request), lengths=MINUTES,
+                sittings=sittings, now=time.time(), problem=problem)  # fmt: skip
+
+
+def _choices(request: Request) -> list[Choice]:
+    """The bank's blueprints, then its topics."""
+    site: Site = request.app.state.site
+    lang, found = lang_of(request), []
+    for name in (*site.bank.blueprints, EVERYTHING, *site.bank.topics):
+        plan = named_blueprint(name, site.bank)
+        if plan is not None:
+            found.append(Choice(name, plan.title.get(lang) or plan.title["en"]))
+    return found
+
+
+async def begin(request: Request) -> Response:
+    """Make a paper and begin it."""
+    form = await posted(request)
+    site: Site = request.app.state.site
+    try:
+        paper = await site.workers.paper(_wanted(request, form))
+    except QuizgenError as error:
+        problem = "code" if isinstance(error, CodeError) else "paper"
+        return to(f"/exam?problem={problem}")
+    limit = paper.minutes * 60.0 if one(form, "clock") else None
+    sitting = await run_in_threadpool(
+        site.store.sittings.begin,
+        request.state.learner.id,
+        paper.code,
+        limit,
+        pauses=bool(one(form, "pauses")),
+    )
+    return to(f"/exam/{sitting.id}")
+
+
+def _wanted(request: Request, form: FormData) -> WantedPaper:
+    lang, code = lang_of(request), one(form, "code").strip()
+    if code:
+        return WantedPaper(lang, code=str(parse_code(code)))
+    name, minutes = one(form, "blueprint"), one(form, "minutes")
+    site: Site = request.app.state.site
+    if minutes.isdecimal() and name not in site.bank.blueprints:
+        name = f"{name}.{int(minutes[:4])}"
+    return WantedPaper(lang, blueprint=name, seed=secrets.randbelow(LARGEST_SEED))
+
+
+async def _sitting(request: Request) -> Sitting:
+    site: Site = request.app.state.site
+    name = request.path_params["sitting"]
+    found = await run_in_threadpool(site.store.sittings.find, request.state.learner.id, name)
+    if found is None:
+        raise HTTPException(404)
+    return found
+
+
+async def _paper(request: Request, sitting: Sitting) -> MadePaper:
+    site: Site = request.app.state.site
+    return await site.workers.paper(WantedPaper(lang_of(request), code=sitting.code))
+
+
+async def sit(request: Request) -> Response:
+    """The paper, or its results once it is handed in or its time is over."""
+    sitting = await _sitting(request)
+    if sitting.handed is None and sitting.over(time.time()):
+        await _hand_in(request, sitting)
+        sitting = await _sitting(request)
+    paper = await _paper(request, sitting)
+    store = request.app.state.site.store.sittings
+    answers = await run_in_threadpool(store.answers, sitting)
+    if sitting.handed is not None:
+        results = marked(paper, answers, sitting.marks)
+        return page(request, "results.html.j2", sitting=sitting, paper=paper, results=results)
+    flags = await run_in_threadpool(store.flags, sitting)
+    return page(request, "exam.html.j2", sitting=sitting, paper=paper, answers=answers,
+                flags=flags, now=time.time())  # fmt: skip
+
+
+def _fields(form: FormData, paper: MadePaper) -> dict[str, list[str]]:
+    """What was posted, by part; parts that were not on the form are left as they are."""
+    shown = {name.removeprefix("on-") for name, _ in form.multi_items() if name.startswith("on-")}
+    return {
+        part.field.id: every(form, FIELDS + part.field.id)
+        for item in paper.items
+        for part in item.parts
+        if part.field.id in shown
+    }
+
+
+async def save(request: Request) -> Response:
+    """Keep what was typed; a script is told when, a form leads back to the paper."""
+    form = await posted(request)
+    sitting = await _sitting(request)
+    paper = await _paper(request, sitting)
+    store = request.app.state.site.store.sittings
+    kept = await run_in_threadpool(store.save, sitting, _fields(form, paper))
+    if one(form, "do") == "hand-in":
+        await _hand_in(request, sitting)
+    elif one(form, "do") in {"rest", "go-on"}:
+        await run_in_threadpool(store.rest, sitting, on=one(form, "do") == "rest")
+    elif request.headers.get("accept", "").startswith("application/json"):
+        return JSONResponse({"kept": kept}, 200 if kept else 409)
+    return to(f"/exam/{sitting.id}")
+
+
+async def _hand_in(request: Request, sitting: Sitting) -> None:
+    store = request.app.state.site.store.sittings
+    paper = await _paper(request, sitting)
+    answers = await run_in_threadpool(store.answers, sitting)
+    await run_in_threadpool(store.hand_in, sitting, outcomes(paper, answers))
+
+
+async def flag(request: Request) -> Response:
+    """Mark a question to come back to, or take the mark away."""
+    await posted(request)
+    sitting = await _sitting(request)
+    paper = await _paper(request, sitting)
+    number = request.path_params["number"]
+    if number not in {item.wanted.number for item in paper.items}:
+        raise HTTPException(404)
+    await run_in_threadpool(request.app.state.site.store.sittings.flag, sitting, number)
+    return to(f"/exam/{sitting.id}#question-{number}")
+
+
+def _part(paper: MadePaper, name: str) -> tuple[MadePart, int]:
+    for place, item in enumerate(paper.items):
+        for part in item.parts:
+            if part.field.id == name:
+                return part, place
+    raise HTTPException(404)
+
+
+async def echo(request: Request) -> Response:
+    """How what stands in the fields is read; never whether it is right."""
+    form = await posted(request)
+    paper = await _paper(request, await _sitting(request))
+    part, place = _part(paper, request.path_params["part"])
+    values = every(form, FIELDS + part.field.id)
+    read = read_back(part.field, paper.items[place].key, values)
+    return HTMLResponse(said(lang_of(request), "practice.read", value=read) if read else "")
+
+
+async def judge(request: Request) -> Response:
+    """Keep what a learner gives to a sentence, compared with the key points."""
+    form = await posted(request)
+    sitting = await _sitting(request)
+    part, _ = _part(await _paper(request, sitting), request.path_params["part"])
+    shares = {"all": 1.0, "half": 0.5, "none": 0.0}
+    share = shares.get(one(form, "share"))
+    if share is None or sitting.handed is None:
+        raise HTTPException(400)
+    store = request.app.state.site.store.sittings
+    await run_in_threadpool(store.judge, sitting, part.field.id, share)
+    return to(f"/exam/{sitting.id}#part-{part.field.id}")
+
+
+ROUTES = [
+    Route("/exam", offer),
+    Route("/exam", begin, methods=["POST"]),
+    Route("/exam/{sitting}", sit),
+    Route("/exam/{sitting}", save, methods=["POST"]),
+    Route("/exam/{sitting}/flag/{number}", flag, methods=["POST"]),
+    Route("/exam/{sitting}/read/{part}", echo, methods=["POST"]),
+    Route("/exam/{sitting}/judge/{part}", judge, methods=["POST"]),
+]

@@ -1,0 +1,144 @@
+"""A paper that was handed in: marks, what was said of each part, what to practise."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+
+from quizgen.marking.options import Options
+from quizgen.marking.verdict import Verdict
+from quizgen.paper.marking import Marker, PartResult, in_quarters
+from quizgen.practice.boxes import joined
+from quizgen.web.made import Made, MadePaper, MadePart
+from quizgen.web.store import Seen
+
+
+@dataclass(frozen=True)
+class Marked:
+    """One part of a paper that was handed in."""
+
+    part: MadePart
+    result: PartResult
+    own: float | None
+    """The share of its points that the learner gave it, where a person has to decide."""
+
+    @property
+    def verdict(self) -> Verdict:
+        """What the checker says."""
+        return self.result.verdict
+
+    @property
+    def marks(self) -> Fraction | None:
+        """Its marks; None while nobody has decided."""
+        if self.result.blank:
+            return Fraction(0)
+        if self.result.marks is None and self.own is not None:
+            return in_quarters(Fraction(str(self.own)) * self.result.points)
+        return self.result.marks
+
+    @property
+    def status(self) -> str:
+        """``blank``, ``open``, ``judged`` or the verdict."""
+        if self.result.status == "open":
+            return "open" if self.own is None else "judged"
+        return self.result.status
+
+
+@dataclass(frozen=True)
+class Question:
+    """One question of a paper that was handed in."""
+
+    made: Made
+    parts: tuple[Marked, ...]
+
+    @property
+    def marks(self) -> Fraction:
+        """Marks so far."""
+        return sum((part.marks or Fraction(0) for part in self.parts), Fraction(0))
+
+    @property
+    def points(self) -> Fraction:
+        """Marks that can be had."""
+        return sum((part.result.points for part in self.parts), Fraction(0))
+
+    @property
+    def weak(self) -> bool:
+        """Whether it is worth practising."""
+        return self.marks < self.points
+
+
+@dataclass(frozen=True)
+class Results:
+    """A paper that was handed in."""
+
+    questions: tuple[Question, ...]
+
+    @property
+    def marks(self) -> Fraction:
+        """Marks so far."""
+        return sum((question.marks for question in self.questions), Fraction(0))
+
+    @property
+    def points(self) -> Fraction:
+        """Marks that can be had."""
+        return sum((question.points for question in self.questions), Fraction(0))
+
+    @property
+    def to_judge(self) -> int:
+        """Sentences that nobody has decided on."""
+        return sum(part.status == "open" for q in self.questions for part in q.parts)
+
+    def mistakes(self) -> list[tuple[str, list[Made]]]:
+        """What was said of wrong parts, with the questions, those of most questions first."""
+        found: dict[str, list[Made]] = {}
+        for question in self.questions:
+            for part in question.parts:
+                graded = part.status in {"wrong", "partial"} and part.verdict.note
+                if graded and question.made not in found.setdefault(part.verdict.message, []):
+                    found[part.verdict.message].append(question.made)
+        return sorted(found.items(), key=lambda one: -len(one[1]))
+
+
+def marked(paper: MadePaper, answers: Mapping[str, list[str]], own: Mapping[str, float]) -> Results:
+    """Mark a paper.
+
+    Parameters
+    ----------
+    paper : MadePaper
+    answers : mapping
+        Part to what stands in its fields.
+    own : mapping
+        Part to the share that the learner gave it.
+    """
+    return Results(tuple(_question(item, answers, own) for item in paper.items))
+
+
+def _question(item: Made, answers: Mapping[str, list[str]], own: Mapping[str, float]) -> Question:
+    marker = Marker(item.key, Options(item.wanted.lang))
+    parts = []
+    for part, keyed in zip(item.parts, item.key.parts, strict=True):
+        field = part.field
+        typed = joined(field.control, answers.get(field.id, ()), field.marks)
+        parts.append(Marked(part, marker.mark(keyed, typed), own.get(field.id)))
+    return Question(item, tuple(parts))
+
+
+def outcomes(paper: MadePaper, answers: Mapping[str, list[str]]) -> tuple[Seen, ...]:
+    """How the parts went, for what to practise next; blank ones were not right."""
+    now = time.time()
+    return tuple(
+        Seen(
+            question.made.wanted.template,
+            question.made.topic,
+            part.part.label,
+            part.verdict.note if part.status in {"wrong", "partial"} else "",
+            part.verdict.verdict == "correct",
+            part.verdict.verdict == "correct",
+            now,
+        )
+        for question in marked(paper, answers, {}).questions
+        for part in question.parts
+        if part.status != "open"
+    )

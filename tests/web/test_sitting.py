@@ -1,0 +1,197 @@
+"""Sitting an exam over its addresses."""
+
+from __future__ import annotations
+
+import html
+import re
+import time
+
+import pytest
+from sqlalchemy import update
+
+from quizgen.bank.folder import builtin
+from quizgen.paper.key import key_of
+from quizgen.paper.paper import rebuild
+from quizgen.web.store.tables import SITTING
+
+
+def shown(page: str) -> str:
+    return html.unescape(" ".join(re.sub(r"<[^>]*>", " ", page).split()))
+
+
+@pytest.fixture(scope="module")
+def paper_of():
+    made = {}
+
+    def of(page: str):
+        code = re.search(r"<code>([\w.-]+-both-[0-9a-f]{6})</code>", page)[1]
+        return made.setdefault(code, rebuild(builtin(), code, figures=False))
+
+    return of
+
+
+@pytest.fixture
+def exam(client, token):
+    """A short exam that has begun: its address and page."""
+
+    def begun(**how: str):
+        sent = {"token": token, "blueprint": "trial", "clock": "1", **how}
+        page = client.post("/exam", data=sent)
+        assert page.status_code == 200, page.text
+        return page.url.path, page.text
+
+    return begun
+
+
+def typed(paper) -> dict[str, list[str]]:
+    """The printed answers, a field for each value, as a learner puts them into the page."""
+    found = {}
+    for item in paper.items:
+        question, key = item.questions[0], item.keys[0]
+        for part, spec, solved in zip(question.parts, key.specs, key.solution.parts, strict=True):
+            control = part.field.control
+            answer = solved.answer
+            if control.form == "pairs":
+                values = [spec.pairs[mark] for mark, _ in part.field.options]
+            elif control.form == "many":
+                values = re.findall(r"[A-Z]", answer)
+            elif control.named:
+                values = [piece.split("=", 1)[1].strip() for piece in answer.split(";")]
+            elif control.boxes:
+                values = [piece.strip(" ()") for piece in answer.split(";")]
+            elif control.form == "truth":
+                values = [answer.lower()]
+            elif control.form == "order":
+                values = answer.split()
+            else:
+                values = [answer]
+            found[part.field.id] = values
+    return found
+
+
+def body(token, answers, **more):
+    sent = {"token": token, **more}
+    for part, values in answers.items():
+        sent[f"on-{part}"] = "1"
+        sent[f"a-{part}"] = values
+    return sent
+
+
+def test_printed_answers_give_all_points_that_a_machine_gives(client, token, exam, paper_of):
+    at, page = exam()
+    paper = paper_of(page)
+    done = client.post(at, data=body(token, typed(paper), do="hand-in"))
+    key = key_of(paper)
+    sentences = {p.id for q in key.questions for p in q.parts if p.spec["kind"] == "text"}
+    wrong = re.findall(
+        r'id="part-(\w+)">(?:(?!id="part-).)*?<div class="verdict (?!correct)(\w+)"',
+        done.text,
+        re.DOTALL,
+    )
+    assert {part for part, _ in wrong} == sentences
+    assert "of 10 points" in shown(done.text)
+
+
+def test_what_was_saved_is_there_after_a_reload_and_in_another_language(
+    client, token, exam, paper_of
+):
+    at, page = exam()
+    answers = typed(paper_of(page))
+    part = next(name for name, values in answers.items() if len(values) > 1)
+    kept = client.post(
+        at, data=body(token, {part: answers[part]}), headers={"accept": "application/json"}
+    )
+    assert kept.json() == {"kept": True}
+    for lang in ("bn", "en"):
+        client.post("/settings", data={"token": token, "lang": lang, "back": at})
+        again = client.get(at).text
+        for value in answers[part]:
+            assert f'value="{html.escape(value)}"' in again or f"selected>{value}<" in again
+
+
+def test_parts_that_are_not_sent_keep_what_they_have(client, token, exam, paper_of):
+    at, page = exam()
+    (first, second) = list(typed(paper_of(page)).items())[:2]
+    client.post(at, data=body(token, dict([first])))
+    client.post(at, data=body(token, dict([second])))
+    client.post(at, data=body(token, {second[0]: []}))
+    done = shown(client.post(at, data={"token": token, "do": "hand-in"}).text)
+    assert "Right." in done
+
+
+def test_no_solution_before_it_is_handed_in_and_no_change_after(client, token, exam, paper_of, app):
+    at, page = exam()
+    assert 'class="result"' not in page
+    assert "verdict" not in page
+    answers = typed(paper_of(page))
+    client.post(at, data={"token": token, "do": "hand-in"})
+    late = client.post(at, data=body(token, answers), headers={"accept": "application/json"})
+    assert (late.status_code, late.json()) == (409, {"kept": False})
+    assert "0 of 10 points" in shown(client.get(at).text)
+
+
+def test_the_clock_is_the_servers(client, token, exam, app):
+    at, _ = exam()
+    name = at.rsplit("/", 1)[1]
+    with app.state.site.store.engine.begin() as connection:
+        connection.execute(
+            update(SITTING).where(SITTING.c.id == name).values(begun=time.time() - 86400)
+        )
+    late = client.post(at, data=body(token, {"1": ["1"]}), headers={"accept": "application/json"})
+    assert late.status_code == 409
+    assert "Results" in client.get(at).text
+
+
+def test_a_pause_stops_the_clock_where_it_is_allowed(client, token, exam, app):
+    at, _ = exam(pauses="1")
+    store, learner = app.state.site.store.sittings, app.state.site.store.learner().id
+    name = at.rsplit("/", 1)[1]
+    assert "The exam rests" in client.post(at, data={"token": token, "do": "rest"}).text
+    assert store.find(learner, name).ends is None
+    refused = client.post(
+        at, data=body(token, {"1": ["1"]}), headers={"accept": "application/json"}
+    )
+    assert refused.status_code == 409
+    assert "The exam rests" not in client.post(at, data={"token": token, "do": "go-on"}).text
+    assert store.find(learner, name).rested > 0
+    strict, _ = exam()
+    assert "The exam rests" not in client.post(strict, data={"token": token, "do": "rest"}).text
+
+
+def test_a_flag_comes_and_goes(client, token, exam):
+    at, _ = exam()
+    assert 'class="flagged"' in client.post(f"{at}/flag/2", data={"token": token}).text
+    assert 'class="flagged"' not in client.post(f"{at}/flag/2", data={"token": token}).text
+    assert client.post(f"{at}/flag/77", data={"token": token}).status_code == 404
+
+
+def test_the_same_paper_by_its_code(client, token, exam):
+    _, page = exam()
+    code = re.search(r"<code>([\w.-]+)</code>", page)[1]
+    again = client.post("/exam", data={"token": token, "code": code})
+    assert code in again.text
+    stem = re.findall(r'<div class="stem">.*?</div>', page, re.DOTALL)
+    assert re.findall(r'<div class="stem">.*?</div>', again.text, re.DOTALL) == stem
+
+
+@pytest.mark.parametrize(
+    ("sent", "said"),
+    [
+        ({"code": "mock-1-both-ffffff"}, "not the code of a paper"),
+        ({"code": "../../etc/passwd"}, "not the code of a paper"),
+        ({"blueprint": "pyproject.toml"}, "cannot be made"),
+        ({"blueprint": "optics", "minutes": "1"}, "cannot be made"),
+    ],
+)
+def test_a_paper_that_cannot_be_made_is_said(client, token, sent, said):
+    assert said in client.post("/exam", data={"token": token, **sent}).text
+
+
+def test_two_hands_hand_in_once(client, token, exam, app):
+    at, _ = exam()
+    site = app.state.site
+    before = len(site.store.seen(site.store.learner().id))
+    sitting = site.store.sittings.find(site.store.learner().id, at.rsplit("/", 1)[1])
+    assert site.store.sittings.hand_in(sitting, ())
+    assert not site.store.sittings.hand_in(sitting, ())
+    assert len(site.store.seen(site.store.learner().id)) == before
