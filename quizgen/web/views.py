@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from functools import cache
 from typing import Any
 
@@ -10,7 +11,7 @@ from markupsafe import Markup
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 
-from quizgen.locale import FIRST, in_script, known, language, languages, line_heights, table
+from quizgen.locale import FIRST, in_script, known, language, languages, line_heights, marks, table
 from quizgen.web.guard import form_token
 from quizgen.web.site import Site
 
@@ -74,6 +75,7 @@ def page(request: Request, layout: str, status: int = 200, **content: Any) -> Re
         .render(
             lang=lang,
             say=words,
+            points=lambda count: marks(Fraction(str(count)), lang),
             site=site,
             here=request.url.path,
             token=form_token(site.settings.token),

@@ -68,6 +68,7 @@ class Workers:
         """
         found = await self._found(wanted)
         assert isinstance(found, MadePaper)  # noqa: S101 - what was asked for
+        self._kept[WantedPaper(wanted.lang, found.code)] = found
         return found
 
     async def _found(self, wanted: Wanted | WantedPaper) -> Made | MadePaper:
