@@ -177,7 +177,8 @@ def _answers(printed: str) -> list[str]:
     units = {"mm": "millimetres", "px": "pixels", "m": "metres", "s": "seconds", "ms": "milliseconds", "µm": "micrometres", "lm": "lumens",
              "mW": "milliwatts", "B": "bytes", "dB": "decibels", "%": "percent",
              "e⁻": "electrons", "bit": "bits", "stop": "stops",
-             "eV": "electronvolts", "nm": "nanometres"}  # fmt: skip
+             "eV": "electronvolts", "nm": "nanometres",
+             "Gbit/s": "gigabits per second", "MB/s": "megabytes per second"}  # fmt: skip
     words = re.sub(r"(?<=[\d)]) (\S+?)(?=$|;)", lambda m: f" {units[m[1]]}", exact)
     bangla = exact.translate(str.maketrans("0123456789", "০১২৩৪৫৬৭৮৯"))
     bare = re.sub(r"(?<=[\d)]) (\S+?)(?=$|;)", "", exact)
