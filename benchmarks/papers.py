@@ -1,6 +1,6 @@
 """What a paper costs: ``uv run python benchmarks/papers.py``.
 
-Fifteen questions with seven matplotlib figures; HTML and PDF, questions and solutions, and the key.
+Fifteen questions with seven figures; HTML and PDF, questions and solutions, and the key.
 Prints CPU seconds and megabytes per paper for n = 1, 10, 100 distinct papers (cold process and
 warm), figures, typesetting and drawing apart, and draws per second with all trap checks. Timings
 are CPU time of this process; compare ratios, the machine is shared.

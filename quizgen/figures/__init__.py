@@ -118,11 +118,12 @@ def _render(name: str, items: tuple[tuple[str, float], ...], quiz: bool, lang: s
 
 @lru_cache(maxsize=256)
 def _body(name: str, items: tuple[tuple[str, float], ...], quiz: bool) -> tuple[str, float, float]:
-    from quizgen.figures._svg import body
+    from quizgen.figures._canvas import Canvas
     from quizgen.figures._table import figure_module
 
-    module = figure_module(name)
-    return body(lambda figure: module.draw(figure, dict(items), quiz=quiz))
+    canvas = Canvas()
+    figure_module(name).draw(canvas, dict(items), quiz=quiz)
+    return canvas.inside(), round(canvas.width, 2), round(canvas.height, 2)
 
 
 __all__ = ["Figure", "Parameter", "in_words", "parameters", "render"]

@@ -1,21 +1,15 @@
-"""A pen that works in points and leaves a handful of artists on a matplotlib figure.
-
-Strokes of one part in one style become one compound path. A figure of about ten artists is drawn
-in 2-3 ms; one made of axes, ticks and texts takes ten times as long.
-"""
+"""A pen that works in points; strokes of one part in one style become one compound path."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from math import cos, hypot, pi, sin
 
 import numpy as np
-from matplotlib.figure import Figure
-from matplotlib.patches import PathPatch
-from matplotlib.path import Path
-from matplotlib.transforms import Affine2D, Transform
 
+from quizgen.figures import _canvas
+from quizgen.figures._canvas import Canvas, Style
 from quizgen.figures._letters import outline
 
 Point = tuple[float, float]
@@ -27,15 +21,6 @@ LABEL = 10.5
 
 _HEAD, _HALF = 7.0, 2.4
 _CIRCLE = [(cos(2 * pi * i / 24), sin(2 * pi * i / 24)) for i in range(24)]
-
-
-@dataclass(frozen=True, slots=True)
-class Style:
-    """How a part is painted: line width in points (0 fills instead), colour, dashes."""
-
-    width: float = 0.0
-    colour: str = "#000000"
-    dashes: tuple[float, ...] = ()
 
 
 INK = Style()
@@ -73,15 +58,15 @@ class Pen:
 
     def line(self, part: str, points: Sequence[Point] | np.ndarray, style: Style = LINE) -> None:
         """Draw a polyline."""
-        codes = np.full(len(points), Path.LINETO, np.uint8)
-        codes[0] = Path.MOVETO
+        codes = np.full(len(points), _canvas.LINE, np.uint8)
+        codes[0] = _canvas.MOVE
         self._add(part, style, np.asarray(points, float), codes)
 
     def area(self, part: str, points: Sequence[Point] | np.ndarray, style: Style = SHADE) -> None:
         """Fill a polygon, or outline it if the style is a line."""
         closed = np.vstack([points, points[:1]])
-        codes = np.full(len(closed), Path.LINETO, np.uint8)
-        codes[0], codes[-1] = Path.MOVETO, Path.CLOSEPOLY
+        codes = np.full(len(closed), _canvas.LINE, np.uint8)
+        codes[0], codes[-1] = _canvas.MOVE, _canvas.CLOSE
         self._add(part, style, closed, codes)
 
     def dot(self, part: str, at: Point, radius: float = 2.2, style: Style = INK) -> None:
@@ -167,49 +152,25 @@ class Pen:
             x = at[0] + shift
             self.line("break", [(x - 2.5, at[1] - 5), (x + 2.5, at[1] + 5)], LINE)
 
-    def onto(self, figure: Figure, background: str | None = None) -> None:
-        """Size a figure and put everything on it, in the order of drawing, labels last.
+    def onto(self, canvas: Canvas, background: str | None = None) -> None:
+        """Size a canvas and put everything on it, in the order of drawing, labels last.
 
         Parameters
         ----------
-        figure : matplotlib.figure.Figure
-            An empty figure.
+        canvas : Canvas
+            An empty canvas, or one with pictures.
         background : str, optional
             Colour of the paper; without it the figure is transparent.
         """
-        figure.set_size_inches(self.width / 72, self.height / 72)
-        figure.patch.set_visible(background is not None)
-        figure.patch.set_facecolor(background or "none")
-        points_to_display = Affine2D().scale(1 / 72) + figure.dpi_scale_trans
+        canvas.size(self.width, self.height, background)
         for (part, style), pieces in sorted(self.paths.items(), key=_is_label):
-            figure.add_artist(_artist(part, style, _compound(pieces), points_to_display))
-        if self.labels:
-            figure.artists[-1].set_label("\n".join(self.labels))
+            points, codes = zip(*pieces, strict=True)
+            canvas.path(part, style, np.concatenate(points), np.concatenate(codes))
+        canvas.labels = tuple(self.labels)
 
 
 def _is_label(item: tuple[tuple[str, Style], object]) -> bool:
     return item[0][0] == "labels"
-
-
-def _compound(pieces: Iterable[tuple[np.ndarray, np.ndarray]]) -> Path:
-    points, codes = zip(*pieces, strict=True)
-    return Path(np.round(np.concatenate(points), 2), np.concatenate(codes))
-
-
-def _artist(part: str, style: Style, path: Path, transform: Transform) -> PathPatch:
-    filled = style.width == 0
-    patch = PathPatch(
-        path,
-        transform=transform,
-        facecolor=style.colour if filled else "none",
-        edgecolor="none" if filled else style.colour,
-        linewidth=style.width,
-        linestyle=(0, style.dashes) if style.dashes else "solid",
-        capstyle="butt",
-        joinstyle="round",
-    )
-    patch.set_gid(f"part-{part}")
-    return patch
 
 
 def text_width(text: str, size: float = LABEL) -> float:

@@ -10,19 +10,18 @@ from quizgen.png import encode
 
 if TYPE_CHECKING:
     import numpy as np
-    from matplotlib.figure import Figure
     from numpy.typing import NDArray
+
+    from quizgen.figures._canvas import Canvas
 
 Box = tuple[float, float, float, float]
 LETTERS = "ABCD"
 
 
-def place(figure: Figure, pen: Pen, codes: NDArray[np.uint8], box: Box) -> None:
+def place(canvas: Canvas, pen: Pen, codes: NDArray[np.uint8], box: Box) -> None:
     """Put a photograph into a box of the figure and frame it."""
-    from quizgen.figures._picture import Picture
-
     left, low, wide, high = box
-    figure.add_artist(Picture(encode(codes), box))
+    canvas.picture(encode(codes), box)
     corners = [(left, low), (left + wide, low), (left + wide, low + high), (left, low + high)]
     pen.area("frames", corners, THIN)
 

@@ -29,8 +29,7 @@ from quizgen.figures import (
 )
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
+    from quizgen.figures._canvas import Canvas
     from quizgen.figures._parameters import Parameter, Values
 
 
@@ -48,8 +47,8 @@ class FigureModule(Protocol):
     DARK: str
     """``"invert"`` for line art on nothing, ``"keep"`` for pictures on white."""
 
-    def draw(self, figure: Figure, values: Values, *, quiz: bool) -> None:
-        """Draw on an empty matplotlib ``Figure``: symbols and digits only."""
+    def draw(self, canvas: Canvas, values: Values, *, quiz: bool) -> None:
+        """Draw on an empty ``Canvas``: symbols and digits only."""
         ...
 
     def alt(self, values: Values, lang: str, *, quiz: bool) -> str:

@@ -9,10 +9,9 @@ from quizgen.figures._parameters import Parameter, Values
 from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from quizgen.camera.camera import Camera
     from quizgen.camera.scene import Colour, Scene, Thing
+    from quizgen.figures._canvas import Canvas
 
 DARK = "keep"
 
@@ -75,7 +74,7 @@ CAPTIONS: Mapping[str, str] = {
 """What the artefact comes from, in symbols."""
 
 
-def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
+def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, leave out the symbols of the cause."""
     from quizgen.camera import Camera, simulate
     from quizgen.camera.filters import everywhere_alike
@@ -91,10 +90,10 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
         ideal = simulate(scene, Camera(gamma="srgb"))
         with_it = simulate(scene, camera, question="artefacts")
     for left, photo in ((_GAP, ideal), (2 * _GAP + wide, with_it)):
-        place(figure, pen, photo.pixels(), (left, 2, wide, high))
+        place(canvas, pen, photo.pixels(), (left, 2, wide, high))
     if not quiz:
         pen.label((2 * _GAP + 1.5 * wide, pen.height - 8), CAPTIONS[kind])
-    pen.onto(figure, background="#ffffff")
+    pen.onto(canvas, background="#ffffff")
 
 
 def photographed(kind: str, variant: int, way: int = 0) -> tuple[Scene, Camera]:

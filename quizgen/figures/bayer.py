@@ -13,9 +13,8 @@ from quizgen.figures._parameters import ABSENT, Parameter, Values, require
 from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from quizgen.figures._pen import Pen, Style
+    from quizgen.figures._canvas import Canvas, Style
+    from quizgen.figures._pen import Pen
 
 DARK = "invert"
 
@@ -50,7 +49,7 @@ _PAPER = {"R": "#fbdcdc", "G": "#dcf2dc", "B": "#dce4fb"}
 _MARGIN = 8.0
 
 
-def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
+def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, leave out the arrows and the results.
 
     Raises
@@ -75,7 +74,7 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
         _arrows(pen, values, cell)
     for row, text in enumerate(reversed(results)):
         pen.label((pen.width / 2, 11 + 16 * row), text, size=9.5)
-    pen.onto(figure)
+    pen.onto(canvas)
 
 
 def _check(values: Values) -> None:
@@ -170,7 +169,7 @@ def _square(pen: Pen, values: Values, x: float, y: float, cell: float) -> list[t
 
 
 def _site(pen: Pen, values: Values, x: int, y: int, cell: float) -> None:
-    from quizgen.figures._pen import Style
+    from quizgen.figures._canvas import Style
 
     colour = letter(values, x, y)
     square = _square(pen, values, x, y, cell)
@@ -179,7 +178,7 @@ def _site(pen: Pen, values: Values, x: int, y: int, cell: float) -> None:
 
 def _hatch(pen: Pen, values: Values, x: int, y: int, cell: float) -> None:
     """Strokes in two opposite corners, away from the letter: rising for red, falling for blue."""
-    from quizgen.figures._pen import Style
+    from quizgen.figures._canvas import Style
 
     colour = letter(values, x, y)
     if colour == "G":
@@ -212,14 +211,14 @@ def _site_label(pen: Pen, values: Values, x: int, y: int, cell: float) -> None:
 
 
 def _mark(pen: Pen, values: Values, cell: float, style: Style) -> None:
-    from quizgen.figures._pen import Style as Stroke
+    from quizgen.figures._canvas import Style as Stroke
 
     square = _square(pen, values, values["x"], values["y"], cell)
     pen.area("marked", square, Stroke(style.width + 0.4))
 
 
 def _arrows(pen: Pen, values: Values, cell: float) -> None:
-    from quizgen.figures._pen import Style
+    from quizgen.figures._canvas import Style
 
     x0, y0 = int(values["x"]), int(values["y"])
     foot = _foot(pen, values, cell)

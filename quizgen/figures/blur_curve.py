@@ -13,8 +13,7 @@ from quizgen.figures._parameters import ABSENT, Parameter, Values, require
 from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
+    from quizgen.figures._canvas import Canvas
     from quizgen.figures._pen import Pen, Point
 
 DARK = "invert"
@@ -46,7 +45,7 @@ def _reach(values: Values, number: str, diameter: float) -> tuple[float, float]:
     return s / (1 + share), s / (1 - share) if share < 1 else inf
 
 
-def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
+def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, mark neither the distance in focus nor the limits."""
     from quizgen.figures._pen import Pen
 
@@ -61,7 +60,7 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
         _limit(pen, values, told=told)
     if told:
         pen.label(((_LEFT + _RIGHT) / 2 + 20, 186), _answers(values), size=9.5)
-    pen.onto(figure)
+    pen.onto(canvas)
 
 
 def _numbers(values: Values) -> tuple[str, ...]:
@@ -92,7 +91,7 @@ def _axes(pen: Pen, values: Values) -> None:
 
 def _ticks(pen: Pen, values: Values, axis: str, length: float) -> None:
     """Draw a line every half tick across the whole plot, and a number at every tick."""
-    from quizgen.figures._pen import Style
+    from quizgen.figures._canvas import Style
 
     end, half = values[axis], _step(values[axis]) / 2
     for count in range(1, round(end / half) + 1):

@@ -15,8 +15,7 @@ from quizgen.figures._parameters import Parameter, Values
 from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
+    from quizgen.figures._canvas import Canvas
     from quizgen.figures._pen import Pen
 
 DARK = "invert"
@@ -42,7 +41,7 @@ class _Layout:
     to_scale: bool
 
 
-def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
+def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, hide the diameters of aperture and blur disc."""
     from quizgen.figures._pen import Pen
 
@@ -52,7 +51,7 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
     _sensor(pen, place)
     _axis(pen, place)
     _names(pen, place, _labels(values, quiz=quiz))
-    pen.onto(figure)
+    pen.onto(canvas)
 
 
 def _disc(values: Values) -> float:
@@ -100,7 +99,8 @@ def _lens(pen: Pen) -> None:
 
 
 def _sensor(pen: Pen, place: _Layout) -> None:
-    from quizgen.figures._pen import LINE, Style
+    from quizgen.figures._canvas import Style
+    from quizgen.figures._pen import LINE
 
     pen.line("sensor", [(place.sensor, _AXIS - 52), (place.sensor, _AXIS + 52)], LINE)
     disc = [(place.sensor, _AXIS - place.half_disc), (place.sensor, _AXIS + place.half_disc)]

@@ -9,10 +9,9 @@ from quizgen.figures._parameters import Parameter, Values, require
 from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from quizgen.camera.camera import Camera
     from quizgen.camera.scene import Scene
+    from quizgen.figures._canvas import Canvas
     from quizgen.figures._pen import Pen
 
 DARK = "keep"
@@ -74,7 +73,7 @@ def photographed(values: Values) -> tuple[Scene, Camera]:
     return scene, camera
 
 
-def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
+def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, show their numbers without the f-numbers."""
     from quizgen.camera import pictures
     from quizgen.camera.filters import everywhere_alike
@@ -90,12 +89,12 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
         photos = pictures.at_f_numbers(scene, camera, f_numbers(values))
     for place, photo in enumerate(photos):
         left = _GAP + place * (wide + _GAP)
-        put(figure, pen, photo.pixels(), (left, _BELOW, wide, high))
+        put(canvas, pen, photo.pixels(), (left, _BELOW, wide, high))
         mark, number = _NUMBERS[place], given(f_numbers(values)[place])
         text = f"{{{mark}}}" if quiz else f"{{{mark}:}}  f{{/{number}}}"
         pen.label((left + wide / 2, pen.height - 8), text)
         _distances(pen, values, left, wide)
-    pen.onto(figure, background="#ffffff")
+    pen.onto(canvas, background="#ffffff")
 
 
 def _check(values: Values) -> None:

@@ -15,9 +15,9 @@ from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
     import numpy as np
-    from matplotlib.figure import Figure
 
-    from quizgen.figures._pen import Pen, Style
+    from quizgen.figures._canvas import Canvas, Style
+    from quizgen.figures._pen import Pen
 
 DARK = "invert"
 
@@ -39,7 +39,7 @@ _FOOT = 24.0
 _SAMPLES = 33
 
 
-def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
+def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, leave the coefficients out.
 
     Raises
@@ -57,7 +57,7 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
         _grid(pen, grid, (middle, 10 + foot + _SIDE / 2))
         if not quiz:
             _caption(pen, grid, middle)
-    pen.onto(figure)
+    pen.onto(canvas)
 
 
 def _sketched(values: Values) -> list[Values]:

@@ -12,10 +12,9 @@ from quizgen.figures._parameters import Parameter, Values, require
 from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from quizgen.camera.camera import Camera
     from quizgen.camera.scene import Scene
+    from quizgen.figures._canvas import Canvas
     from quizgen.figures._pen import Pen
 
 DARK = "keep"
@@ -58,20 +57,20 @@ def share(values: Values, distance: float) -> float:
     return float(fall_off(np.array(pixels), View(*photographed(values))))
 
 
-def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
+def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, leave out the share at the mark."""
     from quizgen.figures._pen import Pen
 
     require("fall_off", values["r"] <= values["extent"], "r must lie inside the picture")
     pen = Pen(height=176.0)
-    _photo(figure, pen, values)
+    _photo(canvas, pen, values)
     _axes(pen, values)
     _curve(pen, values)
     _mark(pen, values, told=not quiz)
-    pen.onto(figure, background="#ffffff")
+    pen.onto(canvas, background="#ffffff")
 
 
-def _photo(figure: Figure, pen: Pen, values: Values) -> None:
+def _photo(canvas: Canvas, pen: Pen, values: Values) -> None:
     from quizgen.camera import simulate
     from quizgen.camera.filters import everywhere_alike
     from quizgen.figures._pen import RED
@@ -80,7 +79,7 @@ def _photo(figure: Figure, pen: Pen, values: Values) -> None:
     scene, camera = photographed(values)
     with everywhere_alike():
         photo = simulate(scene, camera, question="vignetting")
-    place(figure, pen, photo.pixels(), _PHOTO)
+    place(canvas, pen, photo.pixels(), _PHOTO)
     left, low, wide, high = _PHOTO
     middle = low + high / 2
     pen.arrow("path", (left + wide / 2, middle), (left + wide, middle), RED)

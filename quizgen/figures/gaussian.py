@@ -10,9 +10,8 @@ from quizgen.figures._parameters import ABSENT, Parameter, Values, require
 from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from quizgen.figures._pen import Pen, Point, Style
+    from quizgen.figures._canvas import Canvas, Style
+    from quizgen.figures._pen import Pen, Point
 
 DARK = "invert"
 
@@ -37,7 +36,7 @@ _SPAN = 4.4
 """The axis reaches this many of the largest standard deviations to each side."""
 
 
-def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
+def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, hide the density at the mean and the probability.
 
     Raises
@@ -57,7 +56,7 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
     if values["k"]:
         _probability_label(pen, values, quiz=quiz)
     _peak_labels(pen, values, quiz=quiz)
-    pen.onto(figure)
+    pen.onto(canvas)
 
 
 def _sigmas(values: Values) -> list[float]:
@@ -155,7 +154,7 @@ def _curves(pen: Pen, values: Values) -> None:
 
 
 def _style(number: int) -> Style:
-    from quizgen.figures._pen import Style as Stroke
+    from quizgen.figures._canvas import Style as Stroke
 
     return Stroke(1.4, dashes=((), (5.0, 2.5), (1.6, 2.0))[number])
 

@@ -11,9 +11,8 @@ from quizgen.figures._parameters import Parameter, Values, require
 from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from quizgen.camera.scene import Image
+    from quizgen.figures._canvas import Canvas
     from quizgen.figures._pen import Pen
 
 DARK = "keep"
@@ -73,7 +72,7 @@ def scene() -> Image:
         return simulate(Scene(_WIDE, _HIGH, things), Camera()).values
 
 
-def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
+def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, show numbers without the edits."""
     from quizgen.figures._pen import WIDTH, Pen
 
@@ -84,10 +83,10 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
     pen = Pen(WIDTH, 2 * cell)
     for place, edit in enumerate(edit_order(values["order"])):
         corner = (_GAP + (place % 2) * (wide + _GAP), (1 - place // 2) * cell)
-        _photo(figure, pen, _edited(edit, values), (*corner, wide, high))
+        _photo(canvas, pen, _edited(edit, values), (*corner, wide, high))
         middle = (corner[0] + wide / 2, corner[1] + cell - 10)
         pen.label(middle, _caption(values, place, edit, quiz=quiz), size=9.5)
-    pen.onto(figure, background="#ffffff")
+    pen.onto(canvas, background="#ffffff")
 
 
 def _edited(edit: str, values: Values) -> Image:
@@ -97,14 +96,14 @@ def _edited(edit: str, values: Values) -> Image:
     return table[np.floor(scene() * np.float32(255) + np.float32(0.5)).astype(int)]
 
 
-def _photo(figure: Figure, pen: Pen, image: Image, where: tuple[float, ...]) -> None:
+def _photo(canvas: Canvas, pen: Pen, image: Image, where: tuple[float, ...]) -> None:
     from quizgen.camera import pictures
     from quizgen.camera.codes import histogram
     from quizgen.figures._photo import bars, place
 
     left, low, wide, high = where
     codes = pictures.codes(image)[..., 0]
-    place(figure, pen, codes, (left, low + _TICKS + _HISTOGRAM + 3, wide, high))
+    place(canvas, pen, codes, (left, low + _TICKS + _HISTOGRAM + 3, wide, high))
     counts = [float(count) for count in histogram(codes[..., None], BINS, top=255)]
     bars(pen, counts, (left, low + _TICKS, wide, _HISTOGRAM))
     pen.label((left, low + 5), "0", "l", 8.5)

@@ -11,8 +11,7 @@ from quizgen.figures._parameters import Parameter, Values
 from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
+    from quizgen.figures._canvas import Canvas
     from quizgen.figures._scene import Colour
 
 DARK = "keep"
@@ -54,11 +53,10 @@ def edit_order(order: float) -> tuple[str, ...]:
     return list(permutations(EDITS))[int(order)]
 
 
-def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
+def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, show numbers without the edits."""
     from quizgen.figures import _scene
     from quizgen.figures._pen import THIN, WIDTH, Pen
-    from quizgen.figures._picture import Picture
 
     wide = (WIDTH - 3 * _GAP) / 2
     high = round(wide * _scene.HEIGHT / _scene.WIDTH)
@@ -68,11 +66,11 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
         left = _GAP + (place % 2) * (wide + _GAP)
         low = (1 - place // 2) * (high + _CAPTION) + _CAPTION
         box = (left, low, wide, high)
-        figure.add_artist(Picture(_png(int(values["scene"]), palettes[edit]), box))
+        canvas.picture(_png(int(values["scene"]), palettes[edit]), box)
         frame = [(left, low), (left + wide, low), (left + wide, low + high), (left, low + high)]
         pen.area("frames", frame, THIN)
         pen.label((left + wide / 2, low - 7.5), _caption(values, place, edit, quiz=quiz))
-    pen.onto(figure, background="#ffffff")
+    pen.onto(canvas, background="#ffffff")
 
 
 def _caption(values: Values, place: int, edit: str, *, quiz: bool) -> str:

@@ -11,8 +11,7 @@ from quizgen.figures._parameters import ABSENT, Parameter, Values, require
 from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
+    from quizgen.figures._canvas import Canvas
     from quizgen.figures._pen import Pen, Point
 
 DARK = "keep"
@@ -51,7 +50,7 @@ def read(wavelength: float, *, night: bool) -> float:
     return float((scotopic if night else photopic)(wavelength))
 
 
-def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
+def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, leave out the values at the marks."""
     from quizgen.figures._pen import WIDTH, Pen
 
@@ -60,21 +59,20 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
     told = bool(marks(values)) and not quiz
     pen = Pen(height=186.0 if told else 168.0)
     log = bool(values["log"])
-    _axes(figure, pen, logarithmic=log)
+    _axes(canvas, pen, logarithmic=log)
     for night in (True, False):
         _curve(pen, night=night, logarithmic=log)
     for place, wavelength in enumerate(marks(values)):
         _mark(pen, values, place, wavelength, told=told)
         if told:
             pen.label((WIDTH * (0.3 + 0.4 * place), 177), _reading(values, place, wavelength))
-    pen.onto(figure, background="#ffffff")  # a dark page would turn the spectrum round
+    pen.onto(canvas, background="#ffffff")  # a dark page would turn the spectrum round
 
 
-def _axes(figure: Figure, pen: Pen, *, logarithmic: bool) -> None:
+def _axes(canvas: Canvas, pen: Pen, *, logarithmic: bool) -> None:
     from quizgen.figures._pen import LINE, THIN
-    from quizgen.figures._picture import Picture
 
-    figure.add_artist(Picture(_strip(), (_LEFT, _LOW - 9, _RIGHT - _LEFT, 8)))
+    canvas.picture(_strip(), (_LEFT, _LOW - 9, _RIGHT - _LEFT, 8))
     pen.line("axes", [(_LEFT, _HIGH), (_LEFT, _LOW), (_RIGHT, _LOW)], LINE)
     for wavelength in _TICKS:
         x = _x(wavelength)

@@ -11,9 +11,8 @@ from quizgen.figures._parameters import Parameter, Values
 from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from quizgen.camera.scene import Image
+    from quizgen.figures._canvas import Canvas
     from quizgen.figures._pen import Pen
 
 DARK = "keep"
@@ -65,7 +64,7 @@ def scene() -> Image:
         return simulate(Scene(_WIDE, _HIGH, things, background=grey(0.6)), Camera()).values
 
 
-def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
+def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, show numbers without the noise."""
     from quizgen.camera import pictures
     from quizgen.figures._pen import WIDTH, Pen
@@ -76,13 +75,13 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
     made = pictures.noisy(scene(), values["sigma"], values["p"], int(values["seed"]))
     for place, kind in enumerate(noise_order(values["order"])):
         left = _GAP + place * (wide + _GAP)
-        _column(figure, pen, made[KINDS.index(kind)], (left, wide, high))
+        _column(canvas, pen, made[KINDS.index(kind)], (left, wide, high))
         text = _caption(values, place, kind, quiz=quiz)
         pen.label((left + wide / 2, pen.height - 8), text, size=9.5)
-    pen.onto(figure, background="#ffffff")
+    pen.onto(canvas, background="#ffffff")
 
 
-def _column(figure: Figure, pen: Pen, image: Image, where: tuple[float, float, float]) -> None:
+def _column(canvas: Canvas, pen: Pen, image: Image, where: tuple[float, float, float]) -> None:
     from quizgen.camera import pictures
     from quizgen.camera.codes import histogram
     from quizgen.figures._photo import bars, place
@@ -90,8 +89,8 @@ def _column(figure: Figure, pen: Pen, image: Image, where: tuple[float, float, f
     left, wide, high = where
     codes = pictures.codes(image)[..., 0]
     low = _TICKS + _HISTOGRAM + _GAP
-    place(figure, pen, codes[_DETAIL].repeat(4, axis=0).repeat(4, axis=1), (left, low, wide, _ZOOM))
-    place(figure, pen, codes, (left, low + _ZOOM + _GAP, wide, high))
+    place(canvas, pen, codes[_DETAIL].repeat(4, axis=0).repeat(4, axis=1), (left, low, wide, _ZOOM))
+    place(canvas, pen, codes, (left, low + _ZOOM + _GAP, wide, high))
     counts = [float(count) for count in histogram(codes[..., None], BINS, top=255)]
     bars(pen, counts, (left, _TICKS, wide, _HISTOGRAM))
     pen.label((left, 6), "0", "l", 8.5)

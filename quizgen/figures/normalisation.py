@@ -10,9 +10,8 @@ from quizgen.figures._parameters import Parameter, Values, require
 from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from quizgen.camera.scene import Image
+    from quizgen.figures._canvas import Canvas
     from quizgen.figures._pen import Pen
 
 DARK = "invert"
@@ -58,7 +57,7 @@ def sample(low: float, high: float, share: float, seed: int) -> Image:
     return (levels / 255.0).astype(np.float32)[:, None]
 
 
-def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
+def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, leave out I_min and I_max."""
     from quizgen.camera import pictures
     from quizgen.figures._pen import Pen
@@ -74,7 +73,7 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
     pen.arrow("arrow", (_SIDE + _WIDE + 8, 70), (right - 8, 70))
     if not quiz:
         _limits(pen, values)
-    pen.onto(figure)
+    pen.onto(canvas)
 
 
 def _histogram(pen: Pen, counts: list[float], left: float, ends: tuple[str, str]) -> None:

@@ -15,8 +15,7 @@ from quizgen.figures._parameters import Parameter, Values, require
 from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
+    from quizgen.figures._canvas import Canvas
     from quizgen.figures._pen import Pen
 
 DARK = "invert"
@@ -65,7 +64,7 @@ class _Layout:
         return self.near if self.point_is_far else 1.0
 
 
-def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
+def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, hide the height of the image point.
 
     Raises
@@ -84,7 +83,7 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
         _physical(pen, place)
     _planes(pen, place)
     _names(pen, place, words, values)
-    pen.onto(figure)
+    pen.onto(canvas)
 
 
 def _check(values: Values) -> None:

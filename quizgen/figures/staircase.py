@@ -10,8 +10,7 @@ from quizgen.figures._parameters import Parameter, Values
 from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
+    from quizgen.figures._canvas import Canvas
     from quizgen.figures._pen import Pen, Point
 
 DARK = "invert"
@@ -49,7 +48,7 @@ def _at(value: float, level: float, n: int) -> Point:
     return _LEFT + (_RIGHT - _LEFT) * value, _LOW + (_HIGH - 14.0 - _LOW) * share
 
 
-def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
+def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, leave out the line without steps, n and the step."""
     from quizgen.figures._pen import BOLD, DOTTED, Pen
 
@@ -71,7 +70,7 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
         pen.dot("staircase", _at(0, 0, n))
     if jumps(values)[-1] == 1:
         pen.dot("staircase", _at(1, n - 1, n))
-    pen.onto(figure)
+    pen.onto(canvas)
 
 
 def _axes(pen: Pen, n: int) -> None:

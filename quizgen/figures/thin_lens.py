@@ -15,8 +15,7 @@ from quizgen.figures._parameters import Parameter, Values
 from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
+    from quizgen.figures._canvas import Canvas
     from quizgen.figures._pen import Pen
 
 DARK = "invert"
@@ -53,7 +52,7 @@ class _Layout:
         return 0.0 if self.image is None else self.image / self.object
 
 
-def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
+def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, hide the image distance."""
     from quizgen.figures._pen import Pen
 
@@ -67,7 +66,7 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
         _virtual_rays(pen, place, place.image)
     _arrows(pen, place)
     _measures(pen, place, values, quiz=quiz)
-    pen.onto(figure)
+    pen.onto(canvas)
 
 
 def _image_distance(values: Values) -> float | None:
@@ -145,7 +144,8 @@ def _way(start: tuple[float, float], end: tuple[float, float]) -> tuple[float, f
 
 
 def _arrows(pen: Pen, place: _Layout) -> None:
-    from quizgen.figures._pen import BOLD, Style
+    from quizgen.figures._canvas import Style
+    from quizgen.figures._pen import BOLD
 
     pen.arrow("object", place.at(-place.object, 0), place.at(-place.object, 1), BOLD)
     if place.image is not None:

@@ -12,14 +12,13 @@ from pathlib import Path
 from typing import ClassVar
 from xml.etree import ElementTree as ET
 
-import matplotlib as mpl
 import pytest
 from figure_cases import HIDDEN, REFERENCE, draws
-from matplotlib.figure import Figure as Canvas
 
 from quizgen.errors import BankError
 from quizgen.figures import _pen as pens
 from quizgen.figures import parameters, render
+from quizgen.figures._canvas import Canvas
 from quizgen.figures._letters import SUBSCRIPT, outline
 from quizgen.figures._parameters import complete
 from quizgen.figures._table import FIGURES, figure_module
@@ -129,17 +128,11 @@ def test_line_art_is_transparent_and_pictures_are_on_white(name, quiz):
     assert figure.dark == ("keep" if name in pictures else "invert")
 
 
-def test_settings_do_not_leak():
-    before = dict(mpl.rcParams)
-    render("pinhole", {"f": 3, "p_z": 7, "p_y": 2.125}, quiz=False, lang="en")
-    assert dict(mpl.rcParams) == before
-
-
 def _labels(name, values, *, quiz):
     canvas = Canvas()
     full = complete(name, parameters(name), values)
     figure_module(name).draw(canvas, full, quiz=quiz)
-    return "\n".join(str(artist.get_label()) for artist in canvas.artists)
+    return "\n".join(canvas.labels)
 
 
 @pytest.mark.parametrize("name", FIGURES)
