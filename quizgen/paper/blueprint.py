@@ -63,6 +63,7 @@ class Authored(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     figures: int = 0
     figure_kinds: int = 0
     photographs: int = 0
+    aids: dict[str, str] = {}
 
     @property
     def demanding(self) -> bool:

@@ -18,7 +18,7 @@ from quizgen.bank.levels import EXAM
 from quizgen.bank.prose import Block, CodeBlock
 from quizgen.bank.template import Template
 from quizgen.errors import BlueprintError, CodeError
-from quizgen.locale import chosen
+from quizgen.locale import chosen, word
 from quizgen.maths.notation import people
 from quizgen.outside import located
 from quizgen.paper.blueprint import Blueprint, SlotRule, named_blueprint
@@ -104,6 +104,11 @@ class Paper:
         if isinstance(said, int):
             return said
         return working_time(sum((i.questions[0].minutes for i in self.items), Fraction(0)))
+
+    def aids(self, lang: str) -> str:
+        """What may be used: what the blueprint says, else the usual."""
+        said = self.blueprint.aids
+        return said.get(lang) or said.get("en") or word(lang, "paper.aids_allowed")
 
     def title(self, lang: str) -> str:
         """Title in a language, English where the blueprint has no other."""

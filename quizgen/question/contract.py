@@ -46,12 +46,20 @@ class Control:
         learner may type all of them in one line just as well.
     named : bool
         Whether a value needs its name before it, as cells of a table do.
+    sketch : bool
+        Whether a drawing belongs to the answer.
     """
 
     form: Form
     lines: int = 1
     boxes: tuple[Box, ...] = ()
     named: bool = False
+    sketch: bool = False
+
+    @property
+    def reckoned(self) -> bool:
+        """Whether there is something to work out on the way to the answer."""
+        return self.form == "line" or bool(self.boxes and self.form == "lines")
 
     @property
     def ticked(self) -> bool:

@@ -12,6 +12,7 @@ from quizgen.locale import in_script, line_heights, marks, word
 from quizgen.paper.paper import Paper
 from quizgen.question.markup import blocks, display, inline
 from quizgen.render import fonts
+from quizgen.render.room import squares
 
 
 @cache
@@ -29,6 +30,8 @@ def _environment() -> jinja2.Environment:
         display=display,
         word=word,
         marks=marks,
+        points=lambda worth: f"{float(worth):g}",
+        squares=squares,
         svg=lambda figure: Markup(figure.svg.decode()),
     )
     return environment

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any
 
 from quizgen.locale import marks, word
 from quizgen.paper.paper import Item, Paper
 from quizgen.question.compose import Field, Part, Question
 from quizgen.question.solution import Line, Mistake, PartSolution, Solution
+from quizgen.render.room import squares
 from quizgen.render.typ import (
     blocks,
     compiled,
@@ -35,6 +37,8 @@ class _Sheet:
         """The whole document."""
         cover = self._cover()
         body = "\n\n".join(self._item(item) for item in self.paper.items)
+        if self.kind == "exam":
+            body += "\n#v(1fr)"
         return f"{self._opening()}\n{cover}\n{body}\n"
 
     def _opening(self) -> str:
@@ -54,31 +58,41 @@ class _Sheet:
         return title
 
     def _cover(self) -> str:
-        paper, main = self.paper, self.main
+        main = self.main
         head = f"#heading(level: 1)[{say(main, f'#{string(self._title(main))};')}]"
         others = [
             within(lang, f"#text(14pt, {string(self._title(lang))});") for lang in self.langs[1:]
         ]
-        total = (
-            f"{marks(paper.points, main)}, {paper.minutes} {word(main, 'paper.minutes')}, "
-            f"{len(paper.items)} {word(main, 'paper.contents')}"
-        )
-        facts = (
-            f"#facts(([{words(self.langs, 'paper.code')}], raw({string(paper.code)})), "
-            f"([{words(self.langs, 'paper.total')}], {string(total)}))"
-        )
+        facts = self._facts()
         if self.kind == "solutions":
             return "\n".join([head, *others, "#v(0.6em)", facts, *self._cited(), "#v(0.6em)"])
         lines = [
             f"#write-line([{words(self.langs, f'paper.{name}')}])"
             for name in ("name", "matriculation")
         ]
-        rules = each(self.langs, [f"#{string(word(lang, 'paper.rules'))};" for lang in self.langs])
+        rules = each(self.langs, [self._said("on_paper", lang) for lang in self.langs])
         gap = "#v(1.1em)"
         return "\n".join(
             [head, *others, gap, facts, gap, *(f"{line}\n#v(0.5em)" for line in lines), gap,
              f"#notice[{rules}]", "#v(0.8em)", self._overview(), "#pagebreak(weak: true)"]
         )  # fmt: skip
+
+    def _said(self, name: str, lang: str) -> str:
+        return f"#{string(word(lang, f'paper.{name}'))};"
+
+    def _facts(self) -> str:
+        """Code, points and minutes; before an exam also what may lie on the desk."""
+        paper, main = self.paper, self.main
+        total = (
+            f"{marks(paper.points, main)}, {paper.minutes} {word(main, 'paper.minutes')}, "
+            f"{len(paper.items)} {word(main, 'paper.contents')}"
+        )
+        rows = [("code", f"raw({string(paper.code)})"), ("total", string(total))]
+        if self.kind == "exam":
+            aids = joined(self.langs, [f"#{string(paper.aids(lang))};" for lang in self.langs])
+            rows.append(("aids", f"[{aids}]"))
+        named = [f"([{words(self.langs, f'paper.{name}')}], {value})" for name, value in rows]
+        return f"#facts({', '.join(named)})"
 
     def _cited(self) -> list[str]:
         """What the numbers beside steps are."""
@@ -90,16 +104,20 @@ class _Sheet:
     def _overview(self) -> str:
         """Table of questions and marks, with room for the marks given."""
         rows = [
-            f"[{item.number}], [{self._titles(item)}], [{float(item.points):g}], []"
+            f"[{item.number}], [{self._titles(item)}], page-of({string(item.number)}), "
+            f"[{_points(item.points)}], []"
             for item in self.paper.items
         ]
-        head = (
-            f"table.header([], [{words(self.langs, 'paper.question')}], "
-            f"[{words(self.langs[:1], 'paper.points')}], [])"
-        )
+        main, many = self.langs[:1], self.langs
+        heads = [
+            words(langs, f"paper.{name}")
+            for name, langs in (("question", many), ("page_of", main), ("points_of", main),
+                                ("reached", main))
+        ]  # fmt: skip
+        total = f"[{_points(self.paper.points)}]"
         return (
-            "#{set text(9pt); table(columns: (auto, 1fr, auto, 4em), inset: 3.5pt, "
-            f'stroke: 0.4pt + rgb("#b5bac2"), {head}, {", ".join(rows)})}}'
+            f"#overview({', '.join(f'[{head}]' for head in heads)}, "
+            f"[{words(many, 'paper.sum')}], {total}, ({', '.join(rows)}))"
         )
 
     def _titles(self, item: Item) -> str:
@@ -111,13 +129,16 @@ class _Sheet:
             picture = self._picture(item, [q.figure for q in item.questions])
         else:
             picture = self._picture(item, [k.figure for k in item.keys])
-        single = len(item.questions[0].parts) == 1
-        parts = [self._part(item, index) for index in range(len(item.questions[0].parts))]
-        body = f"#whole[{stem}\n{picture}]\n" + "\n".join(parts)
-        if self.kind == "exam" and single:
-            body = f"#part[{stem}\n{picture}\n{parts[0]}]"
+        head = f"{stem}\n{picture}"
+        count = len(item.questions[0].parts)
+        parts = [self._part(item, index) for index in range(count)]
         if self.kind == "solutions":
-            body += self._remarks(item)
+            body = "\n".join([f"#whole[{head}]", *parts]) + self._remarks(item)
+        else:
+            rooms = [_more_room(part) for part in item.questions[0].parts]
+            first = [f"#whole[{head}]"] if count > 1 else []
+            parts = parts if count > 1 else [f"#part[{head}\n{parts[0]}]"]
+            body = "\n".join([*first, *(p + r for p, r in zip(parts, rooms, strict=True))])
         worth = marks(item.points, self.main)
         return f"#question({string(item.number)}, [{self._titles(item)}], {string(worth)})[{body}]"
 
@@ -143,10 +164,26 @@ class _Sheet:
         return f"#whole[{body}\n{options}]\n{self._solution(item, index)}"
 
     def _field(self, questions: tuple[Question, ...], index: int) -> str:
+        """What stands below a part: options to tick, hints, room to work in, lines to write on."""
+        part = questions[0].parts[index]
+        control = part.field.control
         fields = [q.parts[index].field for q in questions]
         hints = [inline(f.hint, lang) for f, lang in zip(fields, self.langs, strict=True)]
         shown = f"#hint[{each(self.langs, hints)}]" if any(hints) else ""
-        return f"{self._options(questions, index)}\n{shown}\n#space({fields[0].control.lines})"
+        if control.form == "truth":
+            ways = [f"[{words(self.langs, f'ask.{way}')}]" for way in ("true", "false")]
+            return f"#truth({', '.join(ways)})"
+        below = [self._options(questions, index), shown]
+        if control.form == "pairs":
+            return "\n".join(below)
+        if control.sketch:
+            below.append(f"#sketch[{words(self.langs, 'paper.sketch')}]")
+        if control.reckoned:
+            below.append(f"#answer-line([{words(self.langs, 'paper.answer_here')}])")
+            below.append(f"#room({squares(part.points)})")
+        else:
+            below.append(f"#space({control.lines})")
+        return "\n".join(below)
 
     def _options(self, questions: tuple[Question, ...], index: int) -> str:
         fields = [q.parts[index].field for q in questions]
@@ -159,10 +196,16 @@ class _Sheet:
                 inline(getattr(f, side)[place][1], lang)
                 for f, lang in zip(fields, self.langs, strict=True)
             ]
-            box = self.kind == "exam" and fields[0].control.ticked
-            name = "tick" if box else "option"
+            name = self._row(fields[0], side)
             rows.append(f"#{name}({string(mark)}, [{joined(self.langs, texts)}])")
         return rows
+
+    def _row(self, field: Field, side: str) -> str:
+        """How a row of options looks: with a box to tick, with one for a number, or plain."""
+        if self.kind == "exam" and field.control.ticked:
+            return "tick"
+        paired = field.control.form == "pairs" and side == "options"
+        return "pair" if self.kind == "exam" and paired else "option"
 
     def _solution(self, item: Item, index: int) -> str:
         parts = [key.solution.parts[index] for key in item.keys]
@@ -213,6 +256,15 @@ class _Sheet:
         if not rows:
             return ""
         return within(solution.lang, "\n".join([_heading("mistakes", solution.lang), *rows]))
+
+
+def _points(points: Fraction) -> str:
+    return f"{float(points):g}"
+
+
+def _more_room(part: Part) -> str:
+    """What of the page is left, shared out by points."""
+    return f"#more-room({_points(part.points)})" if part.field.control.reckoned else ""
 
 
 def _reasons(part: PartSolution, lang: str) -> str:

@@ -1,0 +1,74 @@
+"""The exam as it lies on the desk: cover, room to work in, boxes."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from fractions import Fraction
+
+import pytest
+
+from quizgen.paper.blueprint import load_blueprint
+from quizgen.paper.paper import build
+from quizgen.render import html, pdf
+from quizgen.render.room import squares
+
+
+@pytest.fixture(scope="module")
+def mock(bank):
+    return build(bank, load_blueprint("mock"), 3, "en")
+
+
+@pytest.fixture(scope="module")
+def trial(bank):
+    return build(bank, load_blueprint("trial"), 3, "bn")
+
+
+@pytest.fixture(scope="module")
+def body(mock):
+    source, _ = pdf.source(mock, "exam")
+    return source.partition("#show: paper.with")[2]
+
+
+@pytest.mark.parametrize(("points", "rows"), [("0.5", 3), (1, 4), (3, 8), (6, 14), (20, 14)])
+def test_room_grows_with_the_points_up_to_half_a_page(points, rows):
+    assert squares(Fraction(points)) == rows
+
+
+def test_the_cover_has_aids_points_minutes_and_a_table(mock, body):
+    cover = body.partition("#question(")[0]
+    assert "pocket calculator" in cover
+    assert f'"100 points, {mock.minutes} min' in cover
+    assert '[#"100";]' in cover or "[100]" in cover
+    assert cover.count("page-of(") == len(mock.items)
+    assert "Reached" in cover
+
+
+def test_each_calculation_has_room_and_each_statement_two_boxes(mock, body):
+    fields = [part.field.control for item in mock.items for part in item.questions[0].parts]
+    calls = Counter(re.findall(r"#(room|more-room|answer-line|truth)[\[(]", body))
+    reckoned = sum(control.reckoned for control in fields)
+    assert reckoned > 10
+    assert calls["room"] == calls["more-room"] == calls["answer-line"] == reckoned
+    assert calls["truth"] == sum(control.form == "truth" for control in fields)
+
+
+def test_a_trial_has_a_box_to_sketch_in(trial):
+    source, _ = pdf.source(trial, "exam")
+    assert source.partition("#show: paper.with")[2].count("#sketch[") == 1
+    page = html.render(trial, "exam").decode()
+    assert page.count('class="room" style="--rows: 15"') == 1
+
+
+def test_the_page_says_how_to_type_and_printed_how_to_write(browser, mock, tmp_path):
+    file = tmp_path / "exam.html"
+    file.write_bytes(html.render(mock, "exam"))
+    page = browser.new_page()
+    page.goto(file.as_uri())
+    seen = {}
+    for medium in ("screen", "print"):
+        page.emulate_media(media=medium)
+        seen[medium] = [page.locator(f"p.{name}").is_visible() for name in ("typing", "writing")]
+        seen[medium].append(page.locator(".squares").first.is_visible())
+    page.close()
+    assert seen == {"screen": [True, False, False], "print": [False, True, True]}
