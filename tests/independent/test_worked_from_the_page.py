@@ -95,7 +95,7 @@ def test_the_page_leads_to_the_key_in_both_languages(bank, seed):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [51, 52, 53])
+@pytest.mark.parametrize("seed", [51])
 def test_the_words_of_figures_agree_with_the_page(bank, seed):
     """With all figures: a value that a figure names otherwise than the text is found."""
     both = [printed(bank, list(bank.paths), seed, lang, figures=True) for lang in LANGS]
