@@ -230,3 +230,16 @@ def sharp_zone(page: Page) -> dict[str, Any]:
     n = float(APERTURE.findall(page.parts["d"].text)[0]) * discs[0] / discs[1]
     return {"a": fine[np.argmin(np.interp(fine, xs, ys))], "b": (sharp[0], sharp[-1]),
             "c": discs[0] / 1e6, "d": n}  # fmt: skip
+
+
+@solves("vignetting-from-a-profile", figure=True)
+def profile(page: Page) -> dict[str, Any]:
+    """Curriculum X-C15: cos^4 of the angle whose tangent is r/f; the curve begins at 1."""
+    xs, ys = np.array(lines(page.drawing, "curve")[0]).T
+    floor = lines(page.drawing, "axes")[0][1][1]
+    mark = lines(page.drawing, "marks")[0][0][0]
+    read = (float(np.interp(mark, xs, ys)) - floor) / (ys[0] - floor)
+    law = math.cos(math.atan(page["r"] / page["f"])) ** 4
+    words = ("Yes", "হ্যাঁ") if abs(read - law) < 0.05 else ("No", "না,")
+    stops = -math.log2(law)
+    return {"a": read, "b": law, "c": page.parts["c"].saying(*words), "d": (stops, 1 / law)}

@@ -6,6 +6,7 @@ A page is rendered, read back as text (``printed_page``), worked out from the fo
 
 from __future__ import annotations
 
+import ast
 import json
 import tomllib
 from collections.abc import Iterator
@@ -178,3 +179,13 @@ def test_every_template_is_worked_out_or_listed_with_its_reason(bank, name):
 
 def test_no_solver_is_left_over(bank):
     assert {*SOLVERS, *LISTED} <= set(bank.paths)
+
+
+@pytest.mark.parametrize("path", sorted(HERE.glob("[bhp]*.py")), ids=lambda path: path.stem)
+def test_solvers_and_readers_share_no_code_with_the_product(path):
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    named = {node.module or "" for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
+    named |= {
+        one.name for node in ast.walk(tree) if isinstance(node, ast.Import) for one in node.names
+    }
+    assert not {name.partition(".")[0] for name in named} & {"quizgen", "solvers"}
