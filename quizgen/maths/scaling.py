@@ -1,0 +1,70 @@
+"""How a result grows with one quantity: the power that the formulas themselves prove."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+
+from quizgen.maths.tree import Call, Expr, Num, Sym
+
+_SAME = frozenset({"neg", "abs"})
+_ALIKE = frozenset({"add", "sub", "min", "max"})
+
+
+def power_of(target: str, quantity: str, steps: Mapping[str, Expr]) -> Fraction | None:
+    """The power of a quantity to which a result is proportional, whatever the positive factor.
+
+    Parameters
+    ----------
+    target : str
+        The result.
+    quantity : str
+        What is multiplied by a factor while everything else stays.
+    steps : mapping of str to Expr
+        Name to formula, without ``piecewise``.
+
+    Returns
+    -------
+    Fraction or None
+        0 where the quantity cancels; None where no power is the same for all factors.
+    """
+
+    def of(expr: Expr) -> Fraction | None:
+        if isinstance(expr, Num):
+            return Fraction(0)
+        if isinstance(expr, Sym):
+            known = steps.get(expr.name)
+            return Fraction(expr.name == quantity) if known is None else of(known)
+        return _called(expr)
+
+    def _called(expr: Call) -> Fraction | None:
+        powers = [of(arg) for arg in expr.args if not _is_zero(arg)]
+        found = [power for power in powers if power is not None]
+        if len(found) < len(powers):
+            return None
+        if expr.op == "pow":
+            exponent = expr.args[1]
+            if isinstance(exponent, Num):
+                return found[0] * exponent.value
+        return _combined(expr.op, found)
+
+    return of(Sym(target))
+
+
+def _combined(op: str, powers: list[Fraction]) -> Fraction | None:
+    """The power of a whole from those of its arguments."""
+    if op == "mul":
+        return sum(powers, Fraction(0))
+    if op == "div" and len(powers) == 2:
+        return powers[0] - powers[1]
+    if op in _SAME and powers:
+        return powers[0]
+    if op == "sqrt":
+        return powers[0] / 2
+    if op in _ALIKE and len({*powers}) == 1:
+        return powers[0]
+    return None if any(powers) else Fraction(0)
+
+
+def _is_zero(expr: Expr) -> bool:
+    return isinstance(expr, Num) and expr.value == 0
