@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from typing import Literal
 
-Made = Literal["guided"]
+Made = Literal["guided", "transfer"]
 """Levels that are made from the chain."""
 EXAM = "exam"
 """As its author wrote it: the level of whoever asks for none."""
-CHOICES = (EXAM, "guided")
+MIXED = "mixed"
+"""One of the others for each question, by the seed."""
+CHOICES = (EXAM, "guided", "transfer", MIXED)
 """What can be asked for."""

@@ -87,7 +87,7 @@ class Rules(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     apart: tuple[str, ...] = ()
     beyond: bool = False
     precision: tuple[str, ...] = ()
-    levels: tuple[Made, ...] = ("guided",)
+    levels: tuple[Made, ...] = ("guided", "transfer")
 
 
 def claim_of(rules: Rules, name: str) -> ClaimRule:

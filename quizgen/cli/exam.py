@@ -66,7 +66,7 @@ class Options(BankOptions):
 @click.option(
     "--level",
     type=click.Choice(CHOICES, case_sensitive=False),
-    help=f"As in an exam, or step by step. [default: {EXAM}]",
+    help=f"As in an exam, step by step, turned round, or by the seed. [default: {EXAM}]",
 )
 @click.option(
     "--format", "formats", default="html,pdf", show_default=True,

@@ -65,7 +65,7 @@ def level_option(command: Callable[P, T]) -> Callable[P, T]:
     kind = click.Choice(CHOICES, case_sensitive=False)
     return click.option(
         "--level", type=kind, default=EXAM, show_default=True,
-        help="As in an exam, or step by step.",
+        help="As in an exam, step by step, turned round, or by the seed.",
     )(command)  # fmt: skip
 
 

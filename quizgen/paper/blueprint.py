@@ -9,7 +9,7 @@
     tier = "A"            # and/or: topic = "optics", templates = ["rgb-to-hsv"]
     count = 5
     points = 2            # marks of each question, shared out over its parts (default: its own)
-    level = "guided"      # exam or guided (default: that of the paper)
+    level = "guided"      # exam, guided, transfer, mixed (default: the paper's)
 
 What the paper as a whole is to hold may be asked for: ``total = 100`` points exactly,
 ``minutes = [110, 120]``, at least ``figures = 6`` of ``figure_kinds = 4`` and ``photographs = 2``.

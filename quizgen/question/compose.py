@@ -167,7 +167,7 @@ def compose(
     slot : str or int
         The question's place in the paper: part of what determines its numbers.
     level : str
-        ``exam`` or ``guided``.
+        ``exam``, ``guided``, ``transfer``, or ``mixed`` for one of them by the seed.
     figures : bool
         Whether to draw the figures.
 

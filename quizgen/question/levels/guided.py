@@ -15,23 +15,22 @@ import msgspec
 
 from quizgen.bank.draw import Draw
 from quizgen.bank.plan import pick, shuffled
-from quizgen.bank.prose import Block, Inline, Paragraph, Styled, Words
+from quizgen.bank.prose import Block, Inline, Paragraph, Styled
 from quizgen.bank.traps import answer_names
-from quizgen.marking.kinds.choice import LETTERS, Spec
-from quizgen.marking.specs import decode
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.tree import names
-from quizgen.question.contract import Built, Control
-from quizgen.question.filling import Filler, plain
+from quizgen.question.contract import Built
+from quizgen.question.filling import Filler
 from quizgen.question.kinds import KINDS
 from quizgen.question.levels import exam
 from quizgen.question.levels.asking import Asked, Asking, shared_out
+from quizgen.question.levels.options import Option, choice
 from quizgen.question.levels.steps import (
     Way,
     branch,
+    gives_away,
     has_name,
     introduced,
-    is_bare,
     key_of,
     right_way,
     thing,
@@ -39,7 +38,7 @@ from quizgen.question.levels.steps import (
     wrong_ways,
 )
 from quizgen.question.shown import listed, pieces, said
-from quizgen.question.solution import Mistake, PartSolution, line_of, mistakes_of
+from quizgen.question.solution import PartSolution, line_of, mistakes_of
 from quizgen.question.specs import answer_of, mistaken
 
 NUMERIC = frozenset({"number", "quantity", "angle", "point", "table", "set", "interval"})
@@ -93,7 +92,7 @@ def _stage(drawn: Draw, index: int, asked: frozenset[str]) -> Stage:
     steps = [
         step for step in _needed(drawn, index)
         if step.name not in asked
-        and (has_name(drawn, step.name) or not is_bare(drawn, step, known))
+        and (has_name(drawn, step.name) or not gives_away(drawn, step, known))
     ]  # fmt: skip
     whole = not numeric or _together(drawn, of, steps)
     before = tuple(step for step in steps if not (whole and numeric and step.name in of))
@@ -127,7 +126,7 @@ def _to_choose(
     """The step whose formula is asked: one of those with several known mistakes."""
     found = [
         step for step in steps
-        if has_name(drawn, step.name) and not is_bare(drawn, step, known)
+        if has_name(drawn, step.name) and not gives_away(drawn, step, known)
         and len(wrong_ways(drawn, step, known)) > 1
     ]  # fmt: skip
     return found[pick(f"{key_of(drawn)}/{index}/formula", len(found))] if found else None
@@ -237,50 +236,22 @@ class _Guide:
 
     def _formula(self, stage: Stage, step: ChainStep) -> Asked:
         """Which formula? The right one among those of the step's mistakes."""
-        ways = _offered(self.drawn, stage, step)
-        marks = dict(zip(LETTERS, ways, strict=False))
-        right, told = next((mark, way) for mark, way in marks.items() if not way.trap)
-        spec = decode(
-            Spec,
-            {
-                "kind": "choice",
-                "options": [way.shown.typed for way in ways],
-                "correct": [LETTERS.index(right) + 1],
-                "why": {
-                    lang: {
-                        m: plain(_because(Filler(self.drawn, lang), step, way))
-                        for m, way in marks.items()
-                    }
-                    for lang in self.drawn.template.languages
-                },
-            },
-        )
-        solved = PartSolution(
-            label="",
-            lines=(),
-            shown=pieces(right),
-            mistakes=(),
-            options=((told.shown, Words(": "), *_because(self.filler, step, told)),),
-            reasons=tuple(
-                Mistake(way.trap, _because(self.filler, step, way), (Words(mark),))
-                for mark, way in marks.items() if way.trap
-            ),
-        )  # fmt: skip
         body = self._strong("guided.formula", thing=thing(self.drawn, step.name, self.lang))
-        options = tuple((mark, (way.shown,)) for mark, way in marks.items())
-        return Asked(Fraction(1), body, spec, solved, Control("one", lines=0), options)
+        ways = _offered(self.drawn, stage, step)
+        return choice(self.drawn, self.lang, body, [self._way(step, way) for way in ways])
+
+    def _way(self, step: ChainStep, way: Way) -> Option:
+        def because(lang: str) -> tuple[Inline, ...]:
+            section, name = ("traps", way.trap) if way.trap else ("steps", step.name)
+            return Filler(self.drawn, lang).sentence(section, name)
+
+        return Option(lambda _lang: (way.shown,), not way.trap, because, way.trap)
 
 
 def _offered(drawn: Draw, stage: Stage, step: ChainStep) -> list[Way]:
     """The formulas to choose from, in a drawn order."""
     ways = [right_way(drawn, step, stage.known), *wrong_ways(drawn, step, stage.known)[: WAYS - 1]]
     return shuffled(f"{key_of(drawn)}/{step.name}/order", ways)
-
-
-def _because(filler: Filler, step: ChainStep, way: Way) -> tuple[Inline, ...]:
-    """Why a formula is right, or what goes wrong with it."""
-    section, name = ("traps", way.trap) if way.trap else ("steps", step.name)
-    return filler.sentence(section, name)
 
 
 def _labels(label: str, count: int) -> list[str]:

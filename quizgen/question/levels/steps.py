@@ -23,6 +23,7 @@ from quizgen.bank.prose import (
     Table,
     Words,
     fill,
+    slots,
 )
 from quizgen.bank.traps import APART, answer_names
 from quizgen.errors import MathError
@@ -68,6 +69,11 @@ def has_name(drawn: Draw, name: str) -> bool:
     return all(known.name(name, lang) for lang in drawn.template.languages)
 
 
+def told(drawn: Draw, section: str, name: str) -> bool:
+    """Whether a sentence is written in every language."""
+    return all(text.sentence(section, name) for text in drawn.template.texts.values())
+
+
 def introduced(drawn: Draw) -> frozenset[str]:
     """Letters that the question itself uses: in formulas and programs, or as capitals."""
     text = drawn.template.texts[drawn.template.languages[0]]
@@ -76,6 +82,20 @@ def introduced(drawn: Draw) -> frozenset[str]:
 
 
 _WORD = re.compile(r"[A-Za-z]\w*")
+
+
+def stated(drawn: Draw) -> frozenset[str]:
+    """Drawn quantities whose numbers the text gives, or that follow from such numbers."""
+    rules, text = drawn.template.rules, drawn.template.texts[drawn.template.languages[0]]
+    sections = [text.sections[label] for label in drawn.template.labels if label in text.sections]
+    found = {*slots(part for section in (text.stem, *sections) for part in section)}
+    for name, rule in rules.draw.items():
+        if rule.formula and names(drawn.template.formula(rule.formula)) <= found:
+            found.add(name)
+    return frozenset(found)
+
+
+_BLANK = re.compile(r"\{\{.*?\}\}")
 _CAPITAL = re.compile(r"(?<![\w'])[B-HJ-Z](?!\w)")
 """A letter that is no word of English."""
 
@@ -86,7 +106,7 @@ def _letters(parts: tuple[Block | Inline, ...]) -> Iterator[str]:
             case Formula(expr):
                 yield from names(expr)
             case CodeBlock(text) | Code(text):
-                yield from _WORD.findall(text)
+                yield from _WORD.findall(_BLANK.sub("", text))
             case Words(text):
                 yield from _CAPITAL.findall(text)
             case Paragraph(children) | Styled(_, children):
@@ -107,10 +127,12 @@ def formula(drawn: Draw, step: ChainStep, expr: Expr, known: frozenset[str]) -> 
     return Maths(typeset.relation(["="], [typeset.name(step.name), node]), f"{step.name} = {typed}")
 
 
-def is_bare(drawn: Draw, step: ChainStep, known: frozenset[str]) -> bool:
-    """Whether the formula of a step would be printed as nothing but its value."""
-    expr = branch(drawn, step.expr)
-    return not isinstance(expr, Call) and not names(expr) & known
+def gives_away(drawn: Draw, step: ChainStep, known: frozenset[str]) -> bool:
+    """Whether the formula of a step would print its value, or a number that is to be found."""
+    formulas = [step.expr, *(expr for _, expr in _wrong(drawn, step))]
+    strangers = {name for expr in formulas for name in names(branch(drawn, expr)) - known}
+    bare = not isinstance(branch(drawn, step.expr), Call) and not names(step.expr) & known
+    return bare or not strangers <= stated(drawn)
 
 
 def right_way(drawn: Draw, step: ChainStep, known: frozenset[str]) -> Way:
@@ -131,7 +153,7 @@ def wrong_ways(drawn: Draw, step: ChainStep, known: frozenset[str]) -> list[Way]
     for trap, expr in _wrong(drawn, step):
         shown = formula(drawn, step, branch(drawn, expr), known)
         value = value_of(drawn, expr)
-        if value is None or _only_units(expr, step.expr) or _same(value, right.value):
+        if value is None or only_units(expr, step.expr) or same_value(value, right.value):
             continue
         found.setdefault(shown.typed, Way(trap, shown, value))
     ways = [way for way in found.values() if way.trap]
@@ -148,13 +170,13 @@ def _wrong(drawn: Draw, step: ChainStep) -> Iterator[tuple[str, Expr]]:
     """The mistakes of a step that have a sentence in every language."""
     template = drawn.template
     for trap, steps in template.chain.traps.items():
-        told = all(text.sentence("traps", trap) for text in template.texts.values())
+        known = told(drawn, "traps", trap) and trap not in template.rules.drop
         for wrong in steps:
-            if wrong.name == step.name and told and trap not in template.rules.drop:
+            if wrong.name == step.name and known:
                 yield trap, wrong.expr
 
 
-def _only_units(wrong: Expr, right: Expr) -> bool:
+def only_units(wrong: Expr, right: Expr) -> bool:
     """Whether a factor such as 1000 stands in a wrong formula that is there for the units alone."""
 
     def numbers(expr: Expr) -> set[object]:
@@ -174,7 +196,8 @@ def value_of(drawn: Draw, expr: Expr) -> Value | None:
     return value
 
 
-def _same(a: Value, b: Value) -> bool:
+def same_value(a: Value, b: Value) -> bool:
+    """Whether two values are as good as equal."""
     with working_precision():
         return bool(abs(a - b) <= fmpq(1, 10**6) * abs(b))
 

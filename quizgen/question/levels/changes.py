@@ -1,0 +1,228 @@
+"""One given quantity multiplied by a factor, everything else as it was: what follows, exactly."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+
+from flint import fmpq
+
+from quizgen.bank.draw import Draw
+from quizgen.bank.plan import candidates, shuffled
+from quizgen.bank.prose import Inline, Words
+from quizgen.bank.traps import answer_names
+from quizgen.errors import MathError
+from quizgen.locale import word
+from quizgen.maths.chain import ChainStep
+from quizgen.maths.numbers import fraction, rational, written
+from quizgen.maths.precision import working_precision
+from quizgen.maths.scaling import power_of
+from quizgen.maths.tree import Call, names, walk
+from quizgen.maths.values import Value
+from quizgen.question.levels.guided import NUMERIC
+from quizgen.question.levels.steps import branch, has_name, introduced, key_of, stated, thing
+from quizgen.question.shown import said
+
+SCALES = tuple(map(Fraction, ("2", "3", "4", "1/2", "1/3", "1/4")))
+"""Factors that have a word of their own."""
+_ROUNDING = frozenset({"mod", "floor", "ceil", "round", "eq", "ne"})
+"""Operators of conditions that only keep numbers handy."""
+_ROOTS = {(2, Fraction(4)): Fraction(2), (2, Fraction(1, 4)): Fraction(1, 2)}
+"""Factors whose square root is a plain number."""
+
+
+@dataclass(frozen=True)
+class Change:
+    """What one change does to one result.
+
+    Parameters
+    ----------
+    drawn : Draw
+        As it was asked.
+    index : int
+        The part that asks for the result.
+    target : str
+        The result.
+    given : str
+        What is multiplied.
+    scale : Fraction
+        By what.
+    changed : Draw
+        The same after the change.
+    """
+
+    drawn: Draw
+    index: int
+    target: str
+    given: str
+    scale: Fraction
+    changed: Draw
+
+    @property
+    def before(self) -> Value:
+        """The result in the task."""
+        return self.drawn.values[self.target]
+
+    @property
+    def after(self) -> Value:
+        """The result after the change."""
+        return self.changed.values[self.target]
+
+    @cached_property
+    def power(self) -> Fraction | None:
+        """The power of the given quantity to which the result is proportional; None if none is."""
+        steps = {
+            step.name: branch(self.drawn, step.expr) for step in needed(self.drawn, self.target)
+        }
+        return power_of(self.target, self.given, steps)
+
+    @cached_property
+    def factor(self) -> Fraction | None:
+        """The factor of the result, where it follows from a proved power and is a plain number."""
+        if self.power is None:
+            return None
+        base = {(1, self.scale): self.scale, **_ROOTS}.get((self.power.denominator, self.scale))
+        return None if base is None else base**self.power.numerator
+
+    def said(self, lang: str) -> tuple[Inline, ...]:
+        """The change in words."""
+        name = f"times_{self.scale}" if self.scale > 1 else f"by_{1 / self.scale}"
+        how = (Words(word(lang, f"transfer.{name}")),)
+        return said(lang, "transfer.change", given=thing(self.drawn, self.given, lang), change=how)
+
+
+def needed(drawn: Draw, target: str) -> list[ChainStep]:
+    """All steps on which a result rests in the branches that apply, in order."""
+    found = reached(drawn, target)
+    return [step for step in drawn.template.chain.steps if step.name in found]
+
+
+def reached(drawn: Draw, target: str) -> frozenset[str]:
+    """All quantities on which a result rests in the branches that apply, itself included."""
+    found, todo = set[str](), [target]
+    while todo:
+        name = todo.pop()
+        if name not in found:
+            found.add(name)
+            step = drawn.template.chain.by_name.get(name)
+            todo += names(branch(drawn, step.expr)) if step else ()
+    return frozenset(found)
+
+
+class Changes:
+    """Every change of a draw that makes sense, each solved once.
+
+    Parameters
+    ----------
+    drawn : Draw
+    """
+
+    def __init__(self, drawn: Draw) -> None:
+        self.drawn = drawn
+        self._solved: dict[tuple[str, Fraction], Draw | None] = {}
+        self._known = introduced(drawn)
+
+    def of(self, index: int, target: str) -> Iterator[Change]:
+        """The changes that may move one result, in a drawn order."""
+        if self.drawn.values[target] == 0:
+            return
+        steps = needed(self.drawn, target)
+        used = reached(self.drawn, target)
+        pairs = [
+            (given, scale)
+            for given in self.drawn.template.chain.given
+            if given in used and _can_change(self.drawn, given, self._known)
+            for scale in SCALES
+        ]
+        for given, scale in shuffled(f"{key_of(self.drawn)}/{target}/changes", pairs):
+            changed = self._after(given, scale)
+            if changed is not None and _alike(self.drawn, changed, steps):
+                yield Change(self.drawn, index, target, given, scale, changed)
+
+    def _after(self, given: str, scale: Fraction) -> Draw | None:
+        if (given, scale) not in self._solved:
+            self._solved[given, scale] = _scaled(self.drawn, given, scale)
+        return self._solved[given, scale]
+
+
+def targets(drawn: Draw) -> Iterator[tuple[int, str]]:
+    """The results of a question that can be called by a name."""
+    for index, part in enumerate(drawn.template.rules.part):
+        if part.answer["kind"] in NUMERIC:
+            for name in answer_names(part.answer):
+                if name in drawn.template.chain.by_name and has_name(drawn, name):
+                    yield index, name
+
+
+def _can_change(drawn: Draw, given: str, known: frozenset[str]) -> bool:
+    named = (given in known or has_name(drawn, given)) and given in stated(drawn)
+    return named and given not in drawn.template.quantities.fixed and drawn.shown[given] != 0
+
+
+def _scaled(drawn: Draw, given: str, scale: Fraction) -> Draw | None:
+    """The draw after a change; None if the quantity cannot have that value."""
+    value = drawn.shown[given] * rational(scale)
+    if not _possible(drawn, given, fraction(value)):
+        return None
+    shown = {**drawn.shown, given: value}
+    try:
+        with working_precision():
+            values = drawn.plan.solve(shown)
+        changed = replace(drawn, shown=shown, values=values, traps=((),) * len(drawn.traps))
+        return changed if _meant(changed) else None
+    except (MathError, ZeroDivisionError, OverflowError):
+        return None
+
+
+def _possible(drawn: Draw, given: str, value: Fraction) -> bool:
+    """Whether a value lies within those that are drawn, and stays whole where all of them are."""
+    rule = drawn.template.rules.draw[given]
+    was = fraction(drawn.shown[given])
+    listed = candidates(rule.pick, rule.range, rule.skip)
+    if listed and not min(listed) <= rational(value) <= max(listed):
+        return False
+    whole = was.denominator == 1 and not rule.unit and all(one.q == 1 for one in listed)
+    return len(listed) != 1 and (value.denominator == 1 or not whole)
+
+
+def _meant(changed: Draw) -> bool:
+    """Whether the template's conditions hold, those aside that only keep numbers handy."""
+    rules, template = changed.template.rules, changed.template
+    for text in rules.where:
+        expr = template.formula(text)
+        handy = any(isinstance(node, Call) and node.op in _ROUNDING for node in walk(expr))
+        if not handy and not changed.computed(text):
+            return False
+    return all(
+        (keep.min is None or changed.shown_values[name] >= rational(written(keep.min)))
+        and (keep.max is None or changed.shown_values[name] <= rational(written(keep.max)))
+        for name, keep in rules.keep.items()
+    )
+
+
+def _alike(drawn: Draw, changed: Draw, steps: list[ChainStep]) -> bool:
+    """Whether the same formulas apply after a change, and no quantity changes its sign."""
+    with working_precision():
+        return all(
+            branch(drawn, step.expr) == branch(changed, step.expr)
+            and _sign(drawn.values[step.name]) == _sign(changed.values[step.name])
+            for step in steps
+        )
+
+
+def _sign(value: Value) -> int:
+    return bool(value > 0) - bool(value < 0)
+
+
+def distance(change: Change) -> Value:
+    """How far the result moves."""
+    with working_precision():
+        return abs(change.after - change.before)
+
+
+def clearly_more(one: Value, other: Value) -> bool:
+    """Whether one distance is larger by so much that nobody has to compute it precisely."""
+    with working_precision():
+        return bool(one > other * fmpq(5, 4))

@@ -1,0 +1,156 @@
+"""A worked solution that somebody else made, with one of the known mistakes in it or with none."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from quizgen.bank.draw import Draw
+from quizgen.bank.plan import pick, shuffled
+from quizgen.bank.prose import Block, Inline, Items, Paragraph, Styled, Words
+from quizgen.bank.traps import answer_names
+from quizgen.errors import MathError
+from quizgen.maths.chain import ChainStep
+from quizgen.question.filling import Filler
+from quizgen.question.levels.asking import Asked
+from quizgen.question.levels.changes import needed
+from quizgen.question.levels.guided import NUMERIC
+from quizgen.question.levels.options import Option, choice
+from quizgen.question.levels.steps import has_name, key_of, only_units, same_value, thing, told
+from quizgen.question.shown import said
+from quizgen.question.solution import line_of
+from quizgen.question.worked import worked
+
+FEWEST, MOST = 2, 8
+"""Steps of a solution in which a mistake is looked for."""
+
+
+@dataclass(frozen=True)
+class Wrong:
+    """A solution: its steps, the mistake in it (or none) and the place of its first wrong step."""
+
+    drawn: Draw
+    steps: tuple[ChainStep, ...]
+    trap: str = ""
+    place: int = -1
+
+    def __call__(self, lang: str) -> Asked:
+        """The part in a language."""
+        shown = self._shown()
+        rows = tuple(self._row(shown, step, lang) for step in self._written())
+        asked = Paragraph((Styled("strong", said(lang, "transfer.mistake")),))
+        options = [self._option(place) for place in range(len(self.steps))]
+        none = Option(
+            lambda each: said(each, "transfer.none"), not self.trap, self._about_none, "none"
+        )
+        right = Filler(self.drawn, lang)
+        lines = (line_of(right, self.steps[self.place]),) if self.trap else ()
+        body = (Items(rows, ordered=True), asked)
+        return choice(self.drawn, lang, body, [*options, none], lines)
+
+    def _shown(self) -> Draw:
+        """The draw with the values that the mistake leads to."""
+        if not self.trap:
+            return self.drawn
+        values = self.drawn.template.chain.trapped(self.trap, self.drawn.values)
+        return replace(self.drawn, values=values)
+
+    def _wrong(self) -> tuple[ChainStep, ...]:
+        return self.drawn.template.chain.traps.get(self.trap, ())
+
+    def _differs(self, place: int) -> bool:
+        """Whether a step has another value than the right solution."""
+        name = self.steps[place].name
+        return not same_value(self._shown().values[name], self.drawn.values[name])
+
+    def _written(self) -> Iterator[ChainStep]:
+        """The steps as that solution takes them."""
+        wrong = {step.name: step.expr for step in self._wrong()}
+        for step in self.steps:
+            yield ChainStep(step.name, wrong.get(step.name, step.expr), step.unit)
+
+    def _row(self, shown: Draw, step: ChainStep, lang: str) -> tuple[Block, ...]:
+        name = thing(self.drawn, step.name, lang)
+        return (Paragraph((*name, Words(": "), worked(shown, step))),)
+
+    def _option(self, place: int) -> Option:
+        number = (Words(str(place + 1)),)
+        return Option(
+            lambda each: said(each, "transfer.step", n=number),
+            bool(self.trap) and place == self.place,
+            lambda each: self._about(place, each),
+            f"step-{place + 1}",
+        )
+
+    def _about(self, place: int, lang: str) -> tuple[Inline, ...]:
+        """Why a step is the wrong one, or why it is not."""
+        filler = Filler(self.drawn, lang)
+        if self.trap and place == self.place:
+            return filler.sentence("traps", self.trap)
+        number = (Words(str(place + 1)),)
+        if self.trap and place > self.place and self._differs(place):
+            again = any(one.name == self.steps[place].name for one in self._wrong())
+            return said(lang, "transfer.again" if again else "transfer.carried", n=number)
+        why = filler.sentence("steps", self.steps[place].name)
+        return said(lang, "transfer.right_step", n=number, why=why)
+
+    def _about_none(self, lang: str) -> tuple[Inline, ...]:
+        return said(lang, "transfer.one_wrong" if self.trap else "transfer.all_right")
+
+
+def _none(lang: str) -> tuple[Inline, ...]:
+    return said(lang, "transfer.none")
+
+
+def found_mistake(drawn: Draw) -> Wrong | None:
+    """A solution of one part with a drawn mistake, or with none; None if no part has steps for it.
+
+    Which step is wrong is drawn first, then the mistake in it, so that no step is a safe guess.
+    """
+    for index in shuffled(f"{key_of(drawn)}/mistake", range(len(drawn.template.rules.part))):
+        steps = _steps(drawn, index)
+        if not FEWEST <= len(steps) <= MOST:
+            continue
+        by_place: dict[int, list[str]] = {}
+        for trap, place in _usable(drawn, index, steps):
+            by_place.setdefault(place, []).append(trap)
+        if by_place:
+            key = f"{key_of(drawn)}/mistake/{index}"
+            place = [-1, *sorted(by_place)][pick(key, len(by_place) + 1)]
+            if place < 0:
+                return Wrong(drawn, steps)
+            traps = by_place[place]
+            return Wrong(drawn, steps, traps[pick(f"{key}/trap", len(traps))], place)
+    return None
+
+
+def _steps(drawn: Draw, index: int) -> tuple[ChainStep, ...]:
+    """All steps to the answer of a part, from the task on; none where one has no name."""
+    answer = drawn.template.rules.part[index].answer
+    if answer["kind"] not in NUMERIC:
+        return ()
+    names = {step.name for of in answer_names(answer) for step in needed(drawn, of)}
+    steps = tuple(step for step in drawn.template.chain.steps if step.name in names)
+    named = all(has_name(drawn, step.name) and told(drawn, "steps", step.name) for step in steps)
+    return steps if named else ()
+
+
+def _usable(drawn: Draw, index: int, steps: tuple[ChainStep, ...]) -> Iterator[tuple[str, int]]:
+    """Mistakes that change the answer, and the place of their first wrong step."""
+    places = {step.name: place for place, step in enumerate(steps)}
+    answer = answer_names(drawn.template.rules.part[index].answer)
+    for trap, wrong in drawn.template.chain.traps.items():
+        inside = [step for step in wrong if step.name in places]
+        if not inside or trap in drawn.template.rules.drop or not told(drawn, "traps", trap):
+            continue
+        if any(only_units(one.expr, steps[places[one.name]].expr) for one in inside):
+            continue
+        try:
+            values = drawn.template.chain.trapped(trap, drawn.values)
+        except MathError:
+            continue
+        changed = [
+            one.name for one in inside if not same_value(values[one.name], drawn.values[one.name])
+        ]
+        if changed and not all(same_value(values[name], drawn.values[name]) for name in answer):
+            yield trap, min(places[name] for name in changed)

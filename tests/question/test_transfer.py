@@ -1,0 +1,176 @@
+"""Tasks turned round: every key is worked out again from the solver's model, by SymPy alone."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+import sympy
+
+from quizgen.bank.draw import draw
+from quizgen.bank.folder import builtin
+from quizgen.marking.mark import mark
+from quizgen.maths.constants import exact_value
+from quizgen.maths.notation import parse
+from quizgen.maths.numbers import key_text
+from quizgen.maths.scaling import power_of
+from quizgen.maths.units import factor
+from quizgen.question.compose import put_into_words
+from quizgen.question.levels import LEVELS
+from quizgen.question.levels.changes import Changes
+from quizgen.question.levels.comparing import compared
+from quizgen.question.levels.effects import effect
+from quizgen.question.levels.mistaken import found_mistake
+
+CALCULATING = [
+    name for name in builtin().paths
+    if builtin().rules(name).solver and "transfer" in builtin().rules(name).levels
+]  # fmt: skip
+SEEDS = range(4)
+DIGITS = 30
+
+
+def model(template):
+    return builtin().solver(template.rules.solver).MODEL
+
+
+def given(drawn, **scaled):
+    """Given quantities in base units, as SymPy has them."""
+    return {
+        symbol: sympy.Rational(key_text(drawn.shown[symbol.name] * factor(drawn.template.units[symbol.name])))
+        * sympy.Rational(str(scaled.get(symbol.name, 1)))
+        for symbol in model(drawn.template).given
+    }  # fmt: skip
+
+
+def solved(drawn, wrong=(), **scaled):
+    """Every quantity by name, step by step."""
+    env = given(drawn, **scaled)
+    swapped = {step.symbol: step.expr for step in wrong}
+    for step in model(drawn.template).steps:
+        env[step.symbol] = sympy.N(swapped.get(step.symbol, step.expr).subs(env), DIGITS)
+    return {symbol.name: value for symbol, value in env.items()}
+
+
+def moved(change):
+    """A result before and after a change."""
+    before = solved(change.drawn)[change.target]
+    return before, solved(change.drawn, **{change.given: change.scale})[change.target]
+
+
+def near(a, b):
+    return abs(a - b) <= sympy.Float("1e-20") * (1 + abs(b))
+
+
+@pytest.mark.parametrize("name", CALCULATING)
+def test_the_effect_of_a_change_is_that_of_the_model(name):
+    for seed in SEEDS:
+        drawn = draw(builtin().template(name), seed)
+        asked = effect(Changes(drawn))
+        if asked is None:
+            continue
+        spec, (before, after) = asked("en").spec, moved(asked.change)
+        if asked.way == "factor":
+            assert near(after / before, sympy.Rational(str(spec.value)))
+        elif asked.way == "value":
+            size = factor(getattr(spec, "unit", "") or drawn.template.units[asked.change.target])
+            assert near(after, sympy.Rational(key_text(exact_value(spec.value) * size)))
+        else:
+            places = {1: after > before, 2: after < before, 3: near(after, before)}
+            assert [place for place, holds in places.items() if holds] == spec.correct
+
+
+@pytest.mark.parametrize("name", CALCULATING)
+def test_of_two_changes_the_model_moves_the_same_one_further(name):
+    for seed in SEEDS:
+        drawn = draw(builtin().template(name), seed)
+        changes = Changes(drawn)
+        pair = compared(changes, effect(changes))
+        if pair is None:
+            continue
+        moves = [abs(after - before) for before, after in map(moved, (pair.first, pair.second))]
+        place = 3 if near(*moves) else 1 if moves[0] > moves[1] else 2
+        assert pair("en").spec.correct == [place]
+        if place != 3:
+            assert max(moves) > 1.2 * min(moves)
+
+
+@pytest.mark.parametrize("name", CALCULATING)
+def test_the_first_wrong_step_is_the_first_that_the_model_does_not_take(name):
+    for seed in SEEDS:
+        drawn = draw(builtin().template(name), seed)
+        found = found_mistake(drawn)
+        if found is None:
+            continue
+        own = model(drawn.template)
+        traps = own.traps[found.trap] if found.trap else ()
+        env = solved(drawn, traps if isinstance(traps, tuple) else (traps,))
+        symbols = {one: env[one.name] for one in [*own.given, *(step.symbol for step in own.steps)]}
+        right = {step.symbol.name: sympy.N(step.expr.subs(symbols), DIGITS) for step in own.steps}
+        odd = [
+            place
+            for place, step in enumerate(found.steps)
+            if not near(env[step.name], right[step.name])
+        ]
+        expected = odd[0] + 1 if odd else len(found.steps) + 1
+        assert found("en").spec.correct == [expected]
+
+
+@pytest.mark.parametrize("name", CALCULATING)
+@pytest.mark.parametrize("lang", ["en", "bn"])
+def test_every_option_is_answered_and_every_mistake_named(name, lang):
+    for seed in range(2):
+        drawn = draw(builtin().template(name), seed)
+        if not LEVELS["transfer"].fits(drawn):
+            continue
+        question, key = put_into_words(drawn, lang, level="transfer", figures=False)
+        for part, solution, spec in zip(question.parts, key.solution.parts, key.specs, strict=True):
+            assert mark(spec, solution.answer, lang=lang, decimal="point").credit == 1
+            for letter, _ in part.field.options:
+                verdict = mark(spec, letter, lang=lang)
+                assert verdict.credit or spec.why[lang][letter] in verdict.message
+            for mistake in solution.mistakes:
+                verdict = mark(spec, mistake.value, lang=lang, decimal="point")
+                assert verdict.note == f"trap:{mistake.name}"
+
+
+POWERS = [
+    ("x", "f*X/Z", {}, {"f": "1", "X": "1", "Z": "-1"}),
+    ("c", "D*abs(s - z)/z", {"D": "f/N"}, {"f": "1", "N": "-1", "s": None, "z": None}),
+    ("e", "q^2", {"q": "a/b", "a": "f/N", "b": "f/M"}, {"f": "0", "N": "-2", "M": "2"}),
+    ("S", "N/s", {"s": "sqrt(N)"}, {"N": "1/2"}),
+    ("y", "a + b", {"a": "2*x", "b": "x/3"}, {"x": "1"}),
+    ("y", "0 + m", {"m": "x"}, {"x": "1"}),
+    ("y", "log2(x)", {}, {"x": None}),
+    ("y", "log2(x/z)", {"z": "3*x"}, {"x": "0"}),
+    ("y", "2^x", {}, {"x": None}),
+    ("y", "max(x, 2*x)", {}, {"x": "1"}),
+    ("y", "floor(x)", {}, {"x": None}),
+    ("y", "x + 1", {}, {"x": None}),
+]
+
+
+@pytest.mark.parametrize(("target", "formula", "before", "expected"), POWERS)
+def test_a_power_is_what_the_formulas_prove(target, formula, before, expected):
+    steps = {name: parse(text) for name, text in {**before, target: formula}.items()}
+    for quantity, power in expected.items():
+        wanted = None if power is None else Fraction(power)
+        assert power_of(target, quantity, steps) == wanted
+
+
+def test_what_nobody_can_change_stays():
+    """The wavelength of a laser fixes the height of the curve; nobody doubles that alone."""
+    drawn = draw(builtin().template("two-lasers-flux-ratio"), 0)
+    changed = {change.given for change in Changes(drawn).of(0, "r")}
+    assert changed == {"P_1", "P_2"}
+
+
+def test_answers_vary_over_the_seeds():
+    template = builtin().template("diameter-stops-and-exposure-time")
+    drawn = [draw(template, seed) for seed in range(40)]
+    places = [found_mistake(one)("en").spec.correct[0] for one in drawn]
+    factors = {str(effect(Changes(one)).change.factor) for one in drawn}
+    pairs = {compared(Changes(one), None).answer for one in drawn}
+    assert len(set(places)) >= 3
+    assert len(factors) >= 3
+    assert len(pairs) >= 2
