@@ -16,6 +16,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from quizgen.bank.draw import Draw, draw, reference
+from quizgen.bank.levels import EXAM
 from quizgen.bank.plan import plan_of
 from quizgen.bank.prose import Text, slots
 from quizgen.bank.template import Template
@@ -27,12 +28,15 @@ from quizgen.maths.numbers import to_float
 from quizgen.question.compose import identity, put_into_words
 from quizgen.question.contract import Built
 from quizgen.question.kinds import build
+from quizgen.question.levels import LEVELS
 from quizgen.render.text import blocks
 
 COMPOSED = 20
 """Instances that are put into words in every language."""
 MARKED = 200
 """Instances whose answers and mistakes are typed back in every language."""
+LEVELLED = 2
+"""Instances that are asked at every level, and typed back likewise."""
 
 
 @dataclass
@@ -81,6 +85,8 @@ def lint_template(template: Template, seeds: int = 200, langs: tuple[str, ...] =
             if not COMPOSED <= place < len(first):
                 report.problems += composed_problems(one)
             report.problems += marking_problems(one)
+        for one in (*first[:LEVELLED], *known):
+            report.problems += level_problems(one)
     except QuizgenError as error:
         report.problems.append(str(error))
     report.problems = list(dict.fromkeys(report.problems))
@@ -221,6 +227,24 @@ def _marked(one: Draw, part: Built[AnySpec], label: str) -> Iterator[str]:
             if (trap, typed) not in seen:
                 seen.add((trap, typed))
                 yield from _problems(part.spec, trap, typed, where, lang)
+
+
+def level_problems(one: Draw) -> list[str]:
+    """Problems of the levels that are made from the chain: marked alike in every language."""
+    found: list[str] = []
+    for name in (name for name, level in LEVELS.items() if name != EXAM and level.fits(one)):
+        asked = [LEVELS[name].asking(one, lang) for lang in one.template.languages]
+        if len({tuple(map(repr, (part.spec for part in each.parts))) for each in asked}) > 1:
+            found.append(f"seed {one.seed}: {name}: languages are not marked alike")
+        for part in asked[0].parts:
+            where = f"seed {one.seed}, {name}, part {part.label or '1'}"
+            lang = asked[0].solution.lang
+            typed = [("", show(part.spec, lang))]
+            typed += [(mistake.name, mistake.value) for mistake in part.solved.mistakes]
+            found += [
+                p for trap, text in typed for p in _problems(part.spec, trap, text, where, lang)
+            ]
+    return found
 
 
 def _problems(spec: AnySpec, trap: str, typed: str, where: str, lang: str) -> Iterator[str]:
