@@ -6,7 +6,6 @@ Figures are drawn in points from the lower left; SVG counts from the upper left.
 from __future__ import annotations
 
 from base64 import b64encode
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Final
 
@@ -15,7 +14,9 @@ from numpy.typing import NDArray
 
 MOVE, LINE, CURVE, CLOSE = (np.uint8(code) for code in (1, 2, 3, 79))
 """Codes of the points of a path, as fonts have them; a curve has its control point first."""
-_LETTERS: Final = {1: "M", 2: "L"}
+_CONTROL: Final = np.uint8(4)
+"""The control point of a curve, told from its end."""
+_FORMS: Final = {1: "M %g %g", 2: "L %g %g", 3: "%g %g", 4: "Q %g %g"}
 BLACK: Final = "#000000"
 
 Box = tuple[float, float, float, float]
@@ -66,7 +67,7 @@ class Canvas:
     ) -> None:
         """Paint a part of the figure, which is sized before."""
         flipped = np.round((0.0, self.height) + np.round(points, 2) * (1.0, -1.0), 2) + 0.0
-        data = " ".join(_commands(flipped.tolist(), codes.tolist(), closed=style.width > 0))
+        data = _commands(flipped, codes, closed=style.width > 0)
         self._paths.append(f'<g data-part="{part}"><path d="{data}"{style.attribute()}/></g>')
 
     def inside(self) -> str:
@@ -90,16 +91,15 @@ class Canvas:
         )
 
 
-def _commands(points: list[list[float]], codes: list[int], *, closed: bool) -> Iterator[str]:
+def _commands(points: NDArray[np.float64], codes: NDArray[np.uint8], *, closed: bool) -> str:
     """Drawing commands of SVG; an outline that closes goes back to its start first."""
-    first, curving = "", False
-    for (x, y), code in zip(points, codes, strict=True):
-        at = f"{x:g} {y:g}"
-        if code == CURVE:
-            yield at if curving else f"Q {at}"
-            curving = not curving
-        elif code == CLOSE:
-            yield f"L {first} z" if closed else "z"
-        else:
-            first = at if code == MOVE else first
-            yield f"{_LETTERS[code]} {at}"
+    curves = codes == CURVE
+    kinds = np.where(curves & (np.cumsum(curves) % 2 == 1), _CONTROL, codes)
+    closing = codes == CLOSE
+    if closed:
+        starts = np.maximum.accumulate(np.where(codes == MOVE, np.arange(len(codes)), 0))
+        points = points[np.where(closing, starts, np.arange(len(codes)))]
+    else:
+        points = points[~closing]
+    forms = {**_FORMS, int(CLOSE): "L %g %g z" if closed else "z"}
+    return " ".join([forms[kind] for kind in kinds.tolist()]) % tuple(points.ravel().tolist())
