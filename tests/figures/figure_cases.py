@@ -19,6 +19,7 @@ REFERENCE = {
     "pinhole": {"f": 2, "p_z": 3, "p_y": 5},
     "distorted_grid": {"k1": -0.1},
     "hsv_edits": {"a": 0.4, "b": 0.2, "delta": 120, "order": 9},
+    "focus_photos": {"order": 9},
     "gaussian": {"sigma": 2, "k": 2},
     "thin_lens": {"f": 50, "z": 200},
     "bayer": MOSAIC,
@@ -39,6 +40,7 @@ HIDDEN = {
     "pinhole": ["3.333"],
     "distorted_grid": ["−0.1", "barrel"],
     "hsv_edits": ["0.4", "0.2", "120"],
+    "focus_photos": ["22", "f/2"],
     "gaussian": ["0.1995", "4.55"],
     "thin_lens": ["66.67"],
     "bayer": ["115", "65"],
@@ -116,6 +118,13 @@ def curve_draws():
                 {"f": f, "s": s, "N_1": number, "N_2": number / 2, "c": c, "high": high},
             )
         yield "blur_curve", {"f": f, "s": s, "N_1": number, "far": 20, "high": 1000}
+    for order, (f, z_1, z_2, z_3) in enumerate(
+        ((50, 1, 1.5, 3), (100, 2, 4, 15), (70, 1.2, 2.4, 7.2))
+    ):
+        yield (
+            "focus_photos",
+            {"f": f, "z_1": z_1, "z_2": z_2, "z_3": z_3, "order": 7 * order, "N_w": 2.8},
+        )
 
 
 def draws():  # noqa: C901 - one loop a figure

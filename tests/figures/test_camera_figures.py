@@ -16,6 +16,7 @@ from quizgen.figures import (
     artefacts,
     bayer,
     depth_of_field,
+    focus_photos,
     luminosity,
     noise,
     normalisation,
@@ -84,6 +85,25 @@ def test_the_wide_aperture_blurs_only_what_is_out_of_focus(order):
     for columns in (left, right):
         assert edges[1][20:76, columns].mean() < 0.8 * edges[0][20:76, columns].mean()
     assert np.array_equal(small[30:66, middle], wide[30:66, middle])
+
+
+def test_the_object_in_focus_is_sharp_and_a_small_hole_sharpens_all():
+    columns = [slice(2, 46), slice(54, 90), slice(98, 142)]
+    values = complete("focus_photos", focus_photos.PARAMETERS, {})
+    found = [
+        (setting, [(np.diff(photo, axis=1).max(axis=2) ** 2)[20:76, c].mean() for c in columns])
+        for order in (0, 9, 23)  # every setting at one place at least
+        for setting, photo in zip(
+            focus_photos.settings({**values, "order": order}),
+            _pictures("focus_photos", {"order": order}, quiz=True),
+            strict=True,
+        )
+    ]
+    sharpest = np.max([edges for _, edges in found], axis=0)
+    assert len({setting for setting, _ in found}) == 4
+    for (s, number), edges in found:
+        clear = np.array([s == values[name] for name in ("z_1", "z_2", "z_3")])
+        assert ((edges > 0.6 * sharpest) == (clear | (number == values["N_s"]))).all()
 
 
 def test_pictures_keep_their_brightness():

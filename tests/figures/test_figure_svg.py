@@ -123,7 +123,8 @@ def test_line_art_is_transparent_and_pictures_are_on_white(name, quiz):
     white = f'd="M 0 {figure.height_pt:g} L {figure.width_pt:g} {figure.height_pt:g} L'
     assert (white in figure.svg.decode()) == (figure.dark == "keep")
     pictures = {
-            "artefacts", "depth_of_field", "fall_off", "grey_edits", "hsv_edits", "luminosity", "noise",
+            "artefacts", "depth_of_field", "fall_off", "focus_photos", "grey_edits", "hsv_edits",
+            "luminosity", "noise",
         }  # fmt: skip
     assert figure.dark == ("keep" if name in pictures else "invert")
 

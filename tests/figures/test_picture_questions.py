@@ -6,7 +6,7 @@ import pytest
 
 from quizgen.arrays import luminosity
 from quizgen.bank.draw import draw
-from quizgen.figures import artefacts, depth_of_field, grey_edits, noise, staircase
+from quizgen.figures import artefacts, depth_of_field, focus_photos, grey_edits, noise, staircase
 from quizgen.question.kinds import build
 
 SEEDS = range(60)
@@ -139,3 +139,20 @@ def test_the_edits_stand_where_the_key_says(bank, seed):
     assert [drawn.words[name] for name in ("place_n", "place_r", "place_s")] == [
         f"picture-{place + 1}" for place in places
     ]
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_each_photo_was_taken_with_the_setting_of_the_key(bank, seed):
+    drawn = draw(bank.template("which-photo-which-focus"), seed)
+    given = {key: float(value) for key, value in drawn.shown.items()}
+    built = build(drawn, 0)
+    settings = {
+        "focus-near": (given["z_1"], given["N_w"]),
+        "focus-middle": (given["z_2"], given["N_w"]),
+        "focus-far": (given["z_3"], given["N_w"]),
+        "stopped": (given["z_2"], given["N_s"]),
+    }
+    targets = dict(built.targets)
+    key = [settings[targets[place]] for _, place in sorted(built.spec.pairs.items())]
+    assert [name for _, name in built.options] == ["one", "two", "three"]
+    assert key == list(focus_photos.settings(given))

@@ -1,0 +1,94 @@
+"""Three photographs of three objects by one lens: focused in turn on each, and once stopped down.
+
+Of these four settings a permutation picks what stands at photos 1, 2 and 3; one is left over.
+"""
+
+from __future__ import annotations
+
+from itertools import permutations
+from typing import TYPE_CHECKING
+
+from quizgen.figures import depth_of_field
+from quizgen.figures._numbers import derived, given
+from quizgen.figures._parameters import Parameter, Values, require
+from quizgen.figures._words import words_of
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+DARK = "keep"
+
+PARAMETERS = {
+    "f": Parameter("mm", "focal length", 85.0, 10.0, 200.0),
+    "N_w": Parameter("", "f-number of the wide opening", 2.0, 1.0, 64.0),
+    "N_s": Parameter("", "f-number when stopped down", 22.0, 1.0, 64.0),
+    "z_1": Parameter("m", "distance of the left object", 1.5, 0.3, 1000.0),
+    "z_2": Parameter("m", "distance of the middle object", 2.5, 0.3, 1000.0),
+    "z_3": Parameter("m", "distance of the right object", 6.0, 0.3, 1000.0),
+    "order": Parameter(
+        "",
+        "0-23: permutation of (focus on z_1, z_2, z_3, on z_2 stopped down)",
+        0.0,
+        0.0,
+        23.0,
+        whole=True,
+    ),
+}
+
+_ORDERS = tuple(permutations(range(4)))
+_GAP, _TOP, _BELOW = 6.0, 15.0, 14.0
+_SPREAD = 48.0 / 144.0
+"""Distance of the objects as a share of the picture's width."""
+
+
+def settings(values: Values) -> tuple[tuple[float, float], ...]:
+    """Distance in focus and f-number of photos 1, 2 and 3."""
+    wide = [(values[f"z_{place}"], values["N_w"]) for place in (1, 2, 3)]
+    every = [*wide, (values["z_2"], values["N_s"])]
+    return tuple(every[which] for which in _ORDERS[int(values["order"])][:3])
+
+
+def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
+    """Draw the figure; in a quiz, show their numbers without the settings."""
+    from quizgen.camera import pictures
+    from quizgen.camera.filters import everywhere_alike
+    from quizgen.figures._pen import WIDTH, Pen
+    from quizgen.figures._photo import place as put
+
+    nearest = min(values[f"z_{place}"] for place in (1, 2, 3))
+    require("focus_photos", 1000 * nearest > 2 * values["f"], "objects must be beyond 2 f")
+    wide = (WIDTH - 4 * _GAP) / 3
+    high = wide * 2 / 3
+    pen = Pen(WIDTH, _BELOW + high + _TOP + 2)
+    for place, (s, number) in enumerate(settings(values)):
+        scene, camera = depth_of_field.photographed({**values, "s": s})
+        with everywhere_alike():
+            (photo,) = pictures.at_f_numbers(scene, camera, (number,))
+        left = _GAP + place * (wide + _GAP)
+        put(figure, pen, photo.pixels(), (left, _BELOW, wide, high))
+        text = f"{{{place + 1}}}" if quiz else _told(place + 1, s, number)
+        pen.label((left + wide / 2, pen.height - 8), text)
+        for thing in (1, 2, 3):
+            middle = left + wide * (0.5 + (thing - 2) * _SPREAD)
+            pen.label((middle, 7), f"{given(values[f'z_{thing}'])} {{m}}", size=8.5)
+    pen.onto(figure, background="#ffffff")
+
+
+def _told(mark: int, s: float, number: float) -> str:
+    return f"{{{mark}:}}  {given(s)} {{m,}} f{{/{given(number)}}}"
+
+
+def alt(values: Values, lang: str, *, quiz: bool) -> str:
+    """Describe the figure in words; in a quiz, say what looks sharp instead of the settings."""
+    words = words_of("focus_photos", lang)
+    depths = [values[f"z_{place}"] for place in (1, 2, 3)]
+    told = [words["figure"].format(*map(given, depths))]
+    for mark, (s, number) in enumerate(settings(values), 1):
+        if not quiz:
+            blur = depth_of_field.discs({**values, "s": s}, number)
+            told.append(words["setting"].format(mark, given(s), given(number), *map(derived, blur)))
+        elif number == values["N_s"]:
+            told.append(words["all"].format(mark))
+        else:
+            told.append(words["one"].format(mark, given(s)))
+    return " ".join(told)
