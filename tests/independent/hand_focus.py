@@ -75,6 +75,16 @@ def split_of_zone(page: Page) -> dict[str, Any]:
     return {"a": hyperfocal_at, "b": (front, behind), "c": behind / front, "d": said}
 
 
+@solves("which-photo-which-focus")
+def focus_photos(page: Page) -> dict[str, Any]:
+    """Curriculum X-C03, from the lens equation: the cone of z cut where s is sharp."""
+    asked, f = page.parts["b"].text, page["f"]
+    told = page.amounts("m", "b")
+    z, s = told if "How large" in asked else reversed(told)
+    tip, sensor = f * z / (z - f), f * s / (s - f)
+    return {"b": f / f_number(asked) * abs(sensor - tip) / tip}
+
+
 @solves("hyperfocal-distance")
 def hyperfocal(page: Page) -> dict[str, Any]:
     """Curriculum X-C02: H = f^2/(N c) + f; sharp from H/2."""
