@@ -14,7 +14,7 @@ from quizgen.figures._parameters import Parameter, Values, require
 from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from quizgen.figures._canvas import Canvas
 
 DARK = "keep"
 
@@ -48,7 +48,7 @@ def settings(values: Values) -> tuple[tuple[float, float], ...]:
     return tuple(every[which] for which in _ORDERS[int(values["order"])][:3])
 
 
-def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
+def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, show their numbers without the settings."""
     from quizgen.camera import pictures
     from quizgen.camera.filters import everywhere_alike
@@ -65,13 +65,13 @@ def draw(figure: Figure, values: Values, *, quiz: bool) -> None:
         with everywhere_alike():
             (photo,) = pictures.at_f_numbers(scene, camera, (number,))
         left = _GAP + place * (wide + _GAP)
-        put(figure, pen, photo.pixels(), (left, _BELOW, wide, high))
+        put(canvas, pen, photo.pixels(), (left, _BELOW, wide, high))
         text = f"{{{place + 1}}}" if quiz else _told(place + 1, s, number)
         pen.label((left + wide / 2, pen.height - 8), text)
         for thing in (1, 2, 3):
             middle = left + wide * (0.5 + (thing - 2) * _SPREAD)
             pen.label((middle, 7), f"{given(values[f'z_{thing}'])} {{m}}", size=8.5)
-    pen.onto(figure, background="#ffffff")
+    pen.onto(canvas, background="#ffffff")
 
 
 def _told(mark: int, s: float, number: float) -> str:
