@@ -203,3 +203,15 @@ def value_range(page: Page) -> dict[str, Any]:
     size = next(one for one in (1, 2, 4) if 8 * one >= bits)
     more = numbers(page.parts["b"].text)[-1]
     return {"a": (2**bits, 2**bits - 1, size), "b": (2**bits - 1 + more) % 2**bits}
+
+
+@solves("salt-and-pepper-mean-and-psnr")
+def impulses_on_grey(page: Page) -> dict[str, Any]:
+    """X-C20: averages over the three things that can become of a pixel."""
+    grey, share = float(page["v"]), float(page["p"])
+    fates = [(grey, 1 - share), (0, share / 2), (255, share / 2)]
+    mean = sum(level * chance for level, chance in fates)
+    error = sum((level - grey) ** 2 * chance for level, chance in fates)
+    words = ("brighter", "উজ্জ্বল হয়") if mean > grey else ("darker", "অন্ধকার হয়")
+    return {"a": mean, "b": error, "c": 10 * math.log10(255**2 / error),
+            "d": 10 * math.log10(page["m"]), "e": page.parts["e"].saying(*words)}  # fmt: skip
