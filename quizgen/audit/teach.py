@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from itertools import product
 from typing import Any, Literal
 
+from quizgen.audit.pace import off_the_scale
 from quizgen.audit.variety import CLOSED, Seen
 from quizgen.bank.draw import Draw, draw
 from quizgen.bank.plan import admissible, plan_of
@@ -70,6 +71,7 @@ def examine(template: Template, seeds: int = 200) -> list[Finding]:
         for index, part in seen.items():
             part.add(one, index, build(one, index), fillers)
     found = [*_template_findings(template, len(different), seeds)]
+    found += [Finding(template.id, "", "note", what) for what in off_the_scale(template)]
     for index, label in enumerate(template.labels):
         said = [*_authored(template, index)]
         said += _seen_findings(template, index, seen[index]) if index in seen else []

@@ -18,7 +18,7 @@ from quizgen.figures._parameters import Parameter, complete
 from quizgen.locale import languages
 from quizgen.maths.notation import people
 
-PHOTOGRAPHS = frozenset({"artefacts", "depth_of_field", "noise"})
+PHOTOGRAPHS = frozenset({"artefacts", "depth_of_field", "fall_off", "grey_edits", "noise"})
 """Figures that are pictures of the camera."""
 
 
