@@ -18,7 +18,7 @@ from quizgen.maths.precision import working_precision
 from quizgen.maths.tree import Call, Num, Sym
 from quizgen.maths.values import Value
 from quizgen.question.contract import Built
-from quizgen.question.filling import Filler, plain, with_unit
+from quizgen.question.filling import NBSP, Filler, plain, with_unit
 from quizgen.question.kinds import KINDS
 from quizgen.question.levels.asking import Asked
 from quizgen.question.levels.changes import Change, Changes, needed, targets
@@ -141,7 +141,7 @@ def shown_value(drawn: Draw, name: str) -> tuple[Inline, ...]:
     value, unit = drawn.shown_values[name], drawn.template.units[name]
     exactly = exact_text(value) if short_decimal(value) else None
     text = with_unit(exactly or rounded_text(value), unit)
-    return pieces(text if exactly else f"≈ {text}")
+    return pieces(text if exactly else f"≈{NBSP}{text}")
 
 
 def _value(change: Change, lang: str) -> Asked:
@@ -151,11 +151,17 @@ def _value(change: Change, lang: str) -> Asked:
     filler = Filler(change.changed, lang)
     solved = PartSolution(
         label="",
-        lines=tuple(line_of(filler, one) for one in needed(change.changed, change.target)),
+        lines=_worked(change, lang),
         shown=pieces(KINDS[spec.kind].printed(spec, lang)),
         mistakes=tuple(mistakes_of(filler, Built(spec, mistakes=mistaken(spec, "value")))),
     )
     return Asked(Fraction(1), _body(change, lang, "transfer.value"), spec, solved)
+
+
+def _worked(change: Change, lang: str) -> tuple[Line, ...]:
+    """All steps after the change."""
+    filler = Filler(change.changed, lang)
+    return tuple(line_of(filler, one) for one in needed(change.changed, change.target))
 
 
 def _direction(change: Change, lang: str) -> Asked:
@@ -176,4 +182,5 @@ def _direction(change: Change, lang: str) -> Asked:
         return Option(lambda each: said(each, f"transfer.{way}"), way == right, because, way)
 
     options = [option(way) for way in DIRECTIONS]
-    return choice(change.drawn, lang, _body(change, lang, "transfer.direction"), options)
+    body = _body(change, lang, "transfer.direction")
+    return choice(change.drawn, lang, body, options, _worked(change, lang))

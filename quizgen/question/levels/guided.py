@@ -167,11 +167,11 @@ class _Guide:
         found: list[Asked] = []
         for step in stage.before:
             if step == stage.formula:
-                found.append(self._formula(stage, step))
-            found.append(self._value(stage, step))
+                found.append(self._formula(stage, step, len(found)))
+            found.append(self._value(stage, step, len(found)))
         if stage.whole:
             if stage.formula is not None and stage.formula not in stage.before:
-                found.append(self._formula(stage, stage.formula))
+                found.append(self._formula(stage, stage.formula, len(found)))
             found.append(self._rest(stage, usual))
         goal = usual.body if len(found) > 1 else ()
         found[0] = replace(found[0], body=(*goal, *found[0].body))
@@ -185,13 +185,14 @@ class _Guide:
     def _strong(self, key: str, **blanks: tuple[Inline, ...]) -> tuple[Block, ...]:
         return (Paragraph((Styled("strong", said(self.lang, key, **blanks)),)),)
 
-    def _value(self, stage: Stage, step: ChainStep) -> Asked:
+    def _value(self, stage: Stage, step: ChainStep, place: int) -> Asked:
+        key = "guided.value" if place else "guided.value_first"
         spec = value_spec(self.drawn, stage.index, step)
         if has_name(self.drawn, step.name):
-            body = self._strong("guided.value", thing=thing(self.drawn, step.name, self.lang))
+            body = self._strong(key, thing=thing(self.drawn, step.name, self.lang))
         else:
             way = right_way(self.drawn, step, stage.known)
-            body = self._strong("guided.value", thing=(way.shown,))
+            body = self._strong(key, thing=(way.shown,))
         solved = PartSolution(
             label="",
             lines=(line_of(self.filler, step),),
@@ -234,9 +235,10 @@ class _Guide:
     def _things(self, of: tuple[str, ...]) -> tuple[Inline, ...]:
         return listed((thing(self.drawn, name, self.lang) for name in of), ", ")
 
-    def _formula(self, stage: Stage, step: ChainStep) -> Asked:
+    def _formula(self, stage: Stage, step: ChainStep, place: int) -> Asked:
         """Which formula? The right one among those of the step's mistakes."""
-        body = self._strong("guided.formula", thing=thing(self.drawn, step.name, self.lang))
+        key = "guided.formula" if place else "guided.formula_first"
+        body = self._strong(key, thing=thing(self.drawn, step.name, self.lang))
         ways = _offered(self.drawn, stage, step)
         return choice(self.drawn, self.lang, body, [self._way(step, way) for way in ways])
 

@@ -14,7 +14,7 @@ from string import ascii_lowercase
 
 from quizgen.bank.draw import Draw
 from quizgen.bank.plan import shuffled
-from quizgen.bank.prose import Block, Items, Paragraph, Styled, Words
+from quizgen.bank.prose import Block, Inline, Items, Paragraph, Styled, Words
 from quizgen.locale import word
 from quizgen.question.filling import Filler
 from quizgen.question.levels import exam
@@ -81,11 +81,21 @@ def _placed(part: Asked, label: str, points: Fraction) -> Asked:
 def _task(drawn: Draw, lang: str, usual: Asking) -> Iterator[Block]:
     """The task as the exam asks it, with what its calculating parts say."""
     yield Paragraph((Styled("em", (Words(word(lang, "transfer.about")),)),))
-    yield from Filler(drawn, lang, hidden=True).blocks(drawn.template.texts[lang].stem)
+    yield from map(_quiet, Filler(drawn, lang, hidden=True).blocks(drawn.template.texts[lang].stem))
     kinds = [part.answer["kind"] for part in drawn.template.rules.part]
     bodies = [
-        part.body for part, kind in zip(usual.parts, kinds, strict=True)
+        tuple(map(_quiet, part.body)) for part, kind in zip(usual.parts, kinds, strict=True)
         if kind in NUMERIC and part.body
     ]  # fmt: skip
     if bodies:
         yield Items(tuple(bodies))
+
+
+def _quiet(block: Block) -> Block:
+    """A block without bold questions, which are not asked here."""
+    if not isinstance(block, Paragraph):
+        return block
+    plain: list[Inline] = []
+    for part in block.children:
+        plain += part.children if isinstance(part, Styled) and part.style == "strong" else (part,)
+    return Paragraph(tuple(plain))
