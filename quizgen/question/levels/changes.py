@@ -133,7 +133,9 @@ class Changes:
         pairs = [
             (given, scale)
             for given in self.drawn.template.chain.given
-            if given in used and _can_change(self.drawn, given, self._known)
+            if given in used
+            and _can_change(self.drawn, given, self._known)
+            and not used & _following(self.drawn, given)
             for scale in SCALES
         ]
         for given, scale in shuffled(f"{key_of(self.drawn)}/{target}/changes", pairs):
@@ -154,6 +156,16 @@ def targets(drawn: Draw) -> Iterator[tuple[int, str]]:
             for name in answer_names(part.answer):
                 if name in drawn.template.chain.by_name and has_name(drawn, name):
                     yield index, name
+
+
+def _following(drawn: Draw, given: str) -> frozenset[str]:
+    """Drawn quantities that follow from one, and could not stay as they are."""
+    found = {given}
+    for name, rule in drawn.template.rules.draw.items():
+        source = rule.formula or rule.by
+        if source and names(drawn.template.formula(source)) & found:
+            found.add(name)
+    return frozenset(found - {given})
 
 
 def _can_change(drawn: Draw, given: str, known: frozenset[str]) -> bool:
