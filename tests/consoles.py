@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -90,10 +91,23 @@ def run(text: str, folder: Path) -> subprocess.CompletedProcess[str]:
         "XDG_DATA_HOME": str(folder / "data"),
         "BROWSER": "true",
     }
-    if re.search(r"\bquizgen serve\b", text):  # ends by Ctrl-C alone
-        text = f"timeout --preserve-status --signal=INT 10 {text}"
+    if re.search(r"\bquizgen serve\b", text):
+        return _served(text, folder, environment)
     return subprocess.run(text, shell=True, cwd=folder, env=environment, capture_output=True,
                           text=True, stdin=subprocess.DEVNULL, check=False)  # fmt: skip
+
+
+def _served(
+    text: str, folder: Path, environment: dict[str, str]
+) -> subprocess.CompletedProcess[str]:
+    """A server, ended by Ctrl-C as soon as it has said where it is."""
+    with subprocess.Popen(f"exec {text}", shell=True, cwd=folder, env=environment, text=True,
+                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, start_new_session=True) as server:  # fmt: skip
+        said = server.stdout.readline()
+        os.killpg(server.pid, signal.SIGINT)
+        rest, errors = server.communicate(timeout=60)
+    return subprocess.CompletedProcess(text, server.returncode, said + rest, errors)
 
 
 def agrees(shown: str, printed: str) -> bool:

@@ -37,12 +37,28 @@ def run(settings: Settings, port: int, *, show: bool, tell: Callable[[str], obje
     app = application(settings)
     listening = _listening(port)
     address = f"http://{LOCAL[0]}:{listening.getsockname()[1]}{ENTRANCE}?key={settings.token}"
-    tell(f"quizgen is at {address}\nCtrl-C ends it; nothing that was answered is lost.")
-    if show:
-        webbrowser.open(address)
+
+    def ready() -> None:
+        tell(f"quizgen is at {address}\nCtrl-C ends it; nothing that was answered is lost.")
+        if show:
+            webbrowser.open(address)
+
     config = uvicorn.Config(app, log_level="warning", access_log=False, server_header=False)
     with contextlib.suppress(KeyboardInterrupt):  # the way in which it ends
-        asyncio.run(uvicorn.Server(config).serve(sockets=[listening]))
+        asyncio.run(_Server(config, ready).serve(sockets=[listening]))
+
+
+class _Server(uvicorn.Server):
+    """Says when it can be asked."""
+
+    def __init__(self, config: uvicorn.Config, ready: Callable[[], None]) -> None:
+        super().__init__(config)
+        self.ready = ready
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        """Begin to listen, and say so."""
+        await super().startup(sockets)
+        self.ready()
 
 
 def _listening(port: int) -> socket.socket:
