@@ -27,6 +27,9 @@ _BLOCK = re.compile(
 )
 
 
+INTERRUPTED = 130
+
+
 class Step(NamedTuple):
     """A command of a page, or (with a name) a file that is saved before the next one."""
 
@@ -107,7 +110,8 @@ def _served(
         said = server.stdout.readline()
         os.killpg(server.pid, signal.SIGINT)
         rest, errors = server.communicate(timeout=60)
-    return subprocess.CompletedProcess(text, server.returncode, said + rest, errors)
+    ended = 0 if server.returncode == INTERRUPTED else server.returncode  # what uv makes of Ctrl-C
+    return subprocess.CompletedProcess(text, ended, said + rest, errors)
 
 
 def agrees(shown: str, printed: str) -> bool:
