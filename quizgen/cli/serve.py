@@ -19,7 +19,12 @@ class Options(BankOptions):
 
 
 @click.command()
-@click.option("--port", type=Whole(0, 65535), default=0, help="Port; a free one if left out.")
+@click.option(
+    "--port",
+    type=Whole(0, 65535),
+    default=0,
+    help="Port; if left out the one of the first time, or a free one.",
+)
 @click.option("--open/--no-open", "show", default=True, help="Open the browser.")
 @click.option(
     "--database",

@@ -57,7 +57,7 @@ def application(settings: Settings) -> Starlette:
             Mount("/static", StaticFiles(directory=str(files("quizgen.web") / "static"))),
         ],
         middleware=[
-            Middleware(Guard, settings=settings),
+            Middleware(Guard, settings=site.settings),
             Middleware(BaseHTTPMiddleware, dispatch=known),
         ],
         exception_handlers={HTTPException: refused, QuizgenError: failed},

@@ -6,6 +6,7 @@ import secrets
 import time
 from dataclasses import dataclass
 
+import msgspec
 from starlette.concurrency import run_in_threadpool
 from starlette.datastructures import FormData
 from starlette.exceptions import HTTPException
@@ -26,6 +27,8 @@ from quizgen.web.views import lang_of, page, said, to
 
 FIELDS = "a-"
 """Before the name of a part in a form."""
+SHOWN = "on-"
+"""Before the name of a part in a form: what its fields held when the page was made."""
 MINUTES = (15, 30, 45, 60, 90)
 """Lengths of a paper of a topic."""
 
@@ -122,14 +125,31 @@ async def sit(request: Request) -> Response:
 
 
 def _fields(form: FormData, paper: MadePaper) -> dict[str, list[str]]:
-    """What was posted, by part; parts that were not on the form are left as they are."""
-    shown = {name.removeprefix("on-") for name, _ in form.multi_items() if name.startswith("on-")}
+    """What was changed, by part.
+
+    Parts that were not on the form are left as they are, and so are those that still hold what the
+    page was made with: another page of the same exam may have changed them since.
+    """
+    fields = [part.field.id for item in paper.items for part in item.parts]
     return {
-        part.field.id: every(form, FIELDS + part.field.id)
-        for item in paper.items
-        for part in item.parts
-        if part.field.id in shown
+        name: values
+        for name in fields
+        for values in [every(form, FIELDS + name)]
+        if any(_plain(values) != shown for shown in map(_shown, every(form, SHOWN + name)))
     }
+
+
+def _shown(sent: str) -> list[str] | None:
+    """What a part held when the page was made; None where a script sends only what was changed."""
+    try:
+        return _plain(msgspec.json.decode(sent, type=list[str]))
+    except msgspec.DecodeError:
+        return None
+
+
+def _plain(values: list[str]) -> list[str]:
+    """Fields as they compare: browsers end lines in their own way, and none filled is none."""
+    return [value.replace("\r\n", "\n") for value in values] if any(values) else []
 
 
 async def save(request: Request) -> Response:

@@ -14,6 +14,8 @@ from quizgen.errors import StoreError
 from quizgen.web.app import application
 from quizgen.web.guard import ENTRANCE
 from quizgen.web.settings import LOCAL, Settings
+from quizgen.web.site import Site
+from quizgen.web.store import Store
 
 
 def run(settings: Settings, port: int, *, show: bool, tell: Callable[[str], object]) -> None:
@@ -23,7 +25,7 @@ def run(settings: Settings, port: int, *, show: bool, tell: Callable[[str], obje
     ----------
     settings : Settings
     port : int
-        0 for a free one.
+        0 for the one of the first time if it is free, else any.
     show : bool
         Whether to open the browser.
     tell : callable
@@ -35,8 +37,10 @@ def run(settings: Settings, port: int, *, show: bool, tell: Callable[[str], obje
         If the port is taken.
     """
     app = application(settings)
-    listening = _listening(port)
-    address = f"http://{LOCAL[0]}:{listening.getsockname()[1]}{ENTRANCE}?key={settings.token}"
+    site: Site = app.state.site
+    listening = _listening(port) if port else _as_before(site.store)
+    place = f"http://{LOCAL[0]}:{listening.getsockname()[1]}"
+    address = f"{place}{ENTRANCE}?key={site.settings.token}"
 
     def ready() -> None:
         tell(f"quizgen is at {address}\nCtrl-C ends it; nothing that was answered is lost.")
@@ -59,6 +63,21 @@ class _Server(uvicorn.Server):
         """Begin to listen, and say so."""
         await super().startup(sockets)
         self.ready()
+
+
+def _as_before(store: Store) -> socket.socket:
+    """Listen where a page that was left open asks, and finds what its browser kept."""
+    anywhere = _listening(0)
+    port = anywhere.getsockname()[1]
+    before = int(store.lasting("port", str(port)))
+    if before == port:
+        return anywhere
+    try:
+        found = _listening(before)
+    except StoreError:
+        return anywhere
+    anywhere.close()
+    return found
 
 
 def _listening(port: int) -> socket.socket:

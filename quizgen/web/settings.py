@@ -25,7 +25,8 @@ class Settings:
     hosts : tuple of str
         Names under which the server may be asked.
     token : str
-        What the opened address holds: only who has it is let in.
+        What the opened address holds: only who has it is let in. A database that was served
+        before keeps its own.
     workers : int
         Processes that make questions.
     """

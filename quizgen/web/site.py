@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from quizgen.bank.folder import Bank, builtin
 from quizgen.web.settings import Settings
 from quizgen.web.store import Store
@@ -22,9 +24,10 @@ class Site:
     """
 
     def __init__(self, settings: Settings) -> None:
-        self.settings = settings
         self.bank = Bank(settings.bank, trusted=settings.trusted) if settings.bank else builtin()
         self.store = Store(settings.database)
+        token = self.store.lasting("token", settings.token)  # open pages outlive the server
+        self.settings = replace(settings, token=token)
         self.workers = Workers(settings)
 
     def close(self) -> None:

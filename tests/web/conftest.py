@@ -1,10 +1,11 @@
-"""A server in the same process, for one learner."""
+"""A server in the same process, for one learner; and one of its own for browsers."""
 
 from __future__ import annotations
 
 import re
 
 import pytest
+from served import Served
 from starlette.testclient import TestClient
 
 from quizgen.web.app import application
@@ -67,3 +68,42 @@ def sections():
         return [" ".join(re.sub(r"<[^>]*>", " ", part).split()) for part in parts]
 
     return texts
+
+
+@pytest.fixture(scope="module")
+def served(tmp_path_factory):
+    """A server in a process of its own."""
+    server = Served(tmp_path_factory.mktemp("served") / "learning.sqlite3")
+    yield server
+    server.kill()
+
+
+@pytest.fixture
+def opened(browser, served):
+    """Opens a page of the server that was let in; nothing may be wrong on it."""
+    contexts, wrong = [], []
+
+    def said(message) -> None:
+        if message.type in {"error", "warning"}:
+            wrong.append(message.text)
+
+    def asked(request) -> None:
+        if not request.url.startswith((served.address, "data:")):
+            wrong.append(request.url)
+
+    def one(**how):
+        context = browser.new_context(**{"viewport": {"width": 1000, "height": 900}, **how})
+        context.set_default_timeout(30_000)
+        contexts.append(context)
+        context.on("console", said)
+        context.on("weberror", lambda error: wrong.append(str(error.error)))
+        context.on("request", asked)
+        page = context.new_page()
+        page.goto(served.entrance)
+        return page
+
+    one.wrong = wrong
+    yield one
+    for context in contexts:
+        context.close()
+    assert wrong == []

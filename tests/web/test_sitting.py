@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import json
 import re
 import time
 
@@ -117,6 +118,22 @@ def test_parts_that_are_not_sent_keep_what_they_have(client, token, exam, paper_
     client.post(at, data=body(token, {second[0]: []}))
     done = shown(client.post(at, data={"token": token, "do": "hand-in"}).text)
     assert "Right." in done
+
+
+def test_a_form_changes_only_what_differs_from_its_page(client, token, exam, paper_of):
+    at, page = exam()
+    part, values = next(
+        (name, values) for name, values in typed(paper_of(page)).items() if len(values) > 1
+    )
+    client.post(at, data=body(token, {part: values}))
+    stale = {"token": token, f"on-{part}": "[]", f"a-{part}": ["" for _ in values]}
+    client.post(at, data=stale)
+    shown_now = html.unescape(
+        re.search(f'name="on-{part}" value="([^"]*)"', client.get(at).text)[1]
+    )
+    assert json.loads(shown_now) == values
+    client.post(at, data={**stale, f"on-{part}": shown_now})
+    assert f'name="on-{part}" value="[&#34;&#34;' in client.get(at).text, "emptied on purpose"
 
 
 def test_no_solution_before_it_is_handed_in_and_no_change_after(client, token, exam, paper_of, app):

@@ -4,6 +4,13 @@
 // An exam: each change is kept in this browser first and sent to the server; what the server has
 // confirmed leaves the browser. While the server is away it is tried again.
 (() => {
+  const handed = document.querySelector("[data-handed]");
+  if (handed) {
+    try {
+      const old = Object.keys(localStorage).filter((name) => name.startsWith("quizgen/exam/" + handed.dataset.handed + "/"));
+      old.forEach((name) => localStorage.removeItem(name));
+    } catch { /* forbidden */ }
+  }
   const form = document.getElementById("exam");
   if (!form) { return; }
   const place = "quizgen/exam/" + form.dataset.exam + "/";
@@ -20,42 +27,54 @@
   const fill = (part, kept) => fields(part).forEach((f, i) => {
     if (ticks(f)) { f.checked = kept.includes(f.value); } else { f.value = kept[i] ?? ""; }
   });
-  const overview = () => form.querySelectorAll("a[data-question]").forEach((link) => {
+  const marks = () => form.querySelectorAll("a[data-question]").forEach((link) => {
     const question = document.getElementById("question-" + link.dataset.question);
     const answered = [...question.querySelectorAll("fieldset[data-part]")]
       .every((part) => values(part).some((value) => value.trim()));
     link.classList.toggle("answered", answered);
   });
+  const states = () => form.querySelectorAll("a[data-question]").forEach((link) => {
+    link.querySelector(".state").textContent = ["answered", "flagged"]
+      .filter((name) => link.classList.contains(name)).map((name) => ", " + form.dataset[name]).join("");
+  });
+  const overview = () => { marks(); states(); };
   const waiting = new Set();
-  let busy = false, later = 0, wait = 0;
+  let busy = null, later = 0, wait = 0;
   const soon = (after) => { clearTimeout(later); later = setTimeout(send, after); };
-  const send = async () => {
-    if (busy || !waiting.size) { return; }
-    busy = true;
-    const names = [...waiting], body = new URLSearchParams({ token: form.elements.token.value });
+  const post = async (keepalive) => {
+    const body = new URLSearchParams({ token: form.elements.token.value });
     const sent = new Map();
-    for (const part of parts.filter((p) => names.includes(p.dataset.part))) {
+    for (const part of parts.filter((p) => waiting.has(p.dataset.part))) {
       const name = part.dataset.part, now = values(part);
       sent.set(name, JSON.stringify(now));
-      body.append("on-" + name, "1");
+      body.append("on-" + name, "");
       now.forEach((value) => body.append("a-" + name, value));
     }
     try {
-      const answer = await fetch(form.action, { method: "POST", body, headers: { Accept: "application/json" } });
-      if (answer.status === 409) { said.textContent = form.dataset.over; waiting.clear(); location.reload(); return; }
+      const answer = await fetch(form.action, { method: "POST", body, keepalive, headers: { Accept: "application/json" } });
+      if (answer.status === 409) { said.textContent = form.dataset.over; waiting.clear(); location.reload(); return false; }
       if (!answer.ok) { throw new Error(answer.status); }
-      for (const part of parts) {
+      for (const part of parts.filter((p) => sent.has(p.dataset.part))) {
         const name = part.dataset.part;
-        if (sent.has(name) && sent.get(name) === JSON.stringify(values(part))) { waiting.delete(name); store.drop(name); }
+        form.elements["on-" + name].value = sent.get(name);
+        if (sent.get(name) === JSON.stringify(values(part))) { waiting.delete(name); store.drop(name); }
       }
       wait = 0;
       said.textContent = waiting.size ? "" : form.dataset.saved;
+      return true;
     } catch {
       wait = Math.min(30000, 1000 + wait * 2);
       said.textContent = form.dataset.away;
-    } finally { busy = false; }
-    if (waiting.size) { soon(wait || 300); }
+      return false;
+    }
   };
+  // One request at a time; a second call waits for the first and then sends what is left.
+  const flush = async (keepalive = false) => {
+    while (busy) { await busy; }
+    busy = post(keepalive);
+    try { return await busy; } finally { busy = null; if (waiting.size) { soon(wait || 300); } }
+  };
+  const send = () => { if (!busy && waiting.size) { flush(); } };
   for (const part of parts) {
     const kept = store.get(part.dataset.part);
     if (Array.isArray(kept)) { fill(part, kept); waiting.add(part.dataset.part); }
@@ -68,8 +87,28 @@
   }
   overview();
   soon(0);
-  addEventListener("pagehide", () => { if (waiting.size) { send(); } });
-  form.addEventListener("submit", () => { for (const part of parts) { store.drop(part.dataset.part); } });
+  addEventListener("pagehide", () => { if (waiting.size) { flush(true); } });
+  addEventListener("online", () => soon(0));
+  // Nobody leaves this page for one of a server that is away.
+  const flag = async (button) => {
+    const body = new URLSearchParams({ token: form.elements.token.value });
+    const answer = await fetch(button.formAction, { method: "POST", body }).catch(() => null);
+    if (!answer?.ok) { said.textContent = form.dataset.away; return; }
+    const on = button.getAttribute("aria-pressed") !== "true";
+    button.setAttribute("aria-pressed", on);
+    form.querySelector(`a[data-question="${button.dataset.flag}"]`).classList.toggle("flagged", on);
+    states();
+  };
+  let leaving = false;
+  form.addEventListener("submit", async (event) => {
+    const button = event.submitter;
+    if (leaving || !button) { return; }
+    event.preventDefault();
+    if (button.dataset.flag) { flag(button); return; }
+    if (!(await flush()) || button.value === "save") { return; }
+    leaving = true;
+    form.requestSubmit(button);
+  });
   const clock = form.querySelector("[data-left]");
   if (clock) {
     const ends = performance.now() + 1000 * Number(clock.dataset.left);
@@ -77,7 +116,9 @@
       const left = ends - performance.now();
       clock.textContent = form.dataset.minutes.replace("{}", Math.max(0, Math.ceil(left / 60000)));
       clock.classList.toggle("late", left < 300000);
-      if (left <= 0) { send().finally(() => location.reload()); } else { setTimeout(tick, Math.min(left, 15000) + 50); }
+      if (left > 0) { setTimeout(tick, Math.min(left, 15000) + 50); return; }
+      said.textContent = form.dataset.over;
+      flush().then((kept) => { if (kept) { location.reload(); } else { setTimeout(tick, 3000); } });
     };
     tick();
   }

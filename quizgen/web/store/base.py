@@ -25,7 +25,7 @@ from quizgen.errors import StoreError
 from quizgen.web.store.migrate import upgrade
 from quizgen.web.store.rows import Attempt, Learner, Seen, Which
 from quizgen.web.store.sittings import Sittings
-from quizgen.web.store.tables import ATTEMPT, LEARNER, SEEN
+from quizgen.web.store.tables import ATTEMPT, LEARNER, SEEN, SERVER
 from quizgen.web.store.values import value
 
 ALONE = "me"
@@ -60,6 +60,15 @@ class Store:
     def close(self) -> None:
         """Give the connections back."""
         self.engine.dispose()
+
+    def lasting(self, name: str, value: str) -> str:
+        """What servers of this database have in common under a name: the first one's value."""
+        query = select(SERVER.c.value).where(SERVER.c.name == name)
+        with self.engine.begin() as connection:
+            found = connection.execute(query).scalar()
+            if found is None:
+                connection.execute(insert(SERVER).values(name=name, value=value))
+        return value if found is None else str(found)
 
     def learner(self, name: str = ALONE) -> Learner:
         """A learner by name; a new one if nobody has it yet."""

@@ -8,7 +8,7 @@ from sqlalchemy import Connection, inspect, text
 
 from quizgen.errors import StoreError
 
-NEWEST = "0002"
+NEWEST = "0003"
 """The last step in ``migrations/versions``."""
 
 

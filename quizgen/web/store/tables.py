@@ -93,3 +93,11 @@ FLAG = Table(
     Column("number", String(20), primary_key=True),
 )
 """Questions to come back to."""
+
+SERVER = Table(
+    "server",
+    METADATA,
+    Column("name", String(40), primary_key=True),
+    Column("value", String(200), nullable=False),
+)
+"""What a server has in common with the one before it, so that open pages outlive both."""

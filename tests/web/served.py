@@ -1,0 +1,46 @@
+"""A server in a process of its own, as `quizgen serve` starts it."""
+
+from __future__ import annotations
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+from pathlib import Path
+
+
+def free_port() -> int:
+    with socket.socket() as one:
+        one.bind(("127.0.0.1", 0))
+        return one.getsockname()[1]
+
+
+class Served:
+    """A server of one database and one port, to be killed and started again."""
+
+    def __init__(self, database: Path, *more: str) -> None:
+        self.port, self.entrance = free_port(), ""
+        self.file, self._more = database, more
+        self._process: subprocess.Popen[str] | None = None
+        self.start()
+
+    @property
+    def address(self) -> str:
+        return f"http://127.0.0.1:{self.port}"
+
+    def start(self) -> None:
+        self._process = subprocess.Popen(
+            [sys.executable, "-m", "quizgen", "serve", "--no-open", "--port", str(self.port),
+             "--database", f"sqlite:///{self.file}", *self._more],
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True,
+        )  # fmt: skip
+        said = self._process.stdout.readline()
+        assert "/enter?key=" in said, said + self._process.stdout.read()
+        self.entrance = said.split()[-1]
+
+    def kill(self) -> None:
+        """End it and its workers as a power cut does."""
+        os.killpg(self._process.pid, signal.SIGKILL)
+        self._process.wait()
+        self._process.stdout.close()

@@ -1,0 +1,145 @@
+"""An exam in Chromium: nothing that was typed may be lost."""
+
+from __future__ import annotations
+
+import re
+import sqlite3
+
+import pytest
+from playwright.sync_api import expect
+
+pytestmark = pytest.mark.browser
+
+SAVED = "All answers are saved."
+AWAY = re.compile("does not answer")
+
+
+@pytest.fixture
+def exam(opened, served):
+    def begun(*, clock: bool = False, **how):
+        page = opened(**how)
+        page.goto(served.address + "/exam")
+        page.get_by_label("Paper", exact=True).select_option("trial")
+        if not clock:
+            page.get_by_label("with the clock running").uncheck()
+        page.get_by_role("button", name="Begin the exam").click()
+        expect(page.locator("#exam")).to_be_visible()
+        return page
+
+    return begun
+
+
+def boxes(page):
+    """The first field of each part that is typed."""
+    return page.locator("#exam fieldset[data-part] input[id$='-0'][type=text]")
+
+
+def forgive(opened):
+    """What browsers say of a server that is dead."""
+    dead = re.compile("ERR_CONNECTION|ERR_EMPTY|Failed to fetch")
+    opened.wrong[:] = [one for one in opened.wrong if not dead.search(one)]
+
+
+def typed(page, number: int, text: str):
+    boxes(page).nth(number).fill(text)
+    expect(page.locator("#kept")).to_have_text(SAVED)
+
+
+def test_a_reload_and_the_way_back_keep_what_was_typed(exam, served):
+    page = exam()
+    typed(page, 0, "12.5")
+    page.locator("#exam input[type=radio]").first.check()
+    page.reload()
+    expect(boxes(page).first).to_have_value("12.5")
+    expect(page.locator("#exam input[type=radio]").first).to_be_checked()
+    boxes(page).first.fill("13")
+    page.goto(served.address + "/")
+    page.go_back()
+    expect(boxes(page).first).to_have_value("13")
+
+
+def test_enter_keeps_and_changes_nothing_else(exam):
+    page = exam()
+    boxes(page).first.fill("7")
+    boxes(page).first.press("Enter")
+    expect(page.locator("#kept")).to_have_text(SAVED)
+    expect(boxes(page).first).to_be_focused()
+    expect(page.locator(".flagged")).to_have_count(0)
+
+
+def test_a_page_that_was_open_before_loses_nothing_of_another(exam):
+    one = exam()
+    two = one.context.new_page()
+    two.goto(one.url)
+    typed(one, 0, "111")
+    typed(two, 1, "222")
+    two.get_by_role("button", name="Hand in").click()
+    expect(two.locator("h1")).to_be_visible()
+    expect(two.locator(".typed", has_text="111")).to_have_count(1)
+    expect(two.locator(".typed", has_text="222")).to_have_count(1)
+
+
+def test_what_is_typed_while_the_server_is_dead_arrives_when_it_is_back(exam, served, opened):
+    page = exam()
+    typed(page, 0, "1.5")
+    served.kill()
+    boxes(page).nth(1).fill("2.5")
+    expect(page.locator("#kept")).to_have_text(AWAY)
+    page.get_by_role("button", name="Hand in").click()
+    expect(boxes(page).nth(1)).to_have_value("2.5")
+    served.start()
+    expect(page.locator("#kept")).to_have_text(SAVED, timeout=60_000)
+    page.reload()
+    expect(boxes(page).first).to_have_value("1.5")
+    expect(boxes(page).nth(1)).to_have_value("2.5")
+    forgive(opened)
+
+
+def test_a_browser_that_ends_while_the_server_is_dead_still_sends_it_later(exam, served, opened):
+    page = exam()
+    at = page.url
+    served.kill()
+    boxes(page).first.fill("3.5")
+    expect(page.locator("#kept")).to_have_text(AWAY)
+    page.close()
+    served.start()
+    again = page.context.new_page()
+    again.goto(at)
+    expect(boxes(again).first).to_have_value("3.5")
+    expect(again.locator("#kept")).to_have_text(SAVED)
+    forgive(opened)
+
+
+def test_when_the_clock_has_run_out_the_paper_is_handed_in(exam, served):
+    page = exam(clock=True)
+    typed(page, 0, "42")
+    with sqlite3.connect(served.file) as connection:
+        connection.execute(
+            'UPDATE sitting SET "limit" = ? - begun WHERE id = ?',
+            (page.evaluate("Date.now() / 1000 + 2"), page.url.rsplit("/", 1)[1]),
+        )
+    connection.close()
+    page.reload()
+    expect(page.get_by_text("Your answer: 42")).to_be_visible()
+    expect(page.locator("#exam")).to_have_count(0)
+
+
+def test_a_question_to_come_back_to_is_marked_without_leaving_the_place(exam):
+    page = exam()
+    button = page.get_by_role("button", name="Come back to this").nth(1)
+    button.click()
+    expect(button).to_have_attribute("aria-pressed", "true")
+    expect(page.locator("a.flagged")).to_have_accessible_name(re.compile("flagged"))
+    page.reload()
+    expect(page.locator("a.flagged")).to_have_text(re.compile("2"))
+
+
+def test_without_scripts_an_exam_is_sat_by_forms(exam):
+    page = exam(java_script_enabled=False)
+    boxes(page).first.fill("9.75")
+    boxes(page).first.press("Enter")
+    expect(boxes(page).first).to_have_value("9.75")
+    page.get_by_role("button", name="Come back to this").first.click()
+    expect(page.locator("a.flagged")).to_have_count(1)
+    page.get_by_role("button", name="Hand in").click()
+    expect(page.locator(".typed").first).to_contain_text("9.75")

@@ -1,0 +1,36 @@
+"""Where a server listens, and what it has in common with the one before it."""
+
+from __future__ import annotations
+
+from quizgen.web.server import _as_before
+from quizgen.web.settings import Settings
+from quizgen.web.site import Site
+from quizgen.web.store import Store
+
+
+def test_a_server_lets_in_whom_the_one_before_it_let_in(tmp_path):
+    address = f"sqlite:///{tmp_path / 'learning.sqlite3'}"
+    tokens = set()
+    for _ in range(2):
+        site = Site(Settings(address, workers=1))
+        tokens.add(site.settings.token)
+        site.close()
+    assert len(tokens) == 1
+    other = Site(Settings(f"sqlite:///{tmp_path / 'other.sqlite3'}", workers=1))
+    assert other.settings.token not in tokens
+    other.close()
+
+
+def test_it_listens_on_the_port_of_the_first_time_while_that_is_free(tmp_path):
+    store = Store(f"sqlite:///{tmp_path / 'learning.sqlite3'}")
+    first = _as_before(store)
+    port = first.getsockname()[1]
+    first.listen()
+    beside = _as_before(store)
+    assert beside.getsockname()[1] != port
+    beside.close()
+    first.close()
+    again = _as_before(store)
+    assert again.getsockname()[1] == port
+    again.close()
+    store.close()
