@@ -43,9 +43,11 @@ def application(settings: Settings) -> Starlette:
 
     @contextlib.asynccontextmanager
     async def lifespan(_app: Starlette) -> AsyncIterator[None]:
-        site.workers.warm()
-        yield
-        site.close()
+        try:
+            site.workers.warm()
+            yield
+        finally:
+            site.close()
 
     app = Starlette(
         routes=[

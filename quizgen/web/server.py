@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import signal
 import socket
 import webbrowser
 from collections.abc import Callable
@@ -16,6 +17,9 @@ from quizgen.web.guard import ENTRANCE
 from quizgen.web.settings import LOCAL, Settings
 from quizgen.web.site import Site
 from quizgen.web.store import Store
+
+PATIENCE = 5
+"""Seconds that answers on their way have when the server ends."""
 
 
 def run(settings: Settings, port: int, *, show: bool, tell: Callable[[str], object]) -> None:
@@ -47,9 +51,20 @@ def run(settings: Settings, port: int, *, show: bool, tell: Callable[[str], obje
         if show:
             webbrowser.open(address)
 
-    config = uvicorn.Config(app, log_level="warning", access_log=False, server_header=False)
+    config = uvicorn.Config(
+        app, log_level="warning", access_log=False, server_header=False,
+        timeout_graceful_shutdown=PATIENCE,
+    )  # fmt: skip
+    _end_like_ctrl_c()
     with contextlib.suppress(KeyboardInterrupt):  # the way in which it ends
         asyncio.run(_Server(config, ready).serve(sockets=[listening]))
+
+
+def _end_like_ctrl_c() -> None:
+    """Let no signal end this process before it has ended those that it began."""
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    if hasattr(signal, "SIGHUP"):  # a terminal that is closed
+        signal.signal(signal.SIGHUP, lambda *_: signal.raise_signal(signal.SIGTERM))
 
 
 class _Server(uvicorn.Server):

@@ -3,32 +3,18 @@
 from __future__ import annotations
 
 import asyncio
-import contextlib
-import multiprocessing
-import signal
 from collections import OrderedDict
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import ThreadPoolExecutor
+from queue import LifoQueue
 
 import msgspec
 
-from quizgen.web.made import Made, MadePaper, Wanted, WantedPaper, make
+from quizgen.web.made import Made, MadePaper, Wanted, WantedPaper
+from quizgen.web.makers import Maker
 from quizgen.web.settings import Settings
 
 KEPT = 256
 """Questions that are kept ready, the latest ones."""
-
-
-def _uninterrupted() -> None:
-    """Leave Ctrl-C to the server, which ends its workers."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-
-
-def _ready() -> None:
-    """Load what the first question will need."""
-    from quizgen.figures import _pen
-    from quizgen.question import compose
-
-    del _pen, compose
 
 
 class Workers:
@@ -36,15 +22,26 @@ class Workers:
 
     def __init__(self, settings: Settings) -> None:
         self.settings = settings
-        context = multiprocessing.get_context("spawn")
-        self.pool = ProcessPoolExecutor(settings.workers, context, _uninterrupted)
+        self.makers: list[Maker] = []
+        self._idle: LifoQueue[Maker] = LifoQueue()
+        self._threads = ThreadPoolExecutor(settings.workers, "maker")
         self._kept: OrderedDict[Wanted | WantedPaper, Made | MadePaper] = OrderedDict()
         self._due: dict[Wanted | WantedPaper, asyncio.Future[Made | MadePaper]] = {}
 
     def warm(self) -> None:
         """Start the processes."""
         for _ in range(self.settings.workers):
-            self.pool.submit(_ready)
+            maker = Maker(self.settings.bank, trusted=self.settings.trusted)
+            self.makers.append(maker)
+            self._idle.put(maker)
+
+    def _asked(self, wanted: Wanted | WantedPaper) -> bytes:
+        """Let the first maker that is idle make it; there is one for each thread."""
+        maker = self._idle.get()
+        try:
+            return maker.make(wanted)
+        finally:
+            self._idle.put(maker)
 
     async def question(self, wanted: Wanted) -> Made:
         """A question, from those kept if it is among them.
@@ -82,9 +79,8 @@ class Workers:
 
     async def _make(self, wanted: Wanted | WantedPaper) -> Made | MadePaper:
         try:
-            bank, trusted = self.settings.bank, self.settings.trusted
             loop = asyncio.get_running_loop()
-            data = await loop.run_in_executor(self.pool, make, bank, trusted, wanted)
+            data = await loop.run_in_executor(self._threads, self._asked, wanted)
             found: Made | MadePaper
             if isinstance(wanted, WantedPaper):
                 found = msgspec.json.decode(data, type=MadePaper)
@@ -99,5 +95,6 @@ class Workers:
 
     def close(self) -> None:
         """End the processes."""
-        with contextlib.suppress(RuntimeError):
-            self.pool.shutdown(wait=False, cancel_futures=True)
+        for maker in self.makers:
+            maker.close()
+        self._threads.shutdown(cancel_futures=True)

@@ -1,0 +1,122 @@
+"""One process that makes questions, told what is wanted over a pipe.
+
+A pipe needs no semaphore, which a server that is killed would leave behind, and it ends with the
+server: a maker whose server is gone reads its end and goes too.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import multiprocessing
+import signal
+import threading
+from collections.abc import Iterator
+from multiprocessing.connection import Connection
+from pathlib import Path
+
+from quizgen.errors import BankError
+from quizgen.web.made import Wanted, WantedPaper, make
+
+LONGEST = 120.0
+"""Seconds after which a process is taken to hang."""
+TRIES = 2
+"""How many processes a question may take down."""
+
+_SPAWN = multiprocessing.get_context("spawn")
+
+
+class Maker:
+    """A process that makes one question after another; where it dies another takes its place.
+
+    Parameters
+    ----------
+    bank : pathlib.Path or None
+        Folder of the bank, the built-in one if there is none.
+    trusted : bool
+    """
+
+    def __init__(self, bank: Path | None, *, trusted: bool) -> None:
+        self._bank, self._trusted = bank, trusted
+        self._closed = False
+        self._changing = threading.Lock()
+        self._begin()
+
+    def _begin(self) -> None:
+        self._line, there = _SPAWN.Pipe()
+        self.process = _SPAWN.Process(
+            target=_work, args=(there, self._bank, self._trusted), daemon=True
+        )
+        with _uninterrupted():
+            self.process.start()
+        there.close()
+
+    def make(self, wanted: Wanted | WantedPaper) -> bytes:
+        """A question or a paper, as ``made.make`` gives it.
+
+        Raises
+        ------
+        QuizgenError
+            If a template is wrong, or there is no such paper.
+        """
+        for _ in range(TRIES):
+            with contextlib.suppress(EOFError, OSError):
+                self._line.send(wanted)
+                if self._line.poll(LONGEST):
+                    return _answer(self._line.recv())
+            self._follow()
+        raise BankError(f"{wanted}: no process lived to make it")
+
+    def _follow(self) -> None:
+        """Put a new process in the place of this one."""
+        with self._changing:
+            if self._closed:
+                raise BankError("the server ends")
+            self._end()
+            self._begin()
+
+    def close(self) -> None:
+        """End the process, whatever it does."""
+        with self._changing:
+            self._closed = True
+            self._end()
+
+    def _end(self) -> None:
+        self.process.kill()
+        self.process.join()
+
+
+def _answer(told: bytes | Exception) -> bytes:
+    if isinstance(told, bytes):
+        return told
+    raise told
+
+
+@contextlib.contextmanager
+def _uninterrupted() -> Iterator[None]:
+    """Leave Ctrl-C to the server, which ends its makers: a process begun here never sees it."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _work(line: Connection, bank: Path | None, trusted: bool) -> None:
+    """Make what is wanted until nobody wants anything."""
+    from quizgen.figures import _pen  # what the first question will need
+    from quizgen.question import compose
+
+    del _pen, compose
+    with contextlib.suppress(EOFError, OSError):
+        while True:
+            line.send(_made(bank, trusted, line.recv()))
+
+
+def _made(bank: Path | None, trusted: bool, wanted: Wanted | WantedPaper) -> bytes | Exception:
+    try:
+        return make(bank, trusted, wanted)
+    except Exception as error:  # noqa: BLE001 - raised again by who asked
+        return error
