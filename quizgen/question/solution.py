@@ -163,5 +163,11 @@ def _right(filler: Filler, section: str, name: str) -> tuple[Inline, ...]:
     """A right option, and why it is right if that is written."""
     told = filler.sentence(section, name)
     if section == "options" and filler.text.sentence("reasons", name) is not None:
-        return (*told, Words(": "), *filler.sentence("reasons", name))
+        return (*_unstopped(told), Words(": "), *filler.sentence("reasons", name))
     return told
+
+
+def _unstopped(told: tuple[Inline, ...]) -> tuple[Inline, ...]:
+    """A sentence that goes on after a colon has no full stop before it."""
+    *most, last = told
+    return (*most, Words(last.text.rstrip(".।"))) if isinstance(last, Words) else told

@@ -83,13 +83,13 @@ def test_the_same_command_goes_on_where_it_was_left(shelf, stop, seeded):
     first, second = (first_question(seed, number=n) for n in (1, 2))
     rest = [show(spec) for spec in (*first.specs[1:], *second.specs)]
     done = run(rest, *options, "--count", "2")
-    assert f"Going on with the session of seed {seed}." in done.output
+    assert f"Continuing the session with seed {seed}." in done.output
     assert done.output.count("Correct.") == len(rest)
     assert "Done before: (a)." in done.output or len(first.specs) == 1
     assert "Question 2 of 2" in done.output
     assert "Summary by topic" in done.output
     assert not list(shelf.folder.glob("*.json"))
-    assert "Going on" not in run(["quit"], *options, "--count", "2").output
+    assert "Continuing the session" not in run(["quit"], *options, "--count", "2").output
 
 
 def test_a_glance_at_another_topic_deletes_nothing(shelf):
@@ -97,8 +97,8 @@ def test_a_glance_at_another_topic_deletes_nothing(shelf):
     for others in (["--topic", "noise"], ["--tier", "B"], ["--count", "3"], ["--lang", "bn"]):
         run(["quit"], "--count", "2", *others)
         run(["!"] * 40, "--count", "1", *others)
-    assert "Going on" in run(["quit"], "--count", "2").output
-    assert "Going on" not in run(["quit"], "--count", "2", "--fresh").output
+    assert "Continuing the session" in run(["quit"], "--count", "2").output
+    assert "Continuing the session" not in run(["quit"], "--count", "2", "--fresh").output
 
 
 def test_ctrl_c_keeps_the_session_and_says_so(shelf, monkeypatch):
@@ -114,7 +114,7 @@ def test_ctrl_c_keeps_the_session_and_says_so(shelf, monkeypatch):
         practice.practice, ["--topic", "projection", "--tier", "A", "--seed", several()]
     )
     assert done.exit_code == 130
-    assert done.output.endswith("Session kept. The same command goes on with it.\n")
+    assert done.output.endswith("Session kept. The same command continues it.\n")
     (path,) = shelf.folder.glob("*.json")
     assert json.loads(path.read_text())["parts"][0]["outcome"]
 

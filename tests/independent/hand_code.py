@@ -131,8 +131,8 @@ def indexing(page: Page) -> dict[str, Any]:
         words = ("IndexError", "IndexError")
     else:
         same = value.reshape(-1, 2).tolist() == [[known["y"], known["x"]]]
-        words = (("wanted", "সেটাই") if same else ("at another", "অন্য জায়গার") if value.size
-                 else ("without a pixel", "পিক্সেলহীন"))  # fmt: skip
+        words = (("wanted", "সেটাই") if same else ("in another", "অন্য জায়গার") if value.size
+                 else ("without any pixel", "পিক্সেলহীন"))  # fmt: skip
     return {"a": page.parts["a"].saying(*words)}
 
 

@@ -158,7 +158,7 @@ INWARDS = ("inwards", "farther", "ভেতরের দিকে", "অক্�
 def square_in_numbers(page: Page) -> dict[str, Any]:
     """Notes 4.5: where the corners go against the middle of an edge."""
     asked = {"barrel": ("barrel", "ব্যারেল"), "pincushion": ("pincushion", "পিনকুশন"),
-             "scale": ("another scale", "মাপের"), "turned": ("rotation", "ঘূর্ণন"),
+             "scale": ("change of scale", "মাপের"), "turned": ("rotation", "ঘূর্ণন"),
              "tilt": ("tilted", "হেলানো")}  # fmt: skip
     question = page.text.rpartition("\n1; 0")[2]
     kind = next(name for name, words in asked.items() if any(w in question for w in words))

@@ -50,7 +50,7 @@ Which one?
 - few: Rods have one pigment.
 - many: Rods have three.
 ## options
-- cone: cones
+- cone: cones.
 - rod: rods
 - iris: the iris
 - red: red
@@ -86,8 +86,11 @@ def parts(tmp_path):
 
 
 def names_of(field):
-    """Each option's or target's mark, and its first word."""
-    return [(mark, text[0].text.split()[-1]) for mark, text in (*field.options, *field.targets)]
+    """Each option's or target's mark, and its last word."""
+    return [
+        (mark, text[0].text.split()[-1].rstrip("."))
+        for mark, text in (*field.options, *field.targets)
+    ]
 
 
 def test_a_wrong_tick_gets_its_reason_in_the_learners_language(parts):
@@ -139,7 +142,7 @@ def test_the_solution_prints_them(parts):
     named = [[mistake.name for mistake in part.mistakes] for part in solved]
     assert named == [[], [], ["backwards"], ["inverted"], [], []]
     said = "".join(getattr(part, "text", "") for part in solved[4].options[0])
-    assert said == "cones: [en] Three pigments."
+    assert said == "cones: [en] Three pigments.", "no full stop before a colon"
     assert [part.text for part in solved[5].options[0]] == ["[en] Rods have ", "1", ", no: one."]
 
 
