@@ -33,7 +33,7 @@ from quizgen.render.text import blocks
 
 COMPOSED = 20
 """Instances that are put into words in every language."""
-MARKED = 200
+MARKED = 50
 """Instances whose answers and mistakes are typed back in every language."""
 LEVELLED = 1
 """Instances that are asked at every level, and typed back likewise."""
