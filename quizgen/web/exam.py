@@ -17,10 +17,11 @@ from starlette.routing import Route
 from quizgen.errors import CodeError, QuizgenError
 from quizgen.paper.blueprint import EVERYTHING, named_blueprint
 from quizgen.paper.code import LARGEST_SEED, parse_code
+from quizgen.web.agenda import count
 from quizgen.web.echo import read_back
 from quizgen.web.forms import every, one, posted
 from quizgen.web.made import MadePaper, MadePart, WantedPaper
-from quizgen.web.results import marked, outcomes
+from quizgen.web.results import asked, marked, outcomes
 from quizgen.web.site import Site
 from quizgen.web.store import Sitting
 from quizgen.web.views import lang_of, page, said, to
@@ -172,7 +173,9 @@ async def _hand_in(request: Request, sitting: Sitting) -> None:
     store = request.app.state.site.store.sittings
     paper = await _paper(request, sitting)
     answers = await run_in_threadpool(store.answers, sitting)
-    await run_in_threadpool(store.hand_in, sitting, outcomes(paper, answers))
+    if await run_in_threadpool(store.hand_in, sitting, outcomes(paper, answers)):
+        results = marked(paper, answers, {})
+        await run_in_threadpool(count, request, asked(request.app.state.site.bank, results))
 
 
 async def flag(request: Request) -> Response:

@@ -13,6 +13,7 @@ from starlette.routing import Route
 
 from quizgen.practice.choosing import fitting
 from quizgen.practice.state import Wish
+from quizgen.web.agenda import count_turn, following_of, today
 from quizgen.web.echo import read_back
 from quizgen.web.forms import every, one, posted
 from quizgen.web.made import GUIDED, Wanted
@@ -31,7 +32,8 @@ async def home(request: Request) -> Response:
     topics = [(name, site.bank.topic_title(name, lang)) for name in site.bank.topics]
     latest = await run_in_threadpool(site.store.latest, request.state.learner.id, 1)
     going_on = latest[0] if latest and latest[0].ended is None else None
-    return page(request, "home.html.j2", topics=topics, tiers=TIERS, going_on=going_on)
+    plan = await run_in_threadpool(today, request)
+    return page(request, "home.html.j2", topics=topics, tiers=TIERS, going_on=going_on, plan=plan)
 
 
 async def begin(request: Request) -> Response:
@@ -46,7 +48,7 @@ async def begin(request: Request) -> Response:
 
 
 async def _asked(request: Request, wish: dict[str, str]) -> Response:
-    """A question that fits a wish: one that was asked the least."""
+    """The question that fits a wish and is to be done next."""
     site: Site = request.app.state.site
     names = fitting(
         site.bank,
@@ -54,9 +56,7 @@ async def _asked(request: Request, wish: dict[str, str]) -> Response:
     )
     if not names:
         return page(request, "message.html.j2", 404, title="practice.title", text="practice.none")
-    times = await run_in_threadpool(site.store.times, request.state.learner.id)
-    fewest = min(times.get(name, 0) for name in names)
-    template = secrets.choice([name for name in names if times.get(name, 0) == fewest])
+    template = await run_in_threadpool(following_of, request, names)
     return await _begun(request, Which(template, _seed()), wish)
 
 
@@ -102,8 +102,10 @@ async def question(request: Request) -> Response:
 
 async def _kept(request: Request, turn: Turn, place: Place) -> Response:
     site: Site = request.app.state.site
-    seen = turn.keep()
+    ended, seen = turn.attempt.ended, turn.keep()
     await run_in_threadpool(site.store.keep, turn.attempt, seen)
+    if ended is None and turn.attempt.ended is not None:
+        await run_in_threadpool(count_turn, request, turn)
     return to(f"/q/{turn.attempt.id}?said={place.name}#part-{place.name}")
 
 

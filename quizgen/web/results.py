@@ -7,12 +7,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
+from quizgen.bank.folder import Bank
 from quizgen.marking.options import Options
 from quizgen.marking.verdict import Verdict
 from quizgen.paper.marking import Marker, PartResult, in_quarters
 from quizgen.practice.boxes import joined
+from quizgen.practice.schedule import Asked, Grade
 from quizgen.web.made import Made, MadePaper, MadePart
 from quizgen.web.store import Seen
+
+WRONG = frozenset({"wrong", "partial"})
 
 
 @dataclass(frozen=True)
@@ -95,7 +99,7 @@ class Results:
         found: dict[str, list[Made]] = {}
         for question in self.questions:
             for part in question.parts:
-                graded = part.status in {"wrong", "partial"} and part.verdict.note
+                graded = part.status in WRONG and part.verdict.note
                 if graded and question.made not in found.setdefault(part.verdict.message, []):
                     found[part.verdict.message].append(question.made)
         return sorted(found.items(), key=lambda one: -len(one[1]))
@@ -125,6 +129,19 @@ def _question(item: Made, answers: Mapping[str, list[str]], own: Mapping[str, fl
     return Question(item, tuple(parts))
 
 
+def asked(bank: Bank, results: Results) -> list[Asked]:
+    """What a paper says of its templates; nothing of questions that a person has to mark."""
+    found = []
+    for question in results.questions:
+        parts = [part for part in question.parts if part.status != "open"]
+        if parts:
+            right = all(part.verdict.verdict == "correct" for part in parts)
+            notes = tuple(part.verdict.note for part in parts if part.status in WRONG)
+            origin = bank.origin(question.made.wanted.template)
+            found.append(Asked(origin, Grade.GOOD if right else Grade.AGAIN, notes))
+    return found
+
+
 def outcomes(paper: MadePaper, answers: Mapping[str, list[str]]) -> tuple[Seen, ...]:
     """How the parts went, for what to practise next; blank ones were not right."""
     now = time.time()
@@ -133,7 +150,7 @@ def outcomes(paper: MadePaper, answers: Mapping[str, list[str]]) -> tuple[Seen, 
             question.made.wanted.template,
             question.made.topic,
             part.part.label,
-            part.verdict.note if part.status in {"wrong", "partial"} else "",
+            part.verdict.note if part.status in WRONG else "",
             part.verdict.verdict == "correct",
             part.verdict.verdict == "correct",
             now,

@@ -11,9 +11,10 @@ from quizgen.marking.options import Options
 from quizgen.marking.verdict import Verdict
 from quizgen.paper.marking import Marker
 from quizgen.practice.boxes import joined
+from quizgen.practice.schedule import Grade, graded
 from quizgen.practice.state import PartState
 from quizgen.practice.task import TRIES, Feedback, Next, Task
-from quizgen.web.made import Made, MadePart
+from quizgen.web.made import GUIDED, Made, MadePart
 from quizgen.web.store import Attempt, Seen
 
 
@@ -113,6 +114,12 @@ class Turn:
         if self.finished and self.attempt.ended is None:
             self.attempt.ended = time.time()
         return tuple(self._seen(place) for place in ended if place.name not in before)
+
+    def grade(self) -> Grade | None:
+        """How the question went, once it is finished; step by step is help throughout."""
+        found = graded(p.task.outcome for p in self.places if p.task.outcome is not None)
+        guided = self.attempt.level == GUIDED
+        return Grade.HARD if guided and found is Grade.GOOD else found
 
     def _notes(self) -> dict[str, str]:
         """The last mistake of each part that had one."""

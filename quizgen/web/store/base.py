@@ -22,6 +22,7 @@ from sqlalchemy.engine import make_url
 from sqlalchemy.exc import ArgumentError, SQLAlchemyError
 
 from quizgen.errors import StoreError
+from quizgen.web.store.cards import Cards
 from quizgen.web.store.migrate import upgrade
 from quizgen.web.store.rows import Attempt, Learner, Seen, Which
 from quizgen.web.store.sittings import Sittings
@@ -56,6 +57,8 @@ class Store:
             raise StoreError(f"{_shown(address)}: {said}") from error
         self.sittings = Sittings(self.engine)
         """Exams that are sat."""
+        self.cards = Cards(self.engine)
+        """What is asked again, and when."""
 
     def close(self) -> None:
         """Give the connections back."""
@@ -128,13 +131,26 @@ class Store:
                 row = {"learner": attempt.learner, **msgspec.to_builtins(one)}
                 connection.execute(insert(SEEN).values(row))
 
-    def seen(self, learner: int) -> list[Seen]:
-        """How every part went that a learner has ended, the latest last."""
+    def seen(self, learner: int, most: int = 2000) -> list[Seen]:
+        """How the parts went that a learner has ended, the latest last."""
         names = [SEEN.c[name] for name in Seen.__struct_fields__]
-        query = select(*names).where(SEEN.c.learner == learner).order_by(SEEN.c.at, SEEN.c.id)
+        query = select(*names).where(SEEN.c.learner == learner)
+        query = query.order_by(SEEN.c.at.desc(), SEEN.c.id.desc()).limit(most)
         with self.engine.connect() as connection:
             rows = connection.execute(query).mappings().all()
-        return [value(row, Seen) for row in rows]
+        return [value(row, Seen) for row in reversed(rows)]
+
+    def known(self, attempt: Attempt) -> bool:
+        """Whether a learner has finished the same question with the same numbers before."""
+        query = select(ATTEMPT.c.id).where(
+            ATTEMPT.c.learner == attempt.learner,
+            ATTEMPT.c.template == attempt.template,
+            ATTEMPT.c.seed == attempt.seed,
+            ATTEMPT.c.id != attempt.id,
+            ATTEMPT.c.ended.is_not(None),
+        )
+        with self.engine.connect() as connection:
+            return connection.execute(query.limit(1)).first() is not None
 
     def times(self, learner: int) -> dict[str, int]:
         """Template to how often a learner was asked it."""

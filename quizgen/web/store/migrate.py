@@ -8,7 +8,7 @@ from sqlalchemy import Connection, inspect, text
 
 from quizgen.errors import StoreError
 
-NEWEST = "0003"
+NEWEST = "0004"
 """The last step in ``migrations/versions``."""
 
 

@@ -101,3 +101,14 @@ SERVER = Table(
     Column("value", String(200), nullable=False),
 )
 """What a server has in common with the one before it, so that open pages outlive both."""
+
+CARD = Table(
+    "card",
+    METADATA,
+    Column("learner", ForeignKey("learner.id", ondelete="CASCADE"), primary_key=True),
+    Column("kind", String(20), primary_key=True),
+    Column("name", String(300), primary_key=True),
+    Column("data", JSON, nullable=False),
+    Column("due", Float, nullable=False),
+)
+"""What is asked again, and when: see ``practice.schedule.Card``, which ``data`` is all of."""

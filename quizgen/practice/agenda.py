@@ -1,0 +1,159 @@
+"""What to do next: what is due, then weak topics, then what was never asked."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from datetime import date
+
+from quizgen.bank.folder import Bank
+from quizgen.practice.results import RECENT, by_topic, to_practise
+from quizgen.practice.schedule import LEARNING, Card, Name, day_of, days_left, due
+from quizgen.practice.state import Outcome
+
+FRESH = 5
+"""New templates of a day, where no exam says how many."""
+
+
+@dataclass(frozen=True)
+class Standing:
+    """How far something with several templates is known: a topic, a formula.
+
+    Parameters
+    ----------
+    count, seen : int
+        Its templates, and how many of them were asked.
+    ready : int
+        How many are due now.
+    last : float, optional
+        When one of them was last asked.
+    stability : float, optional
+        Days of the weakest one: until then nine of ten would still know it.
+    due : float, optional
+        When the first of them is due.
+    """
+
+    count: int
+    seen: int
+    ready: int
+    last: float | None
+    stability: float | None
+    due: float | None
+
+
+class Agenda:
+    """What a learner has to do.
+
+    Parameters
+    ----------
+    bank : Bank
+    cards : mapping
+        Those of the learner.
+    now : float
+    exam : datetime.date, optional
+    """
+
+    def __init__(
+        self, bank: Bank, cards: Mapping[Name, Card], now: float, exam: date | None = None
+    ) -> None:
+        self.bank, self.cards, self.now = bank, cards, now
+        self.left = days_left(exam, day_of(now))
+        self.names = {bank.origin(name): name for name in bank.paths}
+
+    def due(self, card: Card) -> float:
+        """When a card is to be asked again."""
+        return due(card, self.now, self.left)
+
+    def card(self, name: str) -> Card | None:
+        """The card of a template."""
+        return self.cards.get(("template", self.bank.origin(name)))
+
+    @property
+    def mistakes(self) -> list[Card]:
+        """Cards of mistakes in templates of this bank, those that are due first before others."""
+        found = [c for c in self.cards.values() if c.kind == "mistake" and c.template in self.names]
+        return sorted(found, key=lambda card: (self.due(card), card.name))
+
+    def ready(self, names: Iterable[str]) -> list[str]:
+        """Templates that are due, or have a mistake that is; the longest due first."""
+        wanted = set(names)
+        since: dict[str, float] = {}
+        for card in self.cards.values():
+            name, moment = self.names.get(card.template), self.due(card)
+            if name in wanted and name is not None and moment <= self.now:
+                since[name] = min(moment, since.get(name, moment))
+        return sorted(since, key=lambda name: (since[name], name))
+
+    def unseen(self, names: Iterable[str]) -> list[str]:
+        """Templates that were never finished."""
+        return [name for name in names if self.card(name) is None]
+
+    def fresh(self, names: Sequence[str]) -> int:
+        """How many new templates today asks for, so that all come up before the exam."""
+        today = day_of(self.now)
+        begun = sum(
+            card.kind == "template" and card.state == LEARNING and day_of(card.last) == today
+            for card in self.cards.values()
+        )
+        count = len(self.unseen(names))
+        whole = FRESH if self.left is None else math.ceil((count + begun) / self.left)
+        return max(0, min(count, whole - begun))
+
+    def standing(self, names: Sequence[str]) -> Standing:
+        """How far templates are known together."""
+        cards = [card for name in names if (card := self.card(name)) is not None]
+        return Standing(
+            len(names),
+            len(cards),
+            sum(self.due(card) <= self.now for card in cards),
+            max((card.last for card in cards), default=None),
+            min((card.stability for card in cards), default=None),
+            min((self.due(card) for card in cards), default=None),
+        )
+
+    def next(
+        self, names: Sequence[str], outcomes: Sequence[Outcome], times: Mapping[str, int],
+        latest: str = "", seed: str = "",
+    ) -> str:  # fmt: skip
+        """Which template to ask now.
+
+        Parameters
+        ----------
+        names : sequence of str
+            Those that fit, at least one.
+        outcomes : sequence of Outcome
+            How parts went, the latest last: they say which topics are weak.
+        times : mapping
+            Template to how often it was begun.
+        latest : str
+            The one asked before, which does not come twice if there is another.
+        seed : str
+            Decides between equals.
+        """
+        others = [name for name in names if name != latest] or list(names)
+        ready = self.ready(others)
+        if ready:
+            return ready[0]
+        unseen = self.unseen(others)
+        for topic in to_practise(by_topic(outcomes, RECENT)):
+            weak = [name for name in unseen if self.bank.rules(name).topic == topic]
+            if weak:
+                return _least(weak, times, seed)
+        if unseen:
+            return _least(unseen, times, seed)
+        return min(others, key=lambda name: (self._due(name), name))
+
+    def _due(self, name: str) -> float:
+        card = self.card(name)
+        return self.due(card) if card else self.now
+
+
+def _least(names: Sequence[str], times: Mapping[str, int], seed: str) -> str:
+    """One of those that were begun the fewest times."""
+
+    def rank(name: str) -> tuple[int, bytes]:
+        return times.get(name, 0), hashlib.sha256(f"next/{seed}/{name}".encode()).digest()
+
+    return min(names, key=rank)

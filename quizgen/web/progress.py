@@ -1,0 +1,160 @@
+"""How far somebody has got: by topic, by formula, by mistake; the day of the exam."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from datetime import date
+
+from starlette.concurrency import run_in_threadpool
+from starlette.requests import Request
+from starlette.responses import Response
+from starlette.routing import Route
+
+from quizgen.bank.formulas import asked_in, formulas
+from quizgen.bank.pages import read_text
+from quizgen.bank.prose import Formula, Inline, Slot, Words, fill
+from quizgen.practice.agenda import Agenda, Standing
+from quizgen.practice.schedule import NAMED, Card, day_of
+from quizgen.question.authored import printed, sentence
+from quizgen.question.markup import inline
+from quizgen.web.agenda import agenda_of, exam_day, today
+from quizgen.web.forms import one, posted
+from quizgen.web.made import Html
+from quizgen.web.site import Site
+from quizgen.web.views import lang_of, page, said, to
+
+SHOWN = 30
+"""Mistakes on the page, those that are due first before others."""
+BLANK = "…"
+"""Stands in a sentence where a certain question would have its number."""
+
+
+@dataclass(frozen=True)
+class Row:
+    """A topic or a formula, and how far it is known."""
+
+    name: str
+    title: Html
+    standing: Standing
+
+
+@dataclass(frozen=True)
+class Told:
+    """A mistake in words, and the template in which it was made."""
+
+    card: Card
+    due: float
+    template: str
+    title: str
+    told: Html
+
+
+async def progress(request: Request) -> Response:
+    """How far somebody has got."""
+    return await run_in_threadpool(_shown, request)
+
+
+def _shown(request: Request, status: int = 200, problem: str = "") -> Response:
+    agenda, lang = agenda_of(request), lang_of(request)
+    return page(
+        request, "progress.html.j2", status,
+        plan=today(request),
+        exam=exam_day(request) or "",
+        problem=problem and said(lang, problem),
+        topics=_topics(agenda, lang),
+        formulas=_formulas(agenda, lang),
+        mistakes=[told for card in agenda.mistakes[:SHOWN] if (told := _told(agenda, card, lang))],
+        when=_when(agenda.now, lang),
+        lasting=_lasting(lang),
+    )  # fmt: skip
+
+
+def _topics(agenda: Agenda, lang: str) -> list[Row]:
+    bank = agenda.bank
+    names: dict[str, list[str]] = {topic: [] for topic in bank.topics}
+    for name in bank.paths:
+        names[bank.rules(name).topic].append(name)
+    return [
+        Row(topic, bank.topic_title(topic, lang), agenda.standing(found))
+        for topic, found in names.items()
+    ]
+
+
+def _formulas(agenda: Agenda, lang: str) -> list[Row]:
+    names = asked_in(agenda.bank)
+    return [
+        Row(
+            entry.id, inline(sentence(entry, "title", lang), lang), agenda.standing(names[entry.id])
+        )
+        for entry in formulas(agenda.bank)
+        if names[entry.id]
+    ]
+
+
+def _told(agenda: Agenda, card: Card, lang: str) -> Told | None:
+    """A mistake in the words of its template; None if it has been taken out since."""
+    bank, name = agenda.bank, agenda.names[card.template]
+    found = lang if lang in bank.written_in(name) else next(iter(bank.written_in(name)))
+    text = read_text(bank.paths[name] / f"{found}.md")
+    trap = card.note.removeprefix(NAMED)
+    cases = text.cases.get(("traps", trap))
+    told = cases[-1][1] if cases else text.sentence("traps", trap)
+    if told is None:
+        return None
+    words = inline(fill(told, _blanked, str), found)
+    return Told(card, agenda.due(card), name, text.title, words)
+
+
+def _blanked(part: Slot | Formula) -> tuple[Inline, ...]:
+    return (Words(BLANK),) if isinstance(part, Slot) else printed(part)
+
+
+def _when(now: float, lang: str) -> Callable[..., str]:
+    """Says in words when something was or will be."""
+
+    def when(moment: float | None, *, ahead: bool = False) -> str:
+        if moment is None:
+            return said(lang, "progress.never")
+        if ahead and moment <= now:
+            return said(lang, "progress.now")
+        days = (day_of(moment) - day_of(now)).days
+        near = {0: "day", 1: "tomorrow", -1: "yesterday"}.get(days)
+        if near:
+            return said(lang, f"progress.{near}")
+        return said(lang, "progress.in_days" if days > 0 else "progress.days_ago", count=abs(days))
+
+    return when
+
+
+def _lasting(lang: str) -> Callable[[float | None], str]:
+    """Says in words for how many days something holds."""
+
+    def lasting(days: float | None) -> str:
+        if days is None:
+            return ""
+        whole = round(days)
+        if whole < 1:
+            return said(lang, "progress.below_day")
+        return said(lang, "progress.one_day" if whole == 1 else "progress.days", count=whole)
+
+    return lasting
+
+
+async def set_exam(request: Request) -> Response:
+    """Keep the day of the exam; an empty field takes it away."""
+    form = await posted(request)
+    typed = one(form, "exam").strip()
+    try:
+        day = date.fromisoformat(typed).isoformat() if typed else ""
+    except ValueError:
+        return await run_in_threadpool(_shown, request, 400, "progress.no_date")
+    site: Site = request.app.state.site
+    await run_in_threadpool(site.store.settle, request.state.learner.id, {"exam": day})
+    return to("/progress")
+
+
+ROUTES = [
+    Route("/progress", progress),
+    Route("/progress/exam", set_exam, methods=["POST"]),
+]

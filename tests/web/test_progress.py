@@ -1,0 +1,154 @@
+"""Progress in the browser: what a finished question changes, and what comes next."""
+
+from __future__ import annotations
+
+import html
+import re
+from datetime import UTC, datetime, timedelta
+
+import pytest
+from starlette.testclient import TestClient
+
+from quizgen.question.compose import compose
+from quizgen.web.app import application
+from quizgen.web.settings import Settings
+from quizgen.web.store import Which
+
+ADDRESS = "http://127.0.0.1:8000"
+QUESTION = "point-to-image-plane"
+
+
+@pytest.fixture
+def app(tmp_path):
+    """An application for somebody who has done nothing yet."""
+    settings = Settings(f"sqlite:///{tmp_path / 'learning.sqlite3'}", workers=1, token="secret")
+    app = application(settings)
+    with TestClient(app, ADDRESS):
+        yield app
+
+
+@pytest.fixture
+def settings(app):
+    return app.state.site.settings
+
+
+def text(page: str) -> str:
+    return html.unescape(" ".join(re.sub(r"<[^>]*>", " ", page).split()))
+
+
+def cards(app):
+    store = app.state.site.store
+    return store.cards.all(store.learner().id)
+
+
+@pytest.fixture
+def answers(bank):
+    _, key = compose(bank.template(QUESTION), "3", "en")
+    return key.solution.parts[0].answer.strip("()").split("; ")
+
+
+def test_nothing_yet(client):
+    page = client.get("/progress")
+    assert page.status_code == 200
+    assert "No mistake with a name has been made yet." in page.text
+    assert "0 of" in text(page.text)
+    assert "never" in text(page.text)
+    assert "5 new questions" in text(client.get("/").text)
+
+
+def test_a_right_answer_at_once_is_good(client, token, begin, app, answers):
+    client.post(f"{begin(QUESTION)}/1", data={"token": token, "a": answers})
+    card = cards(app)["template", "A3"]
+    assert card.stability == 2.3065
+    assert card.due - card.last == pytest.approx(600, abs=1e-3)
+
+
+def test_a_later_try_is_hard(client, token, begin, app, answers):
+    at = begin(QUESTION)
+    client.post(f"{at}/1", data={"token": token, "a": ["123", "456"]})
+    assert cards(app) == {}, "not before the question is finished"
+    client.post(f"{at}/1", data={"token": token, "a": answers})
+    assert cards(app)["template", "A3"].stability == 1.2931
+
+
+def test_a_mistake_is_remembered_and_named_in_both_languages(client, token, begin, app, answers):
+    at = begin(QUESTION)
+    client.post(f"{at}/1", data={"token": token, "a": answers[::-1]})
+    client.post(f"{at}/1", data={"token": token, "do": "solution", "a": ["", ""]})
+    found = cards(app)
+    assert found["template", "A3"].stability == 0.212
+    mistakes = [name for kind, name in found if kind == "mistake"]
+    assert len(mistakes) <= 1
+    page = client.get("/progress").text
+    assert "1 of" in text(page)
+    client.post("/settings", data={"token": token, "lang": "bn", "back": "/"})
+    bangla = client.get("/progress").text
+    assert "অগ্রগতি" in bangla
+    assert "{" not in text(bangla)
+
+
+def test_a_trap_gets_a_row_of_its_own_and_a_way_to_practise_it(client, token, begin, app, bank):
+    _, key = compose(bank.template(QUESTION), "3", "en")
+    trap = key.solution.parts[0].mistakes[0]
+    at = begin(QUESTION)
+    client.post(f"{at}/1", data={"token": token, "a": trap.value.strip("()").split("; ")})
+    client.post(f"{at}/1", data={"token": token, "do": "solution", "a": ["", ""]})
+    assert ("mistake", f"A3/trap:{trap.name}") in cards(app)
+    page = client.get("/progress").text
+    row = re.search(r'<h2 id="mistakes">.*?<tbody>(.*?)</tbody>', page, re.DOTALL)[1]
+    assert f'name="template" value="{QUESTION}"' in row
+    asked = client.post("/practice", data={"token": token, "template": QUESTION})
+    assert asked.url.path.startswith("/q/")
+
+
+def test_the_same_numbers_again_and_steps_do_not_count_as_known(client, token, begin, app, answers):
+    at = begin(QUESTION)
+    client.post(f"{at}/1", data={"token": token, "do": "solution", "a": ["", ""]})
+    before = cards(app)
+    client.post(f"{begin(QUESTION)}/1", data={"token": token, "a": answers})
+    assert cards(app) == before
+
+
+def test_the_next_question_is_the_one_that_is_due(client, token, app):
+    site = app.state.site
+    learner = site.store.learner().id
+    site.store.begin(learner, Which("rgb-to-hsv", "1"), {})
+    from quizgen.practice.schedule import Asked, Grade
+
+    long_ago = datetime.now(UTC) - timedelta(days=30)
+    site.store.cards.review(learner, [Asked("A3", Grade.AGAIN)], long_ago.timestamp())
+    client.post("/practice", data={"token": token})
+    latest = site.store.latest(learner, 1)[0]
+    assert latest.template == QUESTION
+    assert "1 question to see again" in text(client.get("/").text)
+    client.post(f"/q/{latest.id}/next", data={"token": token})
+    assert site.store.latest(learner, 1)[0].template != QUESTION, "not twice in a row"
+
+
+def test_the_day_of_the_exam(client, token, app, begin, answers):
+    day = (datetime.now(UTC).astimezone() + timedelta(days=12)).date()
+    page = client.post("/progress/exam", data={"token": token, "exam": day.isoformat()})
+    assert f'value="{day.isoformat()}"' in page.text
+    assert "12 days until the exam" in text(page.text)
+    wrong = client.post("/progress/exam", data={"token": token, "exam": "soon"})
+    assert wrong.status_code == 400
+    assert "This is not a date." in wrong.text
+    client.post("/progress/exam", data={"token": token, "exam": ""})
+    assert "until the exam" not in client.get("/progress").text
+
+
+def test_a_forged_form_changes_nothing(client):
+    assert client.post("/progress/exam", data={"exam": "2027-02-12"}).status_code == 403
+    assert "2027" not in client.get("/progress").text
+
+
+def test_an_exam_counts_too(client, token, app):
+    at = client.post(
+        "/exam", data={"token": token, "blueprint": "projection", "minutes": "15"}
+    ).url.path
+    page = client.get(at).text
+    on = dict.fromkeys(re.findall(r'name="(on-[^"]+)"', page), "1")
+    client.post(at, data={"token": token, "do": "hand-in", **on})
+    found = cards(app)
+    assert found
+    assert {card.stability for card in found.values()} == {0.212}
