@@ -15,7 +15,7 @@ def text(page: str) -> str:
 
 
 def verdicts(page: str) -> list[str]:
-    return re.findall(r'<div class="verdict (\w+)">', page)
+    return re.findall(r'<div class="verdict (\w+)"', page)
 
 
 def test_from_the_first_page_to_a_question(client, token):

@@ -9,6 +9,7 @@ import time
 
 import pytest
 from sqlalchemy import update
+from typed import typed as typed_in
 
 from quizgen.bank.folder import builtin
 from quizgen.paper.key import key_of
@@ -45,28 +46,10 @@ def exam(client, token):
 
 
 def typed(paper) -> dict[str, list[str]]:
-    """The printed answers, a field for each value, as a learner puts them into the page."""
+    """The printed answers of all its questions."""
     found = {}
     for item in paper.items:
-        question, key = item.questions[0], item.keys[0]
-        for part, spec, solved in zip(question.parts, key.specs, key.solution.parts, strict=True):
-            control = part.field.control
-            answer = solved.answer
-            if control.form == "pairs":
-                values = [spec.pairs[mark] for mark, _ in part.field.options]
-            elif control.form == "many":
-                values = re.findall(r"[A-Z]", answer)
-            elif control.named:
-                values = [piece.split("=", 1)[1].strip() for piece in answer.split(";")]
-            elif control.boxes:
-                values = [piece.strip(" ()") for piece in answer.split(";")]
-            elif control.form == "truth":
-                values = [answer.lower()]
-            elif control.form == "order":
-                values = answer.split()
-            else:
-                values = [answer]
-            found[part.field.id] = values
+        found |= typed_in(item.questions[0], item.keys[0])
     return found
 
 

@@ -1,0 +1,104 @@
+"""Every template in the browser: its printed answer, put into the fields of its page, is right.
+
+Over the addresses of the application; only the worker processes are left out, and the pictures.
+"""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+
+import pytest
+from typed import Fields, typed
+
+from quizgen.bank.folder import builtin
+from quizgen.bank.levels import EXAM
+from quizgen.question.compose import instance, put_into_words
+from quizgen.question.levels import level_of
+from quizgen.web.made import GUIDED, made
+from quizgen.web.store import Which
+
+NAMES = sorted(builtin().paths)
+
+
+@cache
+def numbers(template: str, seed: str):
+    return instance(builtin().template(template), seed)
+
+
+@pytest.fixture(scope="module")
+def at_once(app):
+    """Questions made here, without pictures; what was made, by what was wanted."""
+    kept, workers = {}, app.state.site.workers
+
+    async def question(wanted):
+        if wanted not in kept:
+            drawn = numbers(wanted.template, wanted.seed)
+            pair = put_into_words(drawn, wanted.lang, level=wanted.level, figures=False)
+            kept.clear()
+            kept[wanted] = (*pair, made(wanted, *pair))
+        return kept[wanted][2]
+
+    before, workers.question = workers.question, question
+    yield kept
+    workers.question = before
+
+
+def wrong_parts(page: str, answered: str, answers, sentences) -> list[str]:
+    """Parts that take their printed answers amiss, and how."""
+    part = r'<section class="part" id="part-(\w+)"'
+    forms = dict(re.findall(part + "(.*?)</section>", page, re.DOTALL))
+    verdict = rf'{part}(?:(?!</section>).)*?<div class="verdict (\w+)"'
+    said = dict(re.findall(verdict, answered, re.DOTALL))
+    found = [
+        f"{name}: the fields do not take {values}"
+        for name, values in answers.items()
+        if not Fields(forms[name]).take("a", values)
+    ]
+    right = {name for name, verdict in said.items() if verdict == "correct"}
+    return found + [f"{name}: {said.get(name)}" for name in answers.keys() - right - sentences]
+
+
+@pytest.fixture
+def wrong(client, token, app, at_once):
+    """What goes wrong in a question: parts that take their printed answers amiss."""
+    store = app.state.site.store
+    learner = store.learner().id
+
+    def asked(template: str, seed: str, lang: str, level: str) -> list[str]:
+        store.settle(learner, {"lang": lang})
+        at = f"/q/{store.begin(learner, Which(template, seed, level), {}).id}"
+        page = client.get(at).text
+        ((question, key, _),) = at_once.values()
+        answers = typed(question, key)
+        for part, values in answers.items():
+            sent = {"token": token, "do": "answer", "a": values}
+            client.post(f"{at}/{part}", data=sent, follow_redirects=False)
+        parts = zip(question.parts, key.specs, strict=True)
+        sentences = {part.field.id for part, spec in parts if spec.kind == "text"}
+        found = wrong_parts(page, client.get(at).text, answers, sentences)
+        store.settle(learner, {"lang": "en"})
+        return [f"{template} {seed} {lang} {level} {one}" for one in found]
+
+    return asked
+
+
+def levels(template: str, seed: str) -> list[str]:
+    drawn = numbers(template, seed)
+    return [level for level in (EXAM, GUIDED) if level_of(drawn, level) == level]
+
+
+@pytest.mark.parametrize("template", NAMES)
+def test_the_printed_answer_is_right(wrong, template):
+    place = NAMES.index(template)
+    lang = ("en", "bn")[place % 2]
+    for level in levels(template, str(place)):
+        assert wrong(template, str(place), lang, level) == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("template", NAMES)
+def test_twenty_printed_answers_are_right(wrong, template):
+    for seed in map(str, range(20)):
+        for level in levels(template, seed):
+            assert wrong(template, seed, "en", level) + wrong(template, seed, "bn", level) == []
