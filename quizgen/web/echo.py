@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from fractions import Fraction
 
 from markupsafe import Markup, escape
 
@@ -11,6 +12,8 @@ from quizgen import typeset
 from quizgen.errors import FormulaError
 from quizgen.marking.mark import mark
 from quizgen.maths.notation import ReadError, parse
+from quizgen.maths.notation.people import number
+from quizgen.maths.units import SHOWN, SIMPLE, shown
 from quizgen.paper.key import KeyQuestion
 from quizgen.practice.boxes import joined
 from quizgen.web.made import MadeField
@@ -20,6 +23,10 @@ READ = frozenset(
 )
 """Kinds of which the reading says nothing about the key: what is read is what was typed."""
 
+_SEVERAL = re.compile(r"([({\[]?)(.*;.*?)([)}\]]?(?: [^\d;]+)?)")
+_BETWEEN = re.compile(r"(; | = )")
+_VALUE = re.compile(r"([^A-Za-z]+) (\D+)")
+_FRACTION = re.compile(r"[-−]?(\d{1,15})/(\d{1,15})")
 _HALF = re.compile(r"[-−+*/^(.,=:;·×]\s*$")
 
 
@@ -34,7 +41,34 @@ def read_back(field: MadeField, key: KeyQuestion, values: Sequence[str]) -> Mark
 
 
 def _typeset(text: str) -> Markup:
+    """Several values one by one, with what stands around and between them."""
+    several = _SEVERAL.fullmatch(text)
+    before, inner, after = several.groups() if several else ("", text, "")
+    pieces = [escape(p) if _BETWEEN.fullmatch(p) else _piece(p) for p in _BETWEEN.split(inner)]
+    return escape(before) + Markup().join(pieces) + escape(after)
+
+
+def _piece(text: str) -> Markup:
+    """A formula, or a value and its unit; a fraction with what it is about."""
+    value = _VALUE.fullmatch(text)
+    if value and _is_unit(value[2]):
+        return _piece(value[1]) + ("" if value[2] == "deg" else " ") + shown(value[2])
     try:
-        return Markup(typeset.mathml(typeset.layout(parse(text)), "en"))
+        maths = Markup(typeset.mathml(typeset.layout(parse(text)), "en"))
     except (FormulaError, ReadError):
         return escape(text)
+    return maths + _about(text)
+
+
+def _about(text: str) -> str:
+    fraction = _FRACTION.fullmatch(text)
+    if not fraction or not int(fraction[2]):
+        return ""
+    exact = Fraction(int(fraction[1]), int(fraction[2]))
+    decimal = f"{float(exact):.4g}"
+    sign = "−" if text[0] in "-−" else ""
+    return f" {'=' if Fraction(decimal) == exact else '≈'} {sign}{number(decimal)}"
+
+
+def _is_unit(text: str) -> bool:
+    return all(part in SIMPLE or part in SHOWN.values() for part in re.split("[/*·]", text))

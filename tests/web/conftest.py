@@ -81,6 +81,9 @@ def served(tmp_path_factory):
 @pytest.fixture
 def opened(browser, served):
     """Opens a page of the server that was let in; nothing may be wrong on it."""
+    from playwright.sync_api import expect
+
+    expect.set_options(timeout=30_000)
     contexts, wrong = [], []
 
     def said(message) -> None:

@@ -1,6 +1,13 @@
 "use strict";
 // What pages do beyond plain forms. Everything works without it.
 
+// Practice: whoever answers by keys goes on where they were, or at what comes next where that is gone.
+document.addEventListener("htmx:after:swap", () => {
+  if (document.activeElement && document.activeElement !== document.body) { return; }
+  const next = document.querySelector("section.part :is(input:not([type=hidden]), textarea, select):not([readonly], :disabled), #after button.main");
+  next?.focus({ preventScroll: true });
+});
+
 // An exam: each change is kept in this browser first and sent to the server; what the server has
 // confirmed leaves the browser. While the server is away it is tried again.
 (() => {

@@ -1,0 +1,34 @@
+"""How what is typed is shown again."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from quizgen.web.echo import _typeset
+
+
+@pytest.mark.parametrize(
+    ("read", "shown"),
+    [
+        ("20/3 mm", "[20|3] ≈ 6.667 mm"),
+        ("−20/3", "−[20|3] ≈ −6.667"),
+        ("2/5", "[2|5] = 0.4"),
+        ("6.667 mm", "6.667 mm"),
+        ("3 um", "3 µm"),
+        ("30 deg", "30°"),
+        ("(2/3; 0.5)", "([2|3] ≈ 0.6667; 0.5)"),
+        ("(12; 13) px", "(12; 13) px"),
+        ("{1; 2}", "{1; 2}"),
+        ("V = 1/2; S = 3", "V = [1|2] = 0.5; S = 3"),
+        ("1/0", "[1|0]"),
+        ("9" * 5000 + "/7", None),
+        ("<b>; 2", "&lt;b&gt;; 2"),
+    ],
+)
+def test_values_are_typeset_with_their_units(read, shown):
+    page = str(_typeset(read))
+    if shown is not None:
+        page = re.sub("<mfrac><mn>([^<]*)</mn><mn>([^<]*)</mn></mfrac>", r"[\1|\2]", page)
+        assert re.sub("<[^>]*>", "", page) == shown

@@ -1,0 +1,162 @@
+"""Practice in Chromium: by mouse, by keyboard, without scripts."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from playwright.sync_api import expect
+
+pytestmark = pytest.mark.browser
+
+BUTTON = "button"
+POINT = "point-to-image-plane"
+
+
+@pytest.fixture
+def practised(opened, served):
+    """Begins a certain question."""
+
+    def begun(template: str = POINT, **how):
+        page = opened(**how)
+        token = page.locator("[name=token]").first.input_value()
+        sent = {"token": token, "template": template}
+        answer = page.request.post(served.address + "/practice", form=sent)
+        page.goto(answer.url)
+        return page
+
+    return begun
+
+
+def test_from_the_first_visit_to_a_verdict_in_three_clicks(opened):
+    page = opened()
+    page.get_by_label("Topic").select_option("projection")
+    page.get_by_role(BUTTON, name="Begin").click()
+    part = page.locator("section.part").first
+    fields = part.locator("input:not([type=hidden]), textarea, select")
+    if fields.first.get_attribute("type") in {"radio", "checkbox"}:
+        fields.first.check()
+    elif fields.first.evaluate("field => field.tagName") == "SELECT":
+        fields.first.select_option(index=1)
+    else:
+        for field in fields.all():
+            field.fill("1")
+    part.get_by_role(BUTTON, name="Check").click()
+    expect(part.locator(".verdict")).to_be_visible()
+
+
+def test_wrong_hint_language_right_and_a_variant(practised):
+    page = practised()
+    x, y = page.locator("input[type=text]").all()
+    x.fill("123")
+    y.fill("456")
+    y.press("Enter")
+    expect(page.locator(".verdict.wrong")).to_contain_text("2 left")
+    expect(page.locator("#said")).to_contain_text("Not right.")
+    expect(y).to_be_focused()
+    page.get_by_role(BUTTON, name="Hint").click()
+    expect(page.locator(".hints li")).to_have_count(1)
+    expect(page.get_by_role(BUTTON, name="Hint")).to_be_focused()
+    page.get_by_role(BUTTON, name="বাংলা").click()
+    expect(page.locator("html")).to_have_attribute("lang", "bn")
+    expect(page.locator("input[type=text]").first).to_have_value("123")
+    expect(page.locator(".hints li")).to_have_count(1)
+    page.get_by_role(BUTTON, name="English").click()
+    before = page.locator(".stem").inner_text()
+    page.get_by_role(BUTTON, name="Show the solution").click()
+    expect(page.locator(".result")).to_be_visible()
+    expect(page.get_by_role(BUTTON, name="Next question")).to_be_focused()
+    page.get_by_role(BUTTON, name="with new numbers").click()
+    expect(page.locator(".verdict")).to_have_count(0)
+    assert page.locator(".stem").inner_text() != before
+
+
+def test_working_it_through_goes_from_part_to_part(practised):
+    page = practised()
+    page.get_by_role(BUTTON, name="step by step").click()
+    parts = page.locator("section.part")
+    expect(parts.nth(1)).to_be_visible()
+    parts.first.get_by_role(BUTTON, name="Show the solution").click()
+    expect(parts.nth(1).locator("input, textarea").locator("visible=true").first).to_be_focused()
+
+
+def test_what_is_typed_is_read_back(practised):
+    page = practised()
+    x, y = page.locator("input[type=text]").all()
+    read = page.locator(".read")
+    x.fill("2/3")
+    y.fill("0,5")
+    expect(read).to_contain_text("Read as")
+    expect(read.locator("mfrac")).to_have_count(1)
+    for half in ("-", "2."):
+        with page.expect_response(re.compile("/read$")):
+            y.fill(half)
+        expect(read).to_be_empty()
+
+
+def test_what_cannot_be_read_is_asked_back_at_its_field(practised):
+    page = practised()
+    x, y = page.locator("input[type=text]").all()
+    x.fill("1")
+    y.fill("?")
+    y.press("Enter")
+    expect(page.locator(".verdict.asked")).to_be_visible()
+    expect(y).to_have_attribute("aria-invalid", "true")
+    expect(y).to_have_accessible_description(re.compile("could not be read"))
+
+
+def test_a_verdict_is_announced_once(practised):
+    page = practised()
+    page.evaluate(
+        """window.told = []; new MutationObserver(() => window.told.push(
+            document.getElementById("said").textContent.trim()
+        )).observe(document.getElementById("said"), {childList: true, characterData: true, subtree: true})"""
+    )
+    for number in ("1", "2"):
+        for field in page.locator("input[type=text]").all():
+            field.fill(number)
+        page.locator("input[type=text]").first.press("Enter")
+        expect(page.locator("input[type=text]").first).to_have_value(number)
+        expect(page.locator(".verdict")).to_contain_text(f"{3 - int(number)} left")
+    told = [one for one in page.evaluate("window.told") if one]
+    assert len(told) == 2, told
+    live = page.evaluate(
+        "[...document.querySelectorAll('[aria-live], [role=status], [role=alert]')]"
+        ".filter(e => /Not right/.test(e.textContent)).length"
+    )
+    assert live == 1
+
+
+def test_the_same_without_scripts(practised):
+    page = practised(java_script_enabled=False)
+    for field in page.locator("input[type=text]").all():
+        field.fill("77")
+    page.locator("input[type=text]").first.press("Enter")
+    expect(page.locator(".verdict.wrong")).to_be_visible()
+    page.get_by_role(BUTTON, name="Hint").click()
+    expect(page.locator(".hints li")).to_have_count(1)
+    page.get_by_role(BUTTON, name="Show the solution").click()
+    expect(page.locator(".result")).to_be_visible()
+    page.get_by_role(BUTTON, name="with new numbers").click()
+    expect(page.locator(".verdict")).to_have_count(0)
+
+
+def test_by_keys_alone(opened):
+    page = opened()
+
+    def to(name: str) -> None:
+        for _ in range(60):
+            page.keyboard.press("Tab")
+            here = page.evaluate("document.activeElement.textContent.trim()")
+            if here == name:
+                return
+        pytest.fail(f"no way by Tab to {name}")
+
+    page.keyboard.press("Tab")
+    expect(page.locator(".skip")).to_be_focused()
+    to("Begin")
+    page.keyboard.press("Enter")
+    expect(page.locator("section.part").first).to_be_visible()
+    to("Show the solution")
+    page.keyboard.press("Enter")
+    expect(page.locator(".result").first).to_be_visible()
