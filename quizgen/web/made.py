@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
+from typing import Protocol
 
 import msgspec
 
@@ -129,15 +130,25 @@ def _bank(root: Path | None, *, trusted: bool) -> Bank:
     return Bank(root, trusted=trusted) if root else builtin()
 
 
-def make(root: Path | None, trusted: bool, wanted: Wanted | WantedPaper) -> bytes:
-    """Compose a question or a paper and put it into markup.
+class Job(Protocol):
+    """Something else that a worker makes; equal jobs give equal bytes."""
+
+    def run(self, bank: Bank) -> bytes:
+        """Make it."""
+        ...
+
+    def __hash__(self) -> int: ...
+
+
+def make(root: Path | None, trusted: bool, wanted: Wanted | WantedPaper | Job) -> bytes:
+    """Compose a question or a paper and put it into markup, or do another job.
 
     Parameters
     ----------
     root : pathlib.Path or None
         Folder of the bank, the built-in one if there is none.
     trusted : bool
-    wanted : Wanted or WantedPaper
+    wanted : Wanted or WantedPaper or Job
 
     Raises
     ------
@@ -145,6 +156,8 @@ def make(root: Path | None, trusted: bool, wanted: Wanted | WantedPaper) -> byte
         If a template is wrong, or there is no such paper.
     """
     bank = _bank(root, trusted=trusted)
+    if not isinstance(wanted, Wanted | WantedPaper):
+        return wanted.run(bank)
     if isinstance(wanted, WantedPaper):
         return msgspec.json.encode(_paper(bank, wanted))
     drawn = instance(bank.template(wanted.template), wanted.seed, wanted.slot)

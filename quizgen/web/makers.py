@@ -15,7 +15,7 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 
 from quizgen.errors import BankError
-from quizgen.web.made import Wanted, WantedPaper, make
+from quizgen.web.made import Job, Wanted, WantedPaper, make
 
 LONGEST = 120.0
 """Seconds after which a process is taken to hang."""
@@ -50,8 +50,8 @@ class Maker:
             self.process.start()
         there.close()
 
-    def make(self, wanted: Wanted | WantedPaper) -> bytes:
-        """A question or a paper, as ``made.make`` gives it.
+    def make(self, wanted: Wanted | WantedPaper | Job) -> bytes:
+        """A question, a paper or another job, as ``made.make`` gives it.
 
         Raises
         ------
@@ -115,7 +115,9 @@ def _work(line: Connection, bank: Path | None, trusted: bool) -> None:
             line.send(_made(bank, trusted, line.recv()))
 
 
-def _made(bank: Path | None, trusted: bool, wanted: Wanted | WantedPaper) -> bytes | Exception:
+def _made(
+    bank: Path | None, trusted: bool, wanted: Wanted | WantedPaper | Job
+) -> bytes | Exception:
     try:
         return make(bank, trusted, wanted)
     except Exception as error:  # noqa: BLE001 - raised again by who asked

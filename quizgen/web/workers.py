@@ -9,12 +9,14 @@ from queue import LifoQueue
 
 import msgspec
 
-from quizgen.web.made import Made, MadePaper, Wanted, WantedPaper
+from quizgen.web.made import Job, Made, MadePaper, Wanted, WantedPaper
 from quizgen.web.makers import Maker
 from quizgen.web.settings import Settings
 
 KEPT = 256
 """Questions that are kept ready, the latest ones."""
+JOBS_KEPT = 24
+"""Of other things, such as photographs, which are larger."""
 
 
 class Workers:
@@ -27,6 +29,7 @@ class Workers:
         self._threads = ThreadPoolExecutor(settings.workers, "maker")
         self._kept: OrderedDict[Wanted | WantedPaper, Made | MadePaper] = OrderedDict()
         self._due: dict[Wanted | WantedPaper, asyncio.Future[Made | MadePaper]] = {}
+        self._jobs: OrderedDict[Job, asyncio.Future[bytes]] = OrderedDict()
 
     def warm(self) -> None:
         """Start the processes."""
@@ -35,7 +38,7 @@ class Workers:
             self.makers.append(maker)
             self._idle.put(maker)
 
-    def _asked(self, wanted: Wanted | WantedPaper) -> bytes:
+    def _asked(self, wanted: Wanted | WantedPaper | Job) -> bytes:
         """Let the first maker that is idle make it; there is one for each thread."""
         maker = self._idle.get()
         try:
@@ -68,6 +71,29 @@ class Workers:
         self._kept[WantedPaper(wanted.lang, found.code)] = found
         return found
 
+    async def done(self, job: Job) -> bytes:
+        """What a job gives, from what is kept if it is among it; asked twice, it is done once.
+
+        Raises
+        ------
+        QuizgenError
+            If it cannot be done; tried anew by whoever asks next.
+        """
+        if job not in self._jobs:
+            self._jobs[job] = asyncio.ensure_future(self._bytes(job))
+        self._jobs.move_to_end(job)
+        while len(self._jobs) > JOBS_KEPT:
+            self._jobs.popitem(last=False)
+        try:
+            return await asyncio.shield(self._jobs[job])
+        except Exception:
+            self._jobs.pop(job, None)
+            raise
+
+    async def _bytes(self, wanted: Wanted | WantedPaper | Job) -> bytes:
+        loop = asyncio.get_running_loop()
+        return await loop.run_in_executor(self._threads, self._asked, wanted)
+
     async def _found(self, wanted: Wanted | WantedPaper) -> Made | MadePaper:
         found = self._kept.get(wanted)
         if found is not None:
@@ -79,8 +105,7 @@ class Workers:
 
     async def _make(self, wanted: Wanted | WantedPaper) -> Made | MadePaper:
         try:
-            loop = asyncio.get_running_loop()
-            data = await loop.run_in_executor(self._threads, self._asked, wanted)
+            data = await self._bytes(wanted)
             found: Made | MadePaper
             if isinstance(wanted, WantedPaper):
                 found = msgspec.json.decode(data, type=MadePaper)

@@ -1,0 +1,67 @@
+"""The formula sheet in the browser."""
+
+from __future__ import annotations
+
+import html
+import re
+
+import pytest
+
+
+def shown(page: str) -> str:
+    return html.unescape(" ".join(re.sub(r"<[^>]*>", " ", page).split()))
+
+
+def article(page: str, name: str) -> str:
+    return re.search(rf'<article class="formula" id="{name}".*?</article>', page, re.DOTALL)[0]
+
+
+def test_every_formula_of_the_chapter_is_there_in_both_languages(client, token):
+    pages = {}
+    for lang in ("en", "bn"):
+        client.post("/settings", data={"token": token, "lang": lang, "back": "/formulas"})
+        pages[lang] = client.get("/formulas").text
+        ids = re.findall(r'<article class="formula" id="(F\d\d)"', pages[lang])
+        assert sorted(ids) == [f"F{i:02}" for i in range(1, 47)]
+    client.post("/settings", data={"token": token, "lang": "en", "back": "/"})
+    pixels = article(pages["en"], "F08")
+    assert "From pixel pitch to the focal length in pixels" in shown(pixels)
+    assert "d x : pixel pitch in m" in shown(pixels)
+    assert re.search('<math aria-label="m sub x equals', pixels), pixels
+    assert re.search("[\u0980-\u09ff]", article(pages["bn"], "F08"))
+
+
+def test_a_question_below_a_formula_begins_practice(client, token):
+    page = article(client.get("/formulas").text, "F08")
+    name = re.search(r'name="template" value="([\w-]+)"', page)[1]
+    begun = client.post("/practice", data={"token": token, "template": name})
+    assert begun.url.path.startswith("/q/")
+
+
+def test_the_sheet_to_print_is_a_pdf_of_the_same_title(client):
+    answer = client.get("/formulas.pdf")
+    assert answer.headers["content-type"] == "application/pdf"
+    assert answer.content.startswith(b"%PDF-")
+
+
+def test_a_worked_solution_leads_to_its_formulas(client, token, begin):
+    at = begin("point-to-image-plane")
+    page = client.post(f"{at}/1", data={"token": token, "do": "solution", "a": ["", ""]}).text
+    cited = set(re.findall(r'class="cite" href="/formulas#(F\d\d)"', page))
+    assert cited
+    sheet = client.get("/formulas").text
+    assert all(f'id="{name}"' in sheet for name in cited)
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_the_page_of_formulas_on_a_phone(opened, served, scheme):
+    from axe_playwright_python.sync_playwright import Axe
+
+    page = opened(viewport={"width": 390, "height": 800}, color_scheme=scheme)
+    page.goto(f"{served.address}/formulas#F08")
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    found = Axe().run(page).response["violations"]
+    assert [(v["id"], v["nodes"][0]["html"][:200]) for v in found] == []
+    page.locator("#F08 button").first.click()
+    page.wait_for_url("**/q/*")
