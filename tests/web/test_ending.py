@@ -46,6 +46,13 @@ def test_a_template_that_is_not_there_is_said_and_the_process_lives(workers):
     assert workers.makers[0].process.pid == before
 
 
+def test_ctrl_c_is_left_to_the_server(workers):
+    before = workers.makers[0].process
+    os.kill(before.pid, signal.SIGINT)
+    assert asyncio.run(workers.question(Wanted("point-to-image-plane", "1", "en"))).stem
+    assert workers.makers[0].process is before
+
+
 def test_a_server_that_ends_leaves_nobody_waiting(workers):
     async def run() -> None:
         due = asyncio.ensure_future(workers.question(Wanted("point-to-image-plane", "1", "en")))
