@@ -10,11 +10,12 @@ from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 from starlette.middleware import Middleware
-from starlette.middleware.base import BaseHTTPMiddleware, RequestResponseEndpoint
+from starlette.middleware.gzip import GZipMiddleware
 from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
+from starlette.types import ASGIApp, Receive, Scope, Send
 
 from quizgen.errors import QuizgenError
 from quizgen.locale import languages
@@ -61,7 +62,8 @@ def application(settings: Settings) -> Starlette:
         ],
         middleware=[
             Middleware(Guard, settings=site.settings),
-            Middleware(BaseHTTPMiddleware, dispatch=known),
+            Middleware(GZipMiddleware, minimum_size=2000, compresslevel=3),
+            Middleware(Known, site=site),
         ],
         exception_handlers={HTTPException: refused, QuizgenError: failed},
         lifespan=lifespan,
@@ -70,12 +72,25 @@ def application(settings: Settings) -> Starlette:
     return app
 
 
-async def known(request: Request, call_next: RequestResponseEndpoint) -> Response:
-    """Say who asks."""
-    if not request.url.path.startswith("/static/"):
-        site: Site = request.app.state.site
-        request.state.learner = await run_in_threadpool(site.store.learner)
-    return await call_next(request)
+class Known:
+    """Says who asks.
+
+    Parameters
+    ----------
+    app : ASGI application
+    site : Site
+    """
+
+    def __init__(self, app: ASGIApp, site: Site) -> None:
+        self.app, self.site = app, site
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Put the learner beside the request."""
+        if scope["type"] == "http" and not scope["path"].startswith("/static/"):
+            store = self.site.store
+            learner = store.remembered() or await run_in_threadpool(store.learner)
+            scope.setdefault("state", {})["learner"] = learner
+        await self.app(scope, receive, send)
 
 
 async def settle(request: Request) -> Response:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import secrets
 import time
 from dataclasses import dataclass
@@ -24,12 +25,15 @@ from quizgen.web.made import MadePaper, MadePart, WantedPaper
 from quizgen.web.results import asked, marked, outcomes
 from quizgen.web.site import Site
 from quizgen.web.store import Sitting
+from quizgen.web.store.sittings import Sittings
 from quizgen.web.views import lang_of, page, said, to
 
 FIELDS = "a-"
 """Before the name of a part in a form."""
 SHOWN = "on-"
 """Before the name of a part in a form: what its fields held when the page was made."""
+PART = re.compile(r"[0-9]{1,4}[a-z]{0,2}")
+"""Names of parts."""
 MINUTES = (15, 30, 45, 60, 90)
 """Lengths of a paper of a topic."""
 
@@ -125,16 +129,18 @@ async def sit(request: Request) -> Response:
                 flags=flags, now=time.time())  # fmt: skip
 
 
-def _fields(form: FormData, paper: MadePaper) -> dict[str, list[str]]:
+def _fields(form: FormData) -> dict[str, list[str]]:
     """What was changed, by part.
 
     Parts that were not on the form are left as they are, and so are those that still hold what the
-    page was made with: another page of the same exam may have changed them since.
+    page was made with: another page of the same exam may have changed them since. The paper is not
+    asked which parts it has, so that nobody waits for it; what it lacks is never looked at.
     """
-    fields = [part.field.id for item in paper.items for part in item.parts]
+    names = {name.removeprefix(SHOWN) for name, _ in form.multi_items() if name.startswith(SHOWN)}
     return {
         name: values
-        for name in fields
+        for name in names
+        if PART.fullmatch(name)
         for values in [every(form, FIELDS + name)]
         if any(_plain(values) != shown for shown in map(_shown, every(form, SHOWN + name)))
     }
@@ -156,10 +162,15 @@ def _plain(values: list[str]) -> list[str]:
 async def save(request: Request) -> Response:
     """Keep what was typed; a script is told when, a form leads back to the paper."""
     form = await posted(request)
-    sitting = await _sitting(request)
-    paper = await _paper(request, sitting)
-    store = request.app.state.site.store.sittings
-    kept = await run_in_threadpool(store.save, sitting, _fields(form, paper))
+    store: Sittings = request.app.state.site.store.sittings
+
+    def keep() -> tuple[Sitting | None, bool]:
+        found = store.find(request.state.learner.id, request.path_params["sitting"])
+        return found, found is not None and store.save(found, _fields(form))
+
+    sitting, kept = await run_in_threadpool(keep)
+    if sitting is None:
+        raise HTTPException(404)
     if one(form, "do") == "hand-in":
         await _hand_in(request, sitting)
     elif one(form, "do") in {"rest", "go-on"}:

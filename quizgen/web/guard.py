@@ -65,7 +65,7 @@ class Guard:
                 headers = MutableHeaders(scope=message)
                 for name, value in HEADERS.items():
                     headers.setdefault(name, value)
-                headers.setdefault("cache-control", "no-store")
+                headers.setdefault("cache-control", _kept(scope["path"]))
             await send(message)
 
         refused = self._refused(scope)
@@ -108,6 +108,13 @@ class Guard:
         response = RedirectResponse("/", 303)
         response.set_cookie(COOKIE, key, httponly=True, samesite="strict", path="/")
         return response
+
+
+def _kept(path: str) -> str:
+    """How long a browser may keep what it was sent."""
+    if path.startswith("/static/fonts/"):
+        return "max-age=604800"
+    return "no-cache" if path.startswith(OPEN) else "no-store"
 
 
 def _cookie(headers: dict[str, str]) -> str:

@@ -16,7 +16,7 @@ from quizgen.practice.state import Wish
 from quizgen.web.agenda import count_turn, following_of, today
 from quizgen.web.echo import read_back
 from quizgen.web.forms import every, one, posted
-from quizgen.web.made import GUIDED, Wanted
+from quizgen.web.made import GUIDED, Made, Wanted
 from quizgen.web.site import Site
 from quizgen.web.store import Attempt, Which
 from quizgen.web.turn import Place, Turn
@@ -79,11 +79,15 @@ async def _attempt(request: Request) -> Attempt:
     return found
 
 
-async def _turn(request: Request) -> Turn:
+async def _made(request: Request, attempt: Attempt) -> Made:
     site: Site = request.app.state.site
-    attempt = await _attempt(request)
     wanted = Wanted(attempt.template, attempt.seed, lang_of(request), level=attempt.level)
-    return Turn(await site.workers.question(wanted), attempt)
+    return await site.workers.question(wanted)
+
+
+async def _turn(request: Request) -> Turn:
+    attempt = await _attempt(request)
+    return Turn(await _made(request, attempt), attempt)
 
 
 def _place(request: Request, turn: Turn) -> Place:
@@ -132,9 +136,12 @@ async def answer(request: Request) -> Response:
 async def echo(request: Request) -> Response:
     """How what stands in the fields is read; never whether it is right."""
     form = await posted(request)
-    turn = await _turn(request)
-    place = _place(request, turn)
-    read = read_back(place.part.field, turn.made.key, every(form, "a"))
+    made = await _made(request, await _attempt(request))
+    name = request.path_params["part"]
+    field = next((part.field for part in made.parts if part.field.id == name), None)
+    if field is None:
+        raise HTTPException(404)
+    read = read_back(field, made.key, every(form, "a"))
     return HTMLResponse(said(lang_of(request), "practice.read", value=read) if read else "")
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import secrets
+import threading
 import time
 from collections.abc import Mapping
 from typing import Any
@@ -55,6 +56,8 @@ class Store:
         except (SQLAlchemyError, ArgumentError, ImportError, OSError) as error:
             said = str(error).partition("\n")[0]
             raise StoreError(f"{_shown(address)}: {said}") from error
+        self._learners: dict[str, Learner] = {}
+        self._one = threading.Lock()
         self.sittings = Sittings(self.engine)
         """Exams that are sat."""
         self.cards = Cards(self.engine)
@@ -73,20 +76,27 @@ class Store:
                 connection.execute(insert(SERVER).values(name=name, value=value))
         return value if found is None else str(found)
 
+    def remembered(self, name: str = ALONE) -> Learner | None:
+        """A learner who has asked before; None where the database has to say."""
+        return self._learners.get(name)
+
     def learner(self, name: str = ALONE) -> Learner:
         """A learner by name; a new one if nobody has it yet."""
-        with self.engine.begin() as connection:
-            found = _learner(connection, name)
-            if found is None:
-                row = {"name": name, "settings": {}, "since": time.time()}
-                connection.execute(insert(LEARNER).values(row))
+        with self._one:
+            with self.engine.begin() as connection:
                 found = _learner(connection, name)
-        assert found is not None  # noqa: S101 - it was just written
+                if found is None:
+                    row = {"name": name, "settings": {}, "since": time.time()}
+                    connection.execute(insert(LEARNER).values(row))
+                    found = _learner(connection, name)
+            assert found is not None  # noqa: S101 - it was just written
+            self._learners[name] = found
         return found
 
     def settle(self, learner: int, changed: Mapping[str, Any]) -> None:
         """Change some settings of a learner."""
-        with self.engine.begin() as connection:
+        with self._one, self.engine.begin() as connection:
+            self._learners.clear()
             query = select(LEARNER.c.settings).where(LEARNER.c.id == learner).with_for_update()
             known = connection.execute(query).scalar_one()
             connection.execute(

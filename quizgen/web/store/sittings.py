@@ -8,7 +8,7 @@ from collections.abc import Mapping
 
 import msgspec
 from sqlalchemy import Connection, Engine, delete, insert, select, update
-from sqlalchemy.dialects import postgresql, sqlite
+from sqlalchemy.dialects import sqlite
 
 from quizgen.web.store.rows import Seen, Sitting
 from quizgen.web.store.tables import ANSWER, FLAG, SEEN, SITTING
@@ -130,6 +130,8 @@ def _put(connection: Connection, row: Mapping[str, object]) -> None:
     changed = {"fields": row["fields"], "at": row["at"]}
     place = ["sitting", "part"]
     if connection.dialect.name == "postgresql":
+        from sqlalchemy.dialects import postgresql
+
         query = postgresql.insert(ANSWER).values(row)
         connection.execute(query.on_conflict_do_update(index_elements=place, set_=changed))
     else:
