@@ -18,6 +18,7 @@ COMMANDS: dict[str, tuple[list[str], ...]] = {
         [sys.executable, "benchmarks/bank.py"],
         [sys.executable, "benchmarks/papers.py"],
         [sys.executable, "benchmarks/marking.py"],
+        [sys.executable, "benchmarks/web.py"],
     ),
     "pins": ([sys.executable, "tools/pin.py"],),
     "fonts": ([sys.executable, "tools/pack_fonts.py"],),
