@@ -1,0 +1,81 @@
+"""The camera: sliders, the photograph, and what was left out of it."""
+
+from __future__ import annotations
+
+import math
+from base64 import b64encode
+
+import msgspec
+from starlette.concurrency import run_in_threadpool
+from starlette.requests import Request
+from starlette.responses import Response
+from starlette.routing import Route
+
+from quizgen.errors import QuizgenError
+from quizgen.web.photo import BUDGETS, SCENES, Shoot, Shot, Slider, sliders
+from quizgen.web.site import Site
+from quizgen.web.views import lang_of, page, said
+
+SIGNED = ("exposure", "k1")
+"""Settings whose sign matters."""
+
+
+def chosen(request: Request, slider: Slider) -> int:
+    """Where a slider stands; where the scene has it, if it was not touched or is nowhere."""
+    sent = request.query_params.get(slider.name, "")
+    place = int(sent) if sent.isascii() and sent.isdecimal() and len(sent) < 3 else slider.own
+    return place if place < len(slider.stops) else slider.own
+
+
+def told(lang: str, name: str, value: float) -> str:
+    """A value of a setting, for people."""
+    if math.isnan(value):
+        return said(lang, "camera.off")
+    if math.isinf(value):
+        return "∞"
+    number = f"{value:+g}" if name in SIGNED and value else f"{value:g}"
+    return said(lang, f"camera.{name}_is", value=number.replace("-", "−"))
+
+
+async def camera(request: Request) -> Response:
+    """The photograph that the sliders ask for."""
+    site: Site = request.app.state.site
+    lang, asked = lang_of(request), request.query_params
+    scene = asked.get("scene", "") if asked.get("scene") in SCENES else SCENES[0]
+    budget = asked.get("budget", "") if asked.get("budget") in BUDGETS else BUDGETS[0]
+    there = await run_in_threadpool(sliders, scene)
+    same = asked.get("before") == scene  # another scene begins with settings of its own
+    places = {one.name: chosen(request, one) if same else one.own for one in there}
+    changes = tuple(
+        (one.name, one.stops[places[one.name]]) for one in there if places[one.name] != one.own
+    )
+    try:
+        data = await site.workers.done(Shoot(scene, changes, budget))
+    except QuizgenError:
+        shot = None
+    else:
+        shot = msgspec.msgpack.decode(data, type=Shot)
+    return page(
+        request,
+        "camera.html.j2",
+        scenes=SCENES,
+        scene=scene,
+        budgets=BUDGETS,
+        budget=budget,
+        sliders=there,
+        places=places,
+        told=lambda name, value: told(lang, name, value),
+        shot=shot,
+        pictures=_pictures(shot) if shot else [],
+    )
+
+
+def _pictures(shot: Shot) -> list[tuple[str, str]]:
+    """Name of each picture and its address."""
+    found = [("taken", shot.taken), ("whole", shot.whole)]
+    if shot.gain:
+        found.append(("difference", shot.difference))
+    return [(name, f"data:image/png;base64,{b64encode(data).decode()}") for name, data in found]
+
+
+ROUTES = [Route("/camera", camera)]

@@ -1,0 +1,98 @@
+"""The camera in the browser."""
+
+from __future__ import annotations
+
+import html
+import io
+import re
+from base64 import b64decode
+
+import numpy as np
+import pytest
+from PIL import Image
+
+
+def shown(page: str) -> str:
+    return html.unescape(" ".join(re.sub(r"<[^>]*>", " ", page).split()))
+
+
+def pictures(page: str) -> list[np.ndarray]:
+    found = re.findall(r'src="data:image/png;base64,([^"]+)"', page)
+    return [np.asarray(Image.open(io.BytesIO(b64decode(one)))).astype(int) for one in found]
+
+
+def rows(page: str) -> dict[str, str]:
+    return dict(re.findall(r'<th scope="row">([^<]*)</th><td>([^<]*)</td>', page))
+
+
+def test_a_photograph_its_plan_and_everything_on(client):
+    page = client.get("/camera", params={"scene": "flat"}).text
+    planned, whole, _ = pictures(page)
+    assert planned.shape == (480, 640, 3)
+    assert np.abs(planned - whole).max() <= 1, "half a grey level, and rounding"
+    assert rows(page)["shot noise"] == "computed exactly: the scene is about it"
+    assert "left out" in rows(page).values()
+
+
+def test_a_stop_more_light_is_brighter(client):
+    own = client.get("/camera", params={"scene": "fisheye", "before": "fisheye"}).text
+    darker = client.get(
+        "/camera", params={"scene": "fisheye", "before": "fisheye", "exposure": "3"}
+    ).text
+    assert "−1 EV" in shown(darker)
+    white, grey = pictures(own)[0].max(), pictures(darker)[0].max()
+    assert (white, grey) == (255, 128), "half the light, without a gamma curve"
+
+
+def test_another_scene_begins_with_settings_of_its_own(client):
+    page = client.get(
+        "/camera", params={"scene": "landscape", "before": "portrait", "f_number": "0"}
+    ).text
+    assert re.search(r'<output for="set-f_number">f/16</output>', page)
+
+
+@pytest.mark.parametrize(
+    "sent", [{"exposure": "99"}, {"exposure": "-1"}, {"exposure": "1e9"}, {"exposure": "x" * 9999},
+             {"scene": "../../etc/passwd"}, {"budget": "inf"}, {"k1": "৫"}],
+)  # fmt: skip
+def test_what_no_slider_sends_changes_nothing(client, sent):
+    answer = client.get("/camera", params={"scene": "pinhole", "before": "pinhole", **sent})
+    assert answer.status_code == 200
+    assert "etc" not in answer.text.split("<main")[1][:400]
+
+
+def test_an_ideal_camera_computes_nothing(client):
+    page = shown(client.get("/camera", params={"scene": "pinhole"}).text)
+    assert "Nothing to compute" in page
+    assert "The two are equal" in page
+
+
+@pytest.mark.parametrize("scene", ["portrait", "landscape", "night", "texture", "propeller"])
+def test_every_scene_and_both_languages(client, token, scene):
+    client.post("/settings", data={"token": token, "lang": "bn", "back": "/"})
+    bangla = client.get("/camera", params={"scene": scene})
+    client.post("/settings", data={"token": token, "lang": "en", "back": "/"})
+    english = client.get("/camera", params={"scene": scene})
+    assert (bangla.status_code, english.status_code) == (200, 200)
+    assert [one.sum() for one in pictures(bangla.text)] == [
+        one.sum() for one in pictures(english.text)
+    ]
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_a_slider_by_keyboard_takes_another_photograph(opened, served, scheme):
+    from axe_playwright_python.sync_playwright import Axe
+    from playwright.sync_api import expect
+
+    page = opened(viewport={"width": 390, "height": 800}, color_scheme=scheme)
+    page.goto(f"{served.address}/camera?scene=fisheye")
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    found = Axe().run(page).response["violations"]
+    assert [(v["id"], v["nodes"][0]["html"][:200]) for v in found] == []
+    before = page.locator("#shot img").first.get_attribute("src")
+    page.locator("#set-exposure").focus()
+    page.keyboard.press("ArrowLeft")
+    expect(page.locator("output[for=set-exposure]")).to_have_text("−1 EV")
+    expect(page.locator("#shot img").first).not_to_have_attribute("src", before)
+    expect(page.locator("#set-exposure")).to_be_focused()
