@@ -22,6 +22,7 @@ from quizgen.paper.key import KeyQuestion, key_question
 from quizgen.paper.paper import Item, build, rebuild
 from quizgen.question.compose import Field, Key, Part, Question, instance, put_into_words
 from quizgen.question.contract import Control
+from quizgen.question.filling import plain
 from quizgen.question.levels import level_of
 from quizgen.question.markup import blocks, display, inline
 from quizgen.question.shown import named
@@ -42,6 +43,8 @@ class MadeField(msgspec.Struct, frozen=True):
     """Names of the boxes, typeset."""
     options: list[tuple[str, Html]]
     targets: list[tuple[str, Html]]
+    words: list[str]
+    """The targets in plain text, for lists that hold no markup."""
     hint: Html
 
     @property
@@ -241,6 +244,7 @@ def _field(field: Field, lang: str) -> MadeField:
         [_inline((named(box.name),), lang) if box.name else "" for box in field.control.boxes],
         [(mark, _inline(text, lang)) for mark, text in field.options],
         [(mark, _inline(text, lang)) for mark, text in field.targets],
+        [plain(text) for _, text in field.targets],
         _inline(field.hint, lang),
     )
 

@@ -160,3 +160,47 @@ def test_by_keys_alone(opened):
     to("Show the solution")
     page.keyboard.press("Enter")
     expect(page.locator(".result").first).to_be_visible()
+
+
+ORDER = "add-noise-to-uint8-order"
+
+
+def chosen(page):
+    return [
+        place.input_value() for place in page.locator("[data-order]").first.locator("select").all()
+    ]
+
+
+def test_steps_are_put_in_order_by_dragging_and_by_keys(practised):
+    page = practised(ORDER)
+    steps = page.locator("[data-order]").first.locator("[data-mark]")
+    first, second, third = (steps.nth(i).get_attribute("data-mark") for i in range(3))
+    steps.nth(0).drag_to(steps.nth(1))
+    assert chosen(page)[:2] == [first, ""]
+    page.locator(f"[data-mark={third}]").first.focus()
+    page.keyboard.press("Enter")
+    assert chosen(page)[:3] == [first, third, ""]
+    page.keyboard.press("ArrowUp")
+    assert chosen(page)[:3] == [third, first, ""]
+    expect(page.locator("#said")).to_have_text(f"{third}: 1.")
+    expect(page.locator(f"[data-mark={third}]").first).to_be_focused()
+    page.locator(f"[data-mark={second}]").first.drag_to(
+        steps.nth(0), target_position={"x": 20, "y": 2}
+    )
+    assert chosen(page)[:3] == [second, third, first]
+    page.locator(f"[data-mark={second}]").first.focus()
+    page.keyboard.press("Delete")
+    assert chosen(page)[:3] == [third, first, ""]
+    page.get_by_label("Place 3").first.select_option(second)
+    assert steps.nth(2).get_attribute("data-mark") == second
+    page.get_by_role(BUTTON, name="Check").first.click()
+    expect(page.locator(".verdict")).to_be_visible()
+    assert chosen(page)[:3] == [third, first, second]
+    assert steps.nth(0).get_attribute("data-mark") == third, "the order is drawn again"
+
+
+def test_what_is_matched_is_named_in_its_list(practised):
+    page = practised("lens-aberrations-causes-remedies")
+    options = page.locator("section.part select").first.locator("option").all_inner_texts()
+    told = page.locator("section.part").first.locator(".targets li").all_inner_texts()
+    assert [one.partition(". ")[2].strip() for one in options[1:]] == [one.strip() for one in told]
