@@ -15,6 +15,7 @@ from quizgen.paper.paper import Item
 from quizgen.question.compose import put_into_words
 from quizgen.question.levels import LEVELS
 from quizgen.question.levels.asking import shared_out
+from quizgen.question.levels.guided import stages
 
 CALCULATING = [name for name in builtin().paths if builtin().rules(name).solver]
 
@@ -109,6 +110,40 @@ def test_both_languages_are_marked_alike(name):
         (_, english), (_, bangla) = guided(drawn), guided(drawn, "bn")
         assert english.specs == bangla.specs
         assert english.identity == bangla.identity
+
+
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [
+        ("depth-of-field-limits", {"H", "z_n", "z_f"}),
+        ("hyperfocal-distance", {"H"}),
+        ("photon-energy-and-band", {"E"}),
+    ],
+)
+def test_a_formula_that_the_text_gives_is_no_question(name, told):
+    for seed in range(5):
+        asked = {stage.formula.name for stage in stages(draw(builtin().template(name), seed)) if stage.formula}  # fmt: skip
+        assert asked
+        assert not asked & told
+
+
+def test_a_time_that_the_text_gives_is_no_step():
+    """The exposure time was 1/250 s."""
+    for name in ("blur-and-light-factors", "best-pinhole-diameter", "exposure-equivalence"):
+        _, key = guided(draw(builtin().template(name), 1))
+        assert ["t_1"] not in [spec.of for spec in key.specs]
+        assert ["t_2"] in [spec.of for spec in key.specs]
+
+
+def test_a_sum_has_no_brackets_within():
+    steps = {"Y_601": "(R + G + B)/3", "V": "(R + G + B)/3"}
+    found = set()
+    for name in ("luma-before-and-after-turn", "rgb-to-hsv"):
+        for seed in range(8):
+            _, key = guided(draw(builtin().template(name), seed))
+            found |= {option for spec in key.specs if spec.kind == "choice" for option in spec.options}  # fmt: skip
+    assert {f"{name} = {text}" for name, text in steps.items()} <= found
+    assert not any("(R + G)" in text for text in found)
 
 
 @pytest.mark.parametrize(

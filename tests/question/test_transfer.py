@@ -6,6 +6,7 @@ from fractions import Fraction
 
 import pytest
 import sympy
+from models import DIGITS, model, near, solved
 
 from quizgen.bank.draw import draw
 from quizgen.bank.folder import builtin
@@ -27,40 +28,12 @@ CALCULATING = [
     if builtin().rules(name).solver and "transfer" in builtin().rules(name).levels
 ]  # fmt: skip
 SEEDS = range(4)
-DIGITS = 30
-
-
-def model(template):
-    return builtin().solver(template.rules.solver).MODEL
-
-
-def given(drawn, **scaled):
-    """Given quantities in base units, as SymPy has them."""
-    return {
-        symbol: sympy.Rational(key_text(drawn.shown[symbol.name] * factor(drawn.template.units[symbol.name])))
-        * sympy.Rational(str(scaled.get(symbol.name, 1)))
-        for symbol in model(drawn.template).given
-    }  # fmt: skip
-
-
-def solved(drawn, wrong=(), **scaled):
-    """Every quantity by name, step by step."""
-    env = given(drawn, **scaled)
-    swapped = {step.symbol: step.expr for step in wrong}
-    for step in model(drawn.template).steps:
-        env[step.symbol] = sympy.N(swapped.get(step.symbol, step.expr).subs(env), DIGITS)
-    return {symbol.name: value for symbol, value in env.items()}
 
 
 def moved(change):
     """A result before and after a change."""
     before = solved(change.drawn)[change.target]
     return before, solved(change.drawn, **{change.given: change.scale})[change.target]
-
-
-def near(a, b):
-    size = max(abs(a), abs(b))
-    return abs(a - b) <= sympy.Float("1e-12") * size  # models may hold floats: 0.299
 
 
 @pytest.mark.parametrize("name", CALCULATING)
@@ -133,6 +106,14 @@ def test_every_option_is_answered_and_every_mistake_named(name, lang):
             for mistake in solution.mistakes:
                 verdict = mark(spec, mistake.value, lang=lang, decimal="point")
                 assert verdict.note == f"trap:{mistake.name}"
+
+
+def test_a_mistake_whose_value_cannot_be_written_is_left_out():
+    """1 - (1/sqrt(a))^2*a is nought, but no number of digits shows it."""
+    for seed in (18, 23, 34):
+        drawn = draw(builtin().template("fold-over-radius"), seed)
+        assert found_mistake(drawn)("en").spec.correct
+        assert found_mistake(drawn).trap != "factor-zero"
 
 
 POWERS = [

@@ -58,7 +58,18 @@ def effect(changes: Changes) -> Effect | None:
                 other.append(change)
     if not other:
         return None
-    return Effect(other[0], ("value", "direction")[pick(f"{key_of(drawn)}/effect/way", 2)])
+    way = ("value", "direction")[pick(f"{key_of(drawn)}/effect/way", 2)]
+    wanted = DIRECTIONS[pick(f"{key_of(drawn)}/effect/direction", len(DIRECTIONS))]
+    fitting = [change for change in other if way == "value" or _way_of(change) == wanted]
+    return Effect((fitting or other)[0], way)
+
+
+def _way_of(change: Change) -> str:
+    """In which direction a result moves."""
+    with working_precision():
+        if change.after == change.before:
+            return "unchanged"
+        return "larger" if change.after > change.before else "smaller"
 
 
 def _body(change: Change, lang: str, key: str, hint: str = "") -> tuple[Block, ...]:
@@ -166,9 +177,7 @@ def _worked(change: Change, lang: str) -> tuple[Line, ...]:
 
 def _direction(change: Change, lang: str) -> Asked:
     """Larger, smaller or the same? Each option is answered with both values."""
-    with working_precision():
-        right = "larger" if change.after > change.before else "smaller"
-        right = "unchanged" if change.after == change.before else right
+    right = _way_of(change)
 
     def because(each: str) -> tuple[Inline, ...]:
         return said(

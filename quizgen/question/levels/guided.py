@@ -28,11 +28,13 @@ from quizgen.question.levels.options import Option, choice
 from quizgen.question.levels.steps import (
     Way,
     branch,
+    defined,
     gives_away,
     has_name,
     introduced,
     key_of,
     right_way,
+    stated,
     thing,
     value_spec,
     wrong_ways,
@@ -88,10 +90,10 @@ def stages(drawn: Draw) -> list[Stage]:
 
 def _stage(drawn: Draw, index: int, asked: frozenset[str]) -> Stage:
     of, numeric = answer_names(answer_of(drawn, index)), answer_of(drawn, index)["kind"] in NUMERIC
-    known = introduced(drawn) | asked | {step.name for step in drawn.steps(index)}
+    known = introduced(drawn) | asked | {step.name for step in drawn.steps(index)} - stated(drawn)
     steps = [
         step for step in _needed(drawn, index)
-        if step.name not in asked
+        if step.name not in asked | stated(drawn)
         and (has_name(drawn, step.name) or not gives_away(drawn, step, known))
     ]  # fmt: skip
     whole = not numeric or _together(drawn, of, steps)
@@ -124,9 +126,11 @@ def _to_choose(
     drawn: Draw, index: int, steps: list[ChainStep], known: frozenset[str]
 ) -> ChainStep | None:
     """The step whose formula is asked: one of those with several known mistakes."""
+    told = defined(drawn)
     found = [
         step for step in steps
-        if has_name(drawn, step.name) and not gives_away(drawn, step, known)
+        if step.name not in told
+        and has_name(drawn, step.name) and not gives_away(drawn, step, known)
         and len(wrong_ways(drawn, step, known)) > 1
     ]  # fmt: skip
     return found[pick(f"{key_of(drawn)}/{index}/formula", len(found))] if found else None

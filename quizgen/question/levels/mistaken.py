@@ -11,12 +11,21 @@ from quizgen.bank.prose import Block, Inline, Items, Paragraph, Styled, Words
 from quizgen.bank.traps import answer_names
 from quizgen.errors import MathError
 from quizgen.maths.chain import ChainStep
+from quizgen.maths.numbers import rounded_text
 from quizgen.question.filling import Filler
 from quizgen.question.levels.asking import Asked
 from quizgen.question.levels.changes import needed
 from quizgen.question.levels.guided import NUMERIC
 from quizgen.question.levels.options import Option, choice
-from quizgen.question.levels.steps import has_name, key_of, only_units, same_value, thing, told
+from quizgen.question.levels.steps import (
+    flat,
+    has_name,
+    key_of,
+    only_units,
+    same_value,
+    thing,
+    told,
+)
 from quizgen.question.shown import said
 from quizgen.question.solution import line_of
 from quizgen.question.worked import worked
@@ -67,7 +76,7 @@ class Wrong:
         """The steps as that solution takes them."""
         wrong = {step.name: step.expr for step in self._wrong()}
         for step in self.steps:
-            yield ChainStep(step.name, wrong.get(step.name, step.expr), step.unit)
+            yield ChainStep(step.name, flat(wrong.get(step.name, step.expr)), step.unit)
 
     def _row(self, shown: Draw, step: ChainStep, lang: str) -> tuple[Block, ...]:
         name = thing(self.drawn, step.name, lang)
@@ -149,8 +158,20 @@ def _usable(drawn: Draw, index: int, steps: tuple[ChainStep, ...]) -> Iterator[t
             values = drawn.template.chain.trapped(trap, drawn.values)
         except MathError:
             continue
+        if not _writable(replace(drawn, values=values), steps):
+            continue
         changed = [
             one.name for one in inside if not same_value(values[one.name], drawn.values[one.name])
         ]
         if changed and not all(same_value(values[name], drawn.values[name]) for name in answer):
             yield trap, min(places[name] for name in changed)
+
+
+def _writable(shown: Draw, steps: tuple[ChainStep, ...]) -> bool:
+    """Whether the digits of each step can be told: not where roots cancel to nothing."""
+    try:
+        for step in steps:
+            rounded_text(shown.shown_values[step.name])
+    except MathError:
+        return False
+    return True

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from fractions import Fraction
 from typing import Any, NamedTuple
 
 from flint import fmpq
@@ -35,7 +36,7 @@ from quizgen.maths.numbers import key_text, short_decimal, to_float
 from quizgen.maths.precision import working_precision
 from quizgen.maths.systems import compile_expr, exact, taken_branch
 from quizgen.maths.tolerance import RULES
-from quizgen.maths.tree import Call, Expr, Num, names, walk
+from quizgen.maths.tree import Call, Expr, Num, Sym, names, walk
 from quizgen.maths.units import factor
 from quizgen.maths.values import Value
 from quizgen.question.authored import printed
@@ -45,8 +46,10 @@ from quizgen.question.worked import drawn_node, drawn_typed
 
 USUAL = {"rel": "0.005"}
 """What is accepted where the rule of the part does not fit the step."""
-_BANNED = (1000, 10**6, 10**9)
+_BANNED = tuple(1000**n for n in range(1, 7))
 """Factors in a wrong formula that only change a unit."""
+_DEGREES = Call("div", (Num(Fraction(180)), Call("pi", ())))
+"""Radians to degrees."""
 
 
 class Way(NamedTuple):
@@ -76,23 +79,47 @@ def told(drawn: Draw, section: str, name: str) -> bool:
 
 def introduced(drawn: Draw) -> frozenset[str]:
     """Letters that the question itself uses: in formulas and programs, or as capitals."""
-    text = drawn.template.texts[drawn.template.languages[0]]
-    sections = [text.sections[label] for label in drawn.template.labels if label in text.sections]
-    return frozenset(name for part in (text.stem, *sections) for name in _letters(part))
+    return frozenset(_letters(_text(drawn)))
 
 
 _WORD = re.compile(r"[A-Za-z]\w*")
 
 
+def _text(drawn: Draw) -> Iterator[Block | Inline]:
+    """Stem and parts in the first language."""
+    text = drawn.template.texts[drawn.template.languages[0]]
+    yield from text.stem
+    for label in drawn.template.labels:
+        yield from text.sections.get(label, ())
+
+
 def stated(drawn: Draw) -> frozenset[str]:
-    """Drawn quantities whose numbers the text gives, or that follow from such numbers."""
-    rules, text = drawn.template.rules, drawn.template.texts[drawn.template.languages[0]]
-    sections = [text.sections[label] for label in drawn.template.labels if label in text.sections]
-    found = {*slots(part for section in (text.stem, *sections) for part in section)}
-    for name, rule in rules.draw.items():
+    """Quantities whose numbers the text gives, or that follow from such numbers."""
+    found = {*slots(_text(drawn))}
+    for name, rule in drawn.template.rules.draw.items():
         if rule.formula and names(drawn.template.formula(rule.formula)) <= found:
             found.add(name)
-    return frozenset(found)
+    chain = drawn.template.chain
+    return frozenset(found | {step.name for step in chain.steps if _is_one_over(step, found)})
+
+
+def _is_one_over(step: ChainStep, found: Collection[str]) -> bool:
+    """Whether the text gives a quantity as one over a number: an exposure time of 1/250 s."""
+    match step.expr:
+        case Call("div", (Num(value=1), Sym(below))):
+            return below in found and step.unit == "s"
+    return False
+
+
+def defined(drawn: Draw) -> frozenset[str]:
+    """Quantities whose formula the text writes down."""
+    return frozenset(
+        left.name
+        for part in _leaves(_text(drawn))
+        if isinstance(part, Formula) and isinstance(part.expr, Call) and part.expr.op == "eq"
+        for left, right in [part.expr.args]
+        if isinstance(left, Sym) and isinstance(right, Call)
+    )
 
 
 _BLANK = re.compile(r"\{\{.*?\}\}")
@@ -100,8 +127,8 @@ _CAPITAL = re.compile(r"(?<![\w'])[B-HJ-Z](?!\w)")
 """A letter that is no word of English."""
 
 
-def _letters(parts: tuple[Block | Inline, ...]) -> Iterator[str]:
-    for part in parts:
+def _letters(parts: Iterable[Block | Inline]) -> Iterator[str]:
+    for part in _leaves(parts):
         match part:
             case Formula(expr):
                 yield from names(expr)
@@ -109,19 +136,38 @@ def _letters(parts: tuple[Block | Inline, ...]) -> Iterator[str]:
                 yield from _WORD.findall(_BLANK.sub("", text))
             case Words(text):
                 yield from _CAPITAL.findall(text)
-            case Paragraph(children) | Styled(_, children):
-                yield from _letters(children)
-            case Items(items):
-                yield from (name for item in items for name in _letters(item))
-            case Table(head, rows):
-                yield from (n for row in (head, *rows) for cell in row for n in _letters(cell))
             case _:
                 pass
 
 
+def _leaves(parts: Iterable[Block | Inline]) -> Iterator[Block | Inline]:
+    """What holds nothing else, in order."""
+    for part in parts:
+        match part:
+            case Paragraph(children) | Styled(_, children):
+                yield from _leaves(children)
+            case Items(items):
+                yield from (leaf for item in items for leaf in _leaves(item))
+            case Table(head, rows):
+                yield from (n for row in (head, *rows) for cell in row for n in _leaves(cell))
+            case _:
+                yield part
+
+
+def flat(expr: Expr) -> Expr:
+    """The same formula with sums of sums as one sum: no bracket in ((a + b) + c)/3."""
+    if not isinstance(expr, Call):
+        return expr
+    args = tuple(map(flat, expr.args))
+    if expr.op == "add":
+        inner = [arg.args if isinstance(arg, Call) and arg.op == "add" else (arg,) for arg in args]
+        args = tuple(arg for group in inner for arg in group)
+    return Call(expr.op, args)
+
+
 def formula(drawn: Draw, step: ChainStep, expr: Expr, known: frozenset[str]) -> Maths:
     """A step's formula, with numbers in place of letters that nobody has introduced."""
-    strangers = names(expr) - known
+    expr, strangers = flat(expr), names(expr) - known
     node = typeset.layout(expr, leaves={name: drawn_node(drawn, name) for name in strangers})
     typed = to_text(expr, {name: drawn_typed(drawn, name) for name in strangers})
     return Maths(typeset.relation(["="], [typeset.name(step.name), node]), f"{step.name} = {typed}")
@@ -177,12 +223,17 @@ def _wrong(drawn: Draw, step: ChainStep) -> Iterator[tuple[str, Expr]]:
 
 
 def only_units(wrong: Expr, right: Expr) -> bool:
-    """Whether a factor such as 1000 stands in a wrong formula that is there for the units alone."""
+    """Whether a wrong formula differs in its unit alone: a factor of 1000, or radians for degrees.
+
+    Without numbers nobody can call 2·atan(W/(2·f)) a wrong formula of an angle.
+    """
 
     def numbers(expr: Expr) -> set[object]:
         return {node.value for node in walk(expr) if isinstance(node, Num)}
 
     odd = numbers(wrong) - numbers(right)
+    if _DEGREES in walk(right) and _DEGREES not in walk(wrong):
+        return True
     return any(size in (value, 1 / value) for value in odd if value for size in _BANNED)  # type: ignore[operator]
 
 

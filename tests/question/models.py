@@ -1,0 +1,38 @@
+"""What a draw comes to by SymPy and the solver's model alone."""
+
+from __future__ import annotations
+
+import sympy
+
+from quizgen.bank.folder import builtin
+from quizgen.maths.numbers import key_text
+from quizgen.maths.units import factor
+
+DIGITS = 30
+
+
+def model(template):
+    return builtin().solver(template.rules.solver).MODEL
+
+
+def given(drawn, **scaled):
+    """Given quantities in base units, as SymPy has them."""
+    return {
+        symbol: sympy.Rational(key_text(drawn.shown[symbol.name] * factor(drawn.template.units[symbol.name])))
+        * sympy.Rational(str(scaled.get(symbol.name, 1)))
+        for symbol in model(drawn.template).given
+    }  # fmt: skip
+
+
+def solved(drawn, wrong=(), **scaled):
+    """Every quantity by name, step by step."""
+    env = given(drawn, **scaled)
+    swapped = {step.symbol: step.expr for step in wrong}
+    for step in model(drawn.template).steps:
+        env[step.symbol] = sympy.N(swapped.get(step.symbol, step.expr).subs(env), DIGITS)
+    return {symbol.name: value for symbol, value in env.items()}
+
+
+def near(a, b):
+    size = max(abs(a), abs(b))
+    return abs(a - b) <= sympy.Float("1e-12") * size  # models may hold floats: 0.299

@@ -1,0 +1,113 @@
+"""Steps asked one by one: every key, mistake and formula worked out again by SymPy alone."""
+
+from __future__ import annotations
+
+import pytest
+import sympy
+from models import model, near, solved
+
+from quizgen.bank.draw import draw
+from quizgen.bank.folder import builtin
+from quizgen.maths.constants import exact_value
+from quizgen.maths.numbers import key_text
+from quizgen.maths.units import factor
+from quizgen.question.compose import put_into_words
+from quizgen.question.levels import LEVELS
+from quizgen.question.levels.guided import stages
+from quizgen.question.levels.steps import wrong_ways
+
+CALCULATING = [
+    name for name in builtin().paths
+    if builtin().rules(name).solver and "guided" in builtin().rules(name).levels
+]  # fmt: skip
+SEEDS = [1, *(pytest.param(n, marks=pytest.mark.slow) for n in range(2, 9))]
+UNITS_ALONE = [1, 180 / sympy.pi, *(sympy.Integer(1000) ** n for n in range(1, 7))]
+"""Between two values of one formula in different units."""
+
+
+def drawn_at(name, seed):
+    drawn = draw(builtin().template(name), seed)
+    return drawn if LEVELS["guided"].fits(drawn) else None
+
+
+def size(spec, label):
+    """A unit of an answer in base units."""
+    if spec.kind == "angle":
+        return 1
+    units = getattr(spec, "units", {})
+    unit = units.get(label, "") if units else getattr(spec, "unit", "")
+    return sympy.Rational(key_text(factor(unit)))
+
+
+def asked_values(spec):
+    """Quantity, and value in base units, of whatever numbers a part asks for."""
+    if hasattr(spec, "value"):
+        yield spec.of[0], exactly(spec.value), size(spec, "")
+    elif spec.kind == "point":
+        yield from ((of, exactly(value), size(spec, of)) for of, value in zip(spec.of, spec.values, strict=True))  # fmt: skip
+    elif spec.kind == "table":
+        yield from ((spec.of[cell], exactly(value), size(spec, cell)) for cell, value in spec.values.items())  # fmt: skip
+
+
+def exactly(text):
+    return sympy.Rational(key_text(exact_value(text)))
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("name", CALCULATING)
+def test_every_number_that_is_asked_is_that_of_the_model(name, seed):
+    drawn = drawn_at(name, seed)
+    if drawn is None:
+        return
+    values = solved(drawn)
+    _, key = put_into_words(drawn, "en", level="guided", figures=False)
+    for spec in key.specs:
+        for of, value, unit in asked_values(spec):
+            assert near(value * unit, values[of]), (spec.kind, of)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("name", CALCULATING)
+def test_a_mistake_of_a_step_gives_what_the_model_makes_of_it(name, seed):
+    drawn = drawn_at(name, seed)
+    if drawn is None:
+        return
+    values, own = solved(drawn), model(drawn.template)
+    symbols = {one: values[one.name] for one in [*own.given, *(step.symbol for step in own.steps)]}
+    before = {step.name for stage in stages(drawn) for step in stage.before}
+    _, key = put_into_words(drawn, "en", level="guided", figures=False)
+    for spec in key.specs:
+        if not hasattr(spec, "value") or spec.of[0] not in before:
+            continue
+        for trap, told in spec.traps.items():
+            wrong = own.traps[trap]
+            steps = wrong if isinstance(wrong, tuple) else (wrong,)
+            expr = next(step.expr for step in steps if step.symbol.name == spec.of[0])
+            value = exactly(told) * size(spec, "")
+            assert near(value, sympy.N(sympy.S(expr).subs(symbols), 30)), (spec.of, trap)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("name", CALCULATING)
+def test_a_wrong_formula_is_wrong_in_every_unit(name, seed):
+    """2·atan(W/(2·f)) is an angle; that it is one in radians makes it no wrong formula."""
+    drawn = drawn_at(name, seed)
+    if drawn is None:
+        return
+    values, own = solved(drawn), model(drawn.template)
+    symbols = {one: values[one.name] for one in [*own.given, *(step.symbol for step in own.steps)]}
+    for stage in stages(drawn):
+        if stage.formula is None:
+            continue
+        right = values[stage.formula.name]
+        for way in wrong_ways(drawn, stage.formula, stage.known):
+            wrong = own.traps[way.trap]
+            steps = wrong if isinstance(wrong, tuple) else (wrong,)
+            expr = next(step.expr for step in steps if step.symbol.name == stage.formula.name)
+            value = sympy.N(sympy.S(expr).subs(symbols), 30)
+            alike = [
+                unit
+                for unit in UNITS_ALONE
+                if near(value * unit, right) or near(value, right * unit)
+            ]
+            assert not alike, (way.shown.typed, stage.formula.name)
