@@ -1,4 +1,4 @@
-"""The commands that people use: ``uv run python tools/do.py test|style|proof|speed|pins|fonts``."""
+"""The commands that people use: ``uv run python tools/do.py NAME``; see ``COMMANDS``."""
 
 from __future__ import annotations
 
@@ -22,8 +22,9 @@ COMMANDS: dict[str, tuple[list[str], ...]] = {
     ),
     "pins": ([sys.executable, "tools/pin.py"],),
     "fonts": ([sys.executable, "tools/pack_fonts.py"],),
+    "picture": ([sys.executable, "tools/picture.py"],),
 }
-"""What to type, and what it runs: tests; style and lengths; all draws; ratios; versions; fonts."""
+"""What to type, and what it runs."""
 
 
 def main(names: list[str]) -> int:
