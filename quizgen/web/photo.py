@@ -65,8 +65,9 @@ class Shot(msgspec.Struct, frozen=True):
     absent: list[str]
     budget: float
     bound: float
-    took: float
-    whole_took: float
+    takes: float
+    """Predicted, in ms."""
+    whole_takes: float
 
 
 @dataclass(frozen=True)
@@ -104,8 +105,8 @@ class Shoot:
                 list(photo.plan.absent),
                 photo.plan.budget,
                 photo.plan.predicted_error_dn,
-                photo.measured_ms,
-                whole.measured_ms,
+                photo.plan.predicted_ms,
+                whole.plan.predicted_ms,
             )
         )  # fmt: skip
 
