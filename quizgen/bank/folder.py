@@ -158,6 +158,14 @@ class Bank:
         mount(self.root / "solvers", name)
         return name
 
+    def afresh(self) -> Bank:
+        """The same bank, its files and solvers read again."""
+        inside = f"{self._package}."
+        for name in [name for name in list(sys.modules) if name.startswith(inside)]:
+            del sys.modules[name]
+        importlib.invalidate_caches()
+        return Bank(self.root, trusted=self.trusted)
+
     def solver(self, name: str) -> ModuleType:
         """Import a solver module of this bank.
 

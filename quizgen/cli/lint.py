@@ -25,6 +25,9 @@ TEACH_HEAD = ("template", "part", "level", "finding")
 NOTHING = ("0", "", "", "", "1", "")
 """Cells of a template that could not be examined."""
 
+FEW = 20
+"""Draws that are examined while an author waits."""
+
 _FILE = re.compile(r"(?:no )?([a-z]{2,3}\.md)\b(?!.* and )")
 
 ADVICE = {
@@ -85,7 +88,7 @@ def lint(**options: Unpack[Options]) -> None:
     rows, broken = [], []
     with Progress("lint", len(names)) as progress:
         for name in progress.over(names):
-            row, problems = _examined(bank, name, options)
+            row, problems = _examined(bank, name, options["seeds"], debug=options["debug"])
             rows.append((name, *row))
             broken += problems
     print_table(HEAD, rows)
@@ -93,6 +96,11 @@ def lint(**options: Unpack[Options]) -> None:
         click.echo(visible(problem), err=True)
     if broken:
         sys.exit(1)
+
+
+def problems_of(bank: Bank, name: str) -> list[str]:
+    """What is wrong with a template, over a few draws, as an author sees it while writing."""
+    return _examined(bank, name, FEW)[1]
 
 
 def _taught(bank: Bank, names: tuple[str, ...], options: Options) -> int:
@@ -140,13 +148,15 @@ def _told(bank: Bank, count: int) -> int:
     return int(bool(found))
 
 
-def _examined(bank: Bank, name: str, options: Options) -> tuple[tuple[str, ...], list[str]]:
+def _examined(
+    bank: Bank, name: str, seeds: int, *, debug: bool = False
+) -> tuple[tuple[str, ...], list[str]]:
     """Cells of a template's row, and its problems."""
     from quizgen.audit.lint import lint_template
     from quizgen.bank.formulas import missing_formulas
 
     try:
-        report = lint_template(bank.template(name), options["seeds"], bank.languages)
+        report = lint_template(bank.template(name), seeds, bank.languages)
         report.problems += [
             f"the solver names formula {formula!r}, which templates/cards/formulas.toml lacks"
             for formula in missing_formulas(bank, name)
@@ -154,7 +164,7 @@ def _examined(bank: Bank, name: str, options: Options) -> tuple[tuple[str, ...],
     except Exception as error:
         if interrupted():
             raise KeyboardInterrupt from error
-        if options["debug"]:
+        if debug:
             traceback.print_exception(error)
         return NOTHING, [_said(bank, name, error)]
     return _cells(report), [_located(bank.paths[name], problem) for problem in report.problems]

@@ -7,6 +7,7 @@ from typing import Unpack
 
 import click
 
+from quizgen.cli.lint import problems_of
 from quizgen.cli.options import BankOptions, Whole, bank_options
 
 
@@ -16,6 +17,7 @@ class Options(BankOptions):
     port: int
     show: bool
     database: str | None
+    author: bool
 
 
 @click.command()
@@ -31,6 +33,9 @@ class Options(BankOptions):
     metavar="ADDRESS",
     help="Where to keep what is done: sqlite:///FILE, postgresql+psycopg://...",
 )
+@click.option(
+    "--author", is_flag=True, help="Show every template with its solution, as it is saved."
+)
 @bank_options
 def serve(**options: Unpack[Options]) -> None:
     """Practise and sit the exam in a browser on this machine."""
@@ -40,6 +45,7 @@ def serve(**options: Unpack[Options]) -> None:
         options["database"] or f"sqlite:///{database_file()}",
         options["bank"].resolve() if options["bank"] else None,
         trusted=options["trust"],
+        examine=problems_of if options["author"] else None,
     )
     from quizgen.web.server import run
 

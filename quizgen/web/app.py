@@ -20,7 +20,7 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 from quizgen.errors import QuizgenError
 from quizgen.locale import languages
 from quizgen.render.fonts import WEB
-from quizgen.web import camera, exam, formulas, practice, progress
+from quizgen.web import author, camera, exam, formulas, practice, progress
 from quizgen.web.forms import one, posted
 from quizgen.web.guard import Guard
 from quizgen.web.settings import Settings
@@ -54,7 +54,7 @@ def application(settings: Settings) -> Starlette:
 
     app = Starlette(
         routes=[
-            *PAGES,
+            *(*PAGES, *(author.ROUTES if settings.examine else ())),
             Route("/settings", settle, methods=["POST"]),
             Route("/static/languages.css", language_sheet),
             Mount("/static/fonts", StaticFiles(directory=WEB)),

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import secrets
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
+
+from quizgen.bank.folder import Bank
 
 LOCAL = ("127.0.0.1", "localhost")
 """Names under which a browser on this machine reaches a server of its own."""
@@ -37,3 +40,4 @@ class Settings:
     hosts: tuple[str, ...] = LOCAL
     token: str = field(default_factory=lambda: secrets.token_urlsafe(24), repr=False)
     workers: int = 2
+    examine: Callable[[Bank, str], list[str]] | None = None

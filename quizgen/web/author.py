@@ -1,0 +1,126 @@
+"""For authors: every template with its solution, read again whenever a file is saved."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import msgspec
+from starlette.concurrency import run_in_threadpool
+from starlette.requests import Request
+from starlette.responses import Response
+from starlette.routing import Route
+
+from quizgen.bank.folder import Bank
+from quizgen.bank.levels import EXAM
+from quizgen.errors import QuizgenError
+from quizgen.question.compose import instance, put_into_words
+from quizgen.web.made import Made, Wanted, made
+from quizgen.web.site import Site
+from quizgen.web.views import lang_of, page
+
+LEVELS = (EXAM, "guided", "transfer")
+DIGITS = 9
+"""Of a seed."""
+
+
+@dataclass(frozen=True)
+class Preview:
+    """A template in all its languages, as the files were when they had this stamp."""
+
+    template: str
+    seed: str
+    level: str
+    stamp: str
+
+    def run(self, bank: Bank) -> bytes:
+        """Make it."""
+        template = bank.afresh().template(self.template)
+        drawn = instance(template, self.seed)
+        found = []
+        for lang in template.texts:
+            wanted = Wanted(self.template, self.seed, lang, level=self.level)
+            found.append(made(wanted, *put_into_words(drawn, lang, level=self.level)))
+        return msgspec.json.encode(found)
+
+
+@dataclass(frozen=True)
+class Examined:
+    """What is wrong with a template."""
+
+    template: str
+    examine: Callable[[Bank, str], list[str]]
+    stamp: str
+
+    def run(self, bank: Bank) -> bytes:
+        """Find it."""
+        return msgspec.json.encode(self.examine(bank.afresh(), self.template))
+
+
+def stamp_of(root: Path) -> str:
+    """What changes when a file of a bank is saved."""
+    files = sorted(path for name in ("templates", "solvers") for path in (root / name).rglob("*"))
+    seen = [(str(path), path.stat().st_mtime_ns) for path in files if path.is_file()]
+    return hashlib.sha256(repr(seen).encode()).hexdigest()[:16]
+
+
+async def templates(request: Request) -> Response:
+    """All templates by topic."""
+    site: Site = request.app.state.site
+    bank, lang = Bank(site.bank.root), lang_of(request)
+    rules = [(name, bank.rules(name)) for name in bank.paths]
+    groups = [
+        (bank.topic_title(topic, lang), [(n, one.tier) for n, one in rules if one.topic == topic])
+        for topic in bank.topics
+    ]
+    return page(request, "templates.html.j2", groups=groups)
+
+
+async def template(request: Request) -> Response:
+    """A template: its question and solution in all languages."""
+    site: Site = request.app.state.site
+    name, asked = request.path_params["name"], request.query_params
+    seed = asked.get("seed", "")
+    seed = str(int(seed)) if seed.isascii() and seed.isdecimal() and len(seed) <= DIGITS else "0"
+    level = asked.get("level", "") if asked.get("level") in LEVELS else EXAM
+    stamp = await run_in_threadpool(stamp_of, site.bank.root)
+    if asked.get("stamp") == stamp:
+        return Response(status_code=204)  # nothing was saved: what is shown stays
+    shown, wrong = list[Made](), ""
+    try:
+        data = await site.workers.done(Preview(name, seed, level, stamp))
+        shown = msgspec.json.decode(data, type=list[Made])
+    except QuizgenError as error:
+        wrong = str(error)
+    return page(
+        request,
+        "template.html.j2",
+        name=name,
+        seed=int(seed),
+        level=level,
+        levels=LEVELS,
+        stamp=stamp,
+        shown=shown,
+        wrong=wrong,
+    )
+
+
+async def lint(request: Request) -> Response:
+    """What is wrong with a template."""
+    site: Site = request.app.state.site
+    name, examine = request.path_params["name"], site.settings.examine
+    stamp = await run_in_threadpool(stamp_of, site.bank.root)
+    assert examine is not None  # noqa: S101 - without it there is no such page
+    problems: list[str] = msgspec.json.decode(
+        await site.workers.done(Examined(name, examine, stamp))
+    )
+    return page(request, "lint.html.j2", name=name, problems=problems)
+
+
+ROUTES = [
+    Route("/author", templates),
+    Route("/author/{name}", template),
+    Route("/author/{name}/lint", lint),
+]

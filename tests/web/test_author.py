@@ -1,0 +1,118 @@
+"""What authors see, of a bank of their own."""
+
+from __future__ import annotations
+
+import re
+import shutil
+
+import pytest
+from starlette.testclient import TestClient
+
+from quizgen.bank.folder import builtin
+from quizgen.cli.lint import problems_of
+from quizgen.web.app import application
+from quizgen.web.settings import Settings
+
+NAME = "point-to-image-plane"
+
+
+@pytest.fixture(scope="module")
+def root(tmp_path_factory):
+    """A bank of one template and its solver."""
+    root = tmp_path_factory.mktemp("bank")
+    shutil.copytree(builtin().paths[NAME], root / "templates" / "projection" / NAME)
+    (root / "templates" / "cards").mkdir()
+    shutil.copy(builtin().cards["formulas"], root / "templates" / "cards")
+    solver = "solvers/projection/perspective.py"
+    (root / solver).parent.mkdir(parents=True)
+    shutil.copy(builtin().root / solver, root / solver)
+    return root
+
+
+@pytest.fixture(scope="module")
+def author(root, tmp_path_factory):
+    file = tmp_path_factory.mktemp("data") / "learning.sqlite3"
+    settings = Settings(f"sqlite:///{file}", root, trusted=True, workers=1, examine=problems_of)
+    app = application(settings)
+    with TestClient(app, "http://127.0.0.1:8000") as client:
+        client.get(f"/enter?key={app.state.site.settings.token}")
+        yield client
+
+
+def test_learners_have_no_such_page(client):
+    assert client.get("/author").status_code == 404
+    assert client.get(f"/author/{NAME}").status_code == 404
+
+
+def test_a_template_stands_with_its_solution_in_both_languages(author):
+    assert f'href="/author/{NAME}"' in author.get("/author").text
+    page = author.get(f"/author/{NAME}?seed=3").text
+    assert re.findall('<section class="pair" lang="(..)"', page) == ["en", "bn"]
+    assert page.count('class="steps"') == 2
+    assert page.count("<details open><summary>Common mistakes") == 2
+    other = author.get(f"/author/{NAME}?seed=4").text
+    stems = [re.search(r'<div class="stem">.*?</div>', one, re.DOTALL)[0] for one in (page, other)]
+    assert stems[0] != stems[1]
+
+
+@pytest.mark.browser
+def test_the_page_of_a_template_in_a_browser(browser, tmp_path_factory, root):
+    from axe_playwright_python.sync_playwright import Axe
+    from playwright.sync_api import expect
+    from served import Served
+
+    folder = tmp_path_factory.mktemp("served")
+    server = Served(folder / "x.sqlite3", "--bank", str(root), "--trust", "--author")
+    context = browser.new_context(viewport={"width": 390, "height": 800})
+    try:
+        page = context.new_page()
+        page.goto(server.entrance)
+        page.goto(f"{server.address}/author/{NAME}")
+        expect(page.locator("#found")).to_contain_text("Nothing to mend")
+        assert page.evaluate("document.documentElement.scrollWidth") <= 390
+        found = Axe().run(page).response["violations"]
+        assert [(v["id"], v["nodes"][0]["html"][:200]) for v in found] == []
+        prose = root / "templates" / "projection" / NAME / "en.md"
+        told = prose.read_text("utf-8")
+        prose.write_text(told.replace("# ", "# Anew: ", 1), "utf-8")
+        expect(page.locator("#title-en")).to_contain_text("Anew: ")
+        prose.write_text(told, "utf-8")
+    finally:
+        context.close()
+        server.kill()
+
+
+def test_what_is_saved_is_shown_and_nothing_else_is_sent(author, root):
+    page = author.get(f"/author/{NAME}").text
+    stamp = re.search(r"stamp=(\w+)", page)[1]
+    assert author.get(f"/author/{NAME}?stamp={stamp}").status_code == 204
+    prose = root / "templates" / "projection" / NAME / "en.md"
+    told = prose.read_text("utf-8")
+    prose.write_text(told.replace("# ", "# Anew: ", 1), "utf-8")
+    assert "Anew: " in author.get(f"/author/{NAME}?stamp={stamp}").text
+    prose.write_text(told + "\n## nonsense\n", "utf-8")
+    broken = author.get(f"/author/{NAME}")
+    assert broken.status_code == 200
+    assert "cannot be shown" in broken.text
+    assert "en.md" in broken.text
+    prose.write_text(told, "utf-8")
+    assert "cannot be shown" not in author.get(f"/author/{NAME}").text
+
+
+def test_a_solver_that_is_saved_is_read_again(author, root):
+    before = author.get(f"/author/{NAME}").text
+    solver = root / "solvers" / "projection" / "perspective.py"
+    source = solver.read_text("utf-8")
+    solver.write_text(source + "\nraise ValueError('half written')\n", "utf-8")
+    assert "half written" in author.get(f"/author/{NAME}").text
+    solver.write_text(source + "\n", "utf-8")
+    after = author.get(f"/author/{NAME}").text
+    assert re.findall('class="result".*', before) == re.findall('class="result".*', after)
+
+
+def test_lint_says_what_is_wrong(author, root):
+    assert "Nothing to mend" in author.get(f"/author/{NAME}/lint").text
+    (bangla := root / "templates" / "projection" / NAME / "bn.md").write_text(
+        re.sub(r"## check\n.*?(?=\n## )", "", bangla.read_text("utf-8"), flags=re.DOTALL), "utf-8"
+    )
+    assert "bn.md" in author.get(f"/author/{NAME}/lint").text
