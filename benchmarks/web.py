@@ -141,7 +141,7 @@ async def exams(client: httpx2.AsyncClient, served: Served, token: str, seconds:
         at = (await client.post("/exam", data=sent, timeout=60)).headers["location"]
         page = (await client.get(at)).text
         codes.append(re.search(r"<code>([\w.-]+)</code>", page)[1])
-    parts = re.findall(r'data-part="(\w+)"', page)
+    parts = re.findall(r'<fieldset data-part="(\w+)"', page)
     sittings = [
         (await client.post("/exam", data={"token": token, "code": codes[n % PAPERS]}, timeout=60))
         .headers["location"]

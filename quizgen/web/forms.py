@@ -30,8 +30,9 @@ async def posted(request: Request) -> FormData:
     expected = form_token(site.settings.token)
     if not secrets.compare_digest(one(form, "token").encode(), expected.encode()):
         raise HTTPException(403, "This form is not one of these pages.")
-    if any(not isinstance(v, str) or len(v) > LONGEST for _, v in form.multi_items()):
-        raise HTTPException(400, "A field is too long.")
+    for name, value in form.multi_items():
+        if not isinstance(value, str) or len(value) > LONGEST or "\0" in name + value:
+            raise HTTPException(400, "A field is too long, or no text.")
     return form
 
 

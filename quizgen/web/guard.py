@@ -12,6 +12,7 @@ import secrets
 from http.cookies import CookieError, SimpleCookie
 
 from starlette.datastructures import MutableHeaders, QueryParams
+from starlette.exceptions import HTTPException
 from starlette.responses import PlainTextResponse, RedirectResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
@@ -78,6 +79,8 @@ class Guard:
         headers = {name.decode("latin-1"): value.decode("latin-1")
                    for name, value in scope["headers"]}  # fmt: skip
         wrong = self._misplaced(headers)
+        if "\0" in scope["path"]:
+            return PlainTextResponse("This address is no text.", 400)
         if wrong is not None or scope["path"].startswith(OPEN):
             return wrong
         if scope["path"] == ENTRANCE:
@@ -135,7 +138,7 @@ def _own(headers: dict[str, str]) -> bool:
 
 
 class _Measured:
-    """A body that ends in an error where it is longer than its header said."""
+    """A body that is refused where it is longer than its header said, or says nothing."""
 
     def __init__(self, receive: Receive) -> None:
         self.receive, self.left = receive, MOST_BYTES
@@ -144,5 +147,5 @@ class _Measured:
         message = await self.receive()
         self.left -= len(message.get("body", b""))
         if self.left < 0:
-            return {"type": "http.disconnect"}
+            raise HTTPException(413)
         return message

@@ -116,10 +116,15 @@ async def _kept(request: Request, turn: Turn, place: Place) -> Response:
 async def answer(request: Request) -> Response:
     """Mark a part, or do what else its buttons say."""
     form = await posted(request)
-    turn = await _turn(request)
-    place = _place(request, turn)
-    action = one(form, "do")
-    values = every(form, "a")
+    site: Site = request.app.state.site
+    async with site.turn_of(request.path_params["attempt"]):
+        turn = await _turn(request)
+        place = _place(request, turn)
+        _do(turn, place, one(form, "do"), every(form, "a"))
+        return await _kept(request, turn, place)
+
+
+def _do(turn: Turn, place: Place, action: str, values: list[str]) -> None:
     if action == "hint":
         place.task.hint()
         place.progress.values = values
@@ -130,7 +135,6 @@ async def answer(request: Request) -> Response:
         place.progress.values = values
     elif action in {"", "answer"}:
         turn.answer(place, values)
-    return await _kept(request, turn, place)
 
 
 async def echo(request: Request) -> Response:

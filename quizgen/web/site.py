@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import asyncio
 from dataclasses import replace
+from weakref import WeakValueDictionary
 
 from quizgen.bank.folder import Bank, builtin
 from quizgen.web.settings import Settings
@@ -29,6 +31,11 @@ class Site:
         token = self.store.lasting("token", settings.token)  # open pages outlive the server
         self.settings = replace(settings, token=token)
         self.workers = Workers(settings)
+        self._turns: WeakValueDictionary[str, asyncio.Lock] = WeakValueDictionary()
+
+    def turn_of(self, attempt: str) -> asyncio.Lock:
+        """Held while an attempt is answered: of two answers at once the second sees the first."""
+        return self._turns.setdefault(attempt, asyncio.Lock())
 
     def close(self) -> None:
         """End the processes and give the connections back."""

@@ -116,7 +116,10 @@ class Sittings:
 def _sitting(
     connection: Connection, learner: int, name: str, *, locked: bool = False
 ) -> Sitting | None:
-    query = select(SITTING).where(SITTING.c.id == name, SITTING.c.learner == learner)
+    own = (SITTING.c.id == name, SITTING.c.learner == learner)
+    if locked and connection.dialect.name == "sqlite":  # which locks where it writes
+        connection.execute(update(SITTING).where(*own).values(learner=learner))
+    query = select(SITTING).where(*own)
     row = connection.execute(query.with_for_update() if locked else query).mappings().first()
     return value(row, Sitting) if row else None
 
