@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
@@ -25,6 +26,12 @@ def workers():
     found.close()
 
 
+def ran(coroutine):
+    """What a coroutine gives, in a thread: the browsers of other tests keep a loop in this one."""
+    with ThreadPoolExecutor(1) as thread:
+        return thread.submit(asyncio.run, coroutine).result()
+
+
 def test_a_process_that_dies_is_followed_by_another(workers):
     async def run() -> list[str]:
         first = await workers.question(Wanted("point-to-image-plane", "1", "en"))
@@ -35,21 +42,21 @@ def test_a_process_that_dies_is_followed_by_another(workers):
         workers.makers[0].process.kill()
         return [first.stem, second.stem, (await due).stem]
 
-    assert len(set(asyncio.run(run()))) == 3
+    assert len(set(ran(run()))) == 3
 
 
 def test_a_template_that_is_not_there_is_said_and_the_process_lives(workers):
     before = workers.makers[0].process.pid
     with pytest.raises(BankError):
-        asyncio.run(workers.question(Wanted("nothing", "1", "en")))
-    assert asyncio.run(workers.question(Wanted("point-to-image-plane", "1", "en"))).stem
+        ran(workers.question(Wanted("nothing", "1", "en")))
+    assert ran(workers.question(Wanted("point-to-image-plane", "1", "en"))).stem
     assert workers.makers[0].process.pid == before
 
 
 def test_ctrl_c_is_left_to_the_server(workers):
     before = workers.makers[0].process
     os.kill(before.pid, signal.SIGINT)
-    assert asyncio.run(workers.question(Wanted("point-to-image-plane", "1", "en"))).stem
+    assert ran(workers.question(Wanted("point-to-image-plane", "1", "en"))).stem
     assert workers.makers[0].process is before
 
 
@@ -61,7 +68,7 @@ def test_a_server_that_ends_leaves_nobody_waiting(workers):
         with pytest.raises(BankError):
             await due
 
-    asyncio.run(run())
+    ran(run())
 
 
 def _gone(group: int) -> bool:

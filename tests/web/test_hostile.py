@@ -113,7 +113,7 @@ def test_other_cookies_do_not_let_in(visitor, cookie):
 
 
 def test_what_is_typed_stays_text_everywhere(client, token, begin):
-    typed = "\"'><img src=x onerror=alert(1)>{{ 7*7 }}"
+    typed = "\"'><img src=x onerror=alert(1)>{{ 'qz'*3 }}"
     at = begin("point-to-image-plane")
     page = client.post(f"{at}/1", data={"token": token, "a": [typed, "1"]}).text
     at = client.post("/exam", data={"token": token, "blueprint": "trial"}).url.path
@@ -122,7 +122,7 @@ def test_what_is_typed_stays_text_everywhere(client, token, begin):
                  client.post(at, data={"token": token, "do": "hand-in"}).text,
                  client.get(f"/exam?problem={typed}").text):  # fmt: skip
         assert "<img" not in text
-        assert "{{ 7" in text or "49" not in text
+        assert "qzqzqz" not in text
 
 
 def _solution(part) -> set[str]:
