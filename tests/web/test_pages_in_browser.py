@@ -31,7 +31,10 @@ def addresses(browser, served):
     context = browser.new_context()
     page = context.new_page()
     page.goto(served.entrance)
-    found = [served.address + path for path in ("/", "/exam", "/progress", "/nowhere")]
+    found = [
+        served.address + path
+        for path in ("/", "/exam", "/progress", "/formulas", "/camera", "/nowhere")
+    ]
     for template in QUESTIONS:
         fresh = post(page, "/practice", template=template)
         shown = post(page, "/practice", template=template)
@@ -78,3 +81,14 @@ def test_every_page_is_valid_and_open_to_everybody(opened, served, addresses, la
     assert faults == []
     assert [one for one in opened.wrong if "(Not Found)" not in one] == []
     opened.wrong.clear()
+
+
+def test_results_are_printed_whole_and_without_buttons(opened, addresses):
+    page = opened()
+    page.goto(addresses[-1])
+    inside = page.locator("details:not([open]) > :not(summary)").first
+    expect(inside).not_to_be_visible()
+    page.emulate_media(media="print")
+    expect(inside).to_be_visible()
+    expect(page.locator("button").locator("visible=true")).to_have_count(0)
+    expect(page.locator("header")).not_to_be_visible()
