@@ -19,6 +19,7 @@ from quizgen.practice.session import Session, Turn
 from quizgen.practice.shelf import Shelf
 from quizgen.practice.task import Next, Task
 from quizgen.question.compose import Part
+from quizgen.question.sheet import cited
 from quizgen.question.solution import PartSolution
 from quizgen.render.text import blocks, inline
 
@@ -210,11 +211,15 @@ class Conversation:
                 return False
 
     def _hint(self, task: Task[Part, PartSolution]) -> None:
-        why = task.hint()
-        if why is None:
+        rung = task.hint()
+        if rung is None:
             self._say("no-more-hints")
-        else:
-            self._say("hint", hint=inline(why))
+            return
+        shown, why = inline(rung.shown), inline(rung.why)
+        self._say(f"hint-{rung.kind}", hint=f"{shown}. {why}" if why else shown)
+        sheet = cited(self.session.bank, rung.formula, self.session.state.wish.lang)
+        if sheet:
+            self._say("hint-sheet", hint=inline(sheet))
 
     def _solution(self, task: Task[Part, PartSolution]) -> None:
         for line in task.solved.lines:

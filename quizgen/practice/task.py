@@ -49,11 +49,11 @@ class Feedback:
 
 
 class Hinted(Protocol):
-    """A worked solution, whose lines say why they are written: the hints."""
+    """A worked solution, whose lines can be told little by little: the hints."""
 
     @property
     def lines(self) -> Sequence[Any]:
-        """Lines with ``why``, in order."""
+        """Lines with ``rungs``, in order."""
 
 
 P = TypeVar("P")
@@ -99,11 +99,25 @@ class Task(Generic[P, S]):
         return self.state.outcome
 
     def hint(self) -> Any:
-        """The next hint: why the next step of the solution is taken; None if there is no more."""
-        if self.state.hints >= len(self.solved.lines):
+        """The next hint, a rung of a step of the solution; None if there is no more."""
+        if not self.more_hints:
             return None
         self.state.hints += 1
-        return self.solved.lines[self.state.hints - 1].why
+        return self._rungs[self.state.hints - 1]
+
+    @property
+    def hints(self) -> Sequence[Any]:
+        """The hints that were given."""
+        return self._rungs[: self.state.hints]
+
+    @property
+    def more_hints(self) -> bool:
+        """Whether there is another hint."""
+        return self.state.hints < len(self._rungs)
+
+    @property
+    def _rungs(self) -> list[Any]:
+        return [rung for line in self.solved.lines for rung in line.rungs]
 
     def give_up(self) -> None:
         """End the task as not right."""

@@ -14,7 +14,7 @@ from quizgen.errors import BankError
 from quizgen.locale import chosen
 from quizgen.question.authored import passage, sentence
 from quizgen.question.equations import sides
-from quizgen.question.shown import Maths, named
+from quizgen.question.shown import Maths, listed, named
 
 NOTES = ("about", "holds", "limits", "beware")
 """What is said about a formula, in the order in which it is said."""
@@ -93,6 +93,15 @@ def sheet(bank: Bank, choice: str, topics: Sequence[str] = ()) -> Sheet:
         if lines
     )
     return Sheet(langs, {lang: bank.title(lang) for lang in langs}, tuple(groups))
+
+
+def cited(bank: Bank, name: str, lang: str) -> tuple[Inline, ...]:
+    """A line of the sheet in a sentence: its number, title and formulas; empty if it has none."""
+    for entry in formulas(bank):
+        if entry.id == name:
+            lines = listed([(_whole(line, entry),) for line in entry.lines], "; ")
+            return (Words(f"{name}, "), *sentence(entry, "title", lang), Words(": "), *lines)
+    return ()
 
 
 def _line(bank: Bank, entry: FormulaEntry, langs: tuple[str, ...], asked: tuple[str, ...]) -> Line:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import groupby
 from typing import Any
 
 from quizgen.bank.draw import Draw
@@ -20,7 +21,7 @@ from quizgen.question.kinds import KINDS
 from quizgen.question.precision import precision_table
 from quizgen.question.shown import Maths, Shown, pieces
 from quizgen.question.specs import written_down
-from quizgen.question.worked import worked
+from quizgen.question.worked import FORMULA, Side, in_line, sides_of, thing
 
 
 def as_text(shown: tuple[Inline, ...]) -> str:
@@ -29,12 +30,43 @@ def as_text(shown: tuple[Inline, ...]) -> str:
 
 
 @dataclass(frozen=True, slots=True)
+class Rung:
+    """A hint: what it is, and what it shows.
+
+    ``kind`` is ``quantity`` (which one is needed, and why), ``formula`` (with its number on the
+    formula sheet), ``numbers``, ``result``, or ``why`` where nothing else is known of the step.
+    """
+
+    kind: str
+    shown: tuple[Inline, ...]
+    why: tuple[Inline, ...] = ()
+    formula: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class Line:
-    """One step: the worked formula, why it is taken, and its number on the formula sheet."""
+    """One step: the worked formula, why it is taken, and its number on the formula sheet.
+
+    ``name``, ``thing`` and ``sides`` are its quantity, in words, and what it is equal to.
+    """
 
     maths: Maths
     why: tuple[Inline, ...]
     formula: str = ""
+    name: str = ""
+    thing: tuple[Inline, ...] = ()
+    sides: tuple[Side, ...] = ()
+
+    @property
+    def rungs(self) -> tuple[Rung, ...]:
+        """What a learner may be told of it, little by little."""
+        if not self.sides:
+            return (Rung("why", self.why),)
+        found = [Rung("quantity", self.thing, self.why)]
+        for role, sides in groupby(self.sides, key=lambda side: side.role):
+            formula = self.formula if role == FORMULA else ""
+            found.append(Rung(role, (in_line(self.name, tuple(sides)),), formula=formula))
+        return tuple(found)
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,7 +161,15 @@ def solved_part(filler: Filler, index: int, built: Built[Any]) -> PartSolution:
 def line_of(filler: Filler, step: ChainStep) -> Line:
     """A step of the chain as the solution shows it."""
     formula = filler.drawn.template.chain.formulas.get(step.name, "")
-    return Line(worked(filler.drawn, step), filler.sentence("steps", step.name), formula)
+    sides = sides_of(filler.drawn, step)
+    return Line(
+        in_line(step.name, sides),
+        filler.sentence("steps", step.name),
+        formula,
+        step.name,
+        thing(filler.drawn, step.name, filler.lang),
+        sides,
+    )
 
 
 def mistakes_of(filler: Filler, built: Built[Any]) -> Iterator[Mistake]:

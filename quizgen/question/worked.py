@@ -7,10 +7,12 @@ printed with the drawn numbers in place, and its exact value follows.
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from quizgen import typeset
 from quizgen.bank.draw import Draw
+from quizgen.bank.prose import Inline, Words, fill
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.notation import people, to_text
 from quizgen.maths.numbers import exact_text, rounded_text, short_decimal
@@ -18,16 +20,30 @@ from quizgen.maths.precision import working_precision
 from quizgen.maths.systems import exact, taken_branch
 from quizgen.maths.tree import Expr, Sym, names
 from quizgen.maths.units import shown as unit_shown
+from quizgen.question.authored import printed
 from quizgen.question.filling import quantity_text, with_unit
-from quizgen.question.shown import Maths
+from quizgen.question.shown import Maths, named
+
+FORMULA, NUMBERS, RESULT = "formula", "numbers", "result"
 
 
 class Side(NamedTuple):
-    """One side of a worked line: the sign before it, its layout, and how it would be typed."""
+    """One side of a worked line.
+
+    The sign before it, its layout, how it would be typed, and what it is: the formula, the formula
+    with numbers, or the result.
+    """
 
     sign: str
     node: typeset.Node
     typed: str
+    role: str
+
+
+def thing(drawn: Draw, name: str, lang: str) -> tuple[Inline, ...]:
+    """A quantity in a sentence: what it is called, and its letter."""
+    said = fill(drawn.template.quantities.name(name, lang), printed)
+    return (*said, Words(" ("), named(name), Words(")")) if said else (named(name),)
 
 
 def worked(drawn: Draw, step: ChainStep) -> Maths:
@@ -38,17 +54,27 @@ def worked(drawn: Draw, step: ChainStep) -> Maths:
     drawn : Draw
     step : ChainStep
     """
+    return in_line(step.name, sides_of(drawn, step))
+
+
+def sides_of(drawn: Draw, step: ChainStep) -> tuple[Side, ...]:
+    """The sides of a worked step, from formula to rounded value."""
     with working_precision():
         expr = taken_branch(step.expr, drawn.values, exact())
-    sides = [Side("=", typeset.layout(expr), to_text(expr))]
+    sides = [Side("=", typeset.layout(expr), to_text(expr), FORMULA)]
     if names(expr):
         sides.append(_with_numbers(drawn, expr))
     values = _values(drawn, step, about=sides[-1].sign == "≈")
     sides += [side for side in values if side.typed != sides[-1].typed]
+    return tuple(sides)
+
+
+def in_line(name: str, sides: Sequence[Side]) -> Maths:
+    """A quantity and some of its sides, one behind another."""
     signs = [side.sign for side in sides]
-    nodes = [typeset.name(step.name), *(side.node for side in sides)]
+    nodes = [typeset.name(name), *(side.node for side in sides)]
     typed = "".join(f" {side.sign} {side.typed}" for side in sides)
-    return Maths(typeset.relation(signs, nodes), f"{step.name}{typed}")
+    return Maths(typeset.relation(signs, nodes), f"{name}{typed}")
 
 
 def _with_numbers(drawn: Draw, expr: Expr) -> Side:
@@ -57,8 +83,10 @@ def _with_numbers(drawn: Draw, expr: Expr) -> Side:
     sign = "≈" if any(drawn.is_rounded(name) for name in quantities) else "="
     node = typeset.layout(expr, leaves={name: drawn_node(drawn, name) for name in quantities})
     if isinstance(expr, Sym):
-        return Side(sign, node, quantity_text(drawn, expr.name))
-    return Side(sign, node, to_text(expr, {name: drawn_typed(drawn, name) for name in quantities}))
+        return Side(sign, node, quantity_text(drawn, expr.name), NUMBERS)
+    return Side(
+        sign, node, to_text(expr, {name: drawn_typed(drawn, name) for name in quantities}), NUMBERS
+    )
 
 
 def drawn_node(drawn: Draw, name: str) -> typeset.Node:
@@ -83,5 +111,6 @@ def _values(drawn: Draw, step: ChainStep, *, about: bool) -> list[Side]:
     if not short_decimal(value):
         texts.append(("≈", rounded_text(value)))
     return [
-        Side(sign, typeset.quantity(text, unit), with_unit(text, step.unit)) for sign, text in texts
+        Side(sign, typeset.quantity(text, unit), with_unit(text, step.unit), RESULT)
+        for sign, text in texts
     ]

@@ -25,8 +25,9 @@ from quizgen.question.contract import Control
 from quizgen.question.filling import plain
 from quizgen.question.levels import level_of
 from quizgen.question.markup import blocks, display, inline
+from quizgen.question.sheet import cited
 from quizgen.question.shown import named
-from quizgen.question.solution import Mistake, PartSolution
+from quizgen.question.solution import Mistake, PartSolution, Rung
 
 GUIDED = "guided"
 
@@ -53,12 +54,23 @@ class MadeField(msgspec.Struct, frozen=True):
         return [mark for mark, _ in self.options]
 
 
+class MadeRung(msgspec.Struct, frozen=True):
+    """A hint, and the line of the formula sheet that it stands on."""
+
+    kind: str
+    shown: Html
+    why: Html
+    formula: str
+    sheet: Html
+
+
 class MadeLine(msgspec.Struct, frozen=True):
     """A step of the worked solution."""
 
     maths: Html
     why: Html
     formula: str
+    rungs: list[MadeRung] = []
 
 
 class MadePart(msgspec.Struct, frozen=True):
@@ -165,7 +177,7 @@ def make(root: Path | None, trusted: bool, wanted: Wanted | WantedPaper | Job) -
         return msgspec.json.encode(_paper(bank, wanted))
     drawn = instance(bank.template(wanted.template), wanted.seed, wanted.slot)
     question, key = put_into_words(drawn, wanted.lang, number=wanted.number, level=wanted.level)
-    return msgspec.json.encode(made(wanted, question, key))
+    return msgspec.json.encode(made(wanted, question, key, bank))
 
 
 def _paper(bank: Bank, wanted: WantedPaper) -> MadePaper:
@@ -190,8 +202,8 @@ def _paper(bank: Bank, wanted: WantedPaper) -> MadePaper:
     return MadePaper(paper.code, paper.title(lang), float(paper.points), paper.minutes, items)
 
 
-def made(wanted: Wanted, question: Question, key: Key) -> Made:
-    """A composed question as markup."""
+def made(wanted: Wanted, question: Question, key: Key, bank: Bank | None = None) -> Made:
+    """A composed question as markup; with hints, if it is said from which bank it is."""
     steps = wanted.level != GUIDED and level_of(key.draw, GUIDED) == GUIDED
     lang, solution = question.lang, key.solution
     figure, solved = question.figure, key.figure
@@ -208,7 +220,7 @@ def made(wanted: Wanted, question: Question, key: Key) -> Made:
         solved_figure=other.svg.decode() if other else "",
         dark=next((one.dark for one in (figure, solved) if one), ""),
         parts=[
-            _part(part, solved_part, lang)
+            _part(part, solved_part, lang, bank)
             for part, solved_part in zip(question.parts, solution.parts, strict=True)
         ],
         check=_blocks(solution.check, lang),
@@ -219,14 +231,29 @@ def made(wanted: Wanted, question: Question, key: Key) -> Made:
     )
 
 
-def _part(part: Part, solved: PartSolution, lang: str) -> MadePart:
+def _rung(rung: Rung, bank: Bank, lang: str) -> MadeRung:
+    return MadeRung(
+        rung.kind,
+        _inline(rung.shown, lang),
+        _inline(rung.why, lang),
+        rung.formula,
+        _inline(cited(bank, rung.formula, lang), lang),
+    )
+
+
+def _part(part: Part, solved: PartSolution, lang: str, bank: Bank | None) -> MadePart:
     return MadePart(
         part.label,
         float(part.points),
         _blocks(part.body, lang),
         _field(part.field, lang),
         [
-            MadeLine(str(display(line.maths, lang)), _inline(line.why, lang), line.formula)
+            MadeLine(
+                str(display(line.maths, lang)),
+                _inline(line.why, lang),
+                line.formula,
+                [_rung(rung, bank, lang) for rung in line.rungs] if bank else [],
+            )
             for line in solved.lines
         ],
         _inline(solved.shown, lang),

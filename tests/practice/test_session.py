@@ -19,6 +19,8 @@ from quizgen.practice.shelf import Shelf
 from quizgen.practice.state import Outcome, State, Wish, new
 from quizgen.practice.task import TRIES, Next
 from quizgen.question.compose import compose
+from quizgen.question.sheet import cited
+from quizgen.render.text import inline
 
 WISH = Wish(count=2, topic="projection", tier="A")
 
@@ -82,18 +84,42 @@ def test_three_wrong_answers_end_the_task():
 def test_right_after_help_is_not_right_at_once(help_with):
     task, spec = numeric_task()
     if help_with == "a hint":
-        assert task.hint() == task.solved.lines[0].why
+        assert task.hint().why == task.solved.lines[0].why
     else:
         task.answer(wrong(spec))
     task.answer(show(spec))
     assert task.outcome == Outcome("projection", right=True, first=False)
 
 
-def test_hints_are_the_steps_of_the_solution_in_turn_and_then_none():
+def test_hints_climb_each_step_of_the_solution_in_turn_and_then_there_are_none():
     task, _ = numeric_task()
-    reasons = [line.why for line in task.solved.lines]
-    assert [task.hint() for _ in reasons] == reasons
+    steps = len(task.solved.lines)
+    kinds = []
+    while task.more_hints:
+        kinds.append(task.hint().kind)
+    assert kinds == ["quantity", "formula", "numbers", "result"] * steps
     assert task.hint() is None
+    assert [hint.why for hint in task.hints[::4]] == [line.why for line in task.solved.lines]
+
+
+def test_what_the_rungs_of_a_thin_lens_say():
+    """By hand, for f = 80 mm and z = 100 mm: 1/80 - 1/100 = 0.0025, of which the inverse is 400."""
+    task = lens().turn().tasks[0]
+    hints = [task.hint() for _ in range(8)]
+    assert [inline(hint.shown).replace("\u00a0", " ") for hint in hints] == [
+        "the reciprocal of the image distance (q)",
+        "q = 1/f − 1/z",
+        "q = 1/(80 mm) − 1/(100 mm)",
+        "q = 0.0025 mm⁻¹",
+        "the image distance (z′)",
+        "z′ = 1/q",
+        "z′ = 1/(0.0025 mm⁻¹)",
+        "z′ = 400 mm",
+    ]
+    assert [hint.formula for hint in hints[:4]] == ["", "F42", "", ""]
+    sheet = inline(cited(builtin(), "F42", "en"))
+    assert sheet.startswith("F42, Thin lens")
+    assert "1/f = 1/z + 1/z′" in sheet
 
 
 def test_giving_up_is_not_right():

@@ -22,8 +22,9 @@ from quizgen.maths.scaling import power_of
 from quizgen.maths.tree import Call, names, walk
 from quizgen.maths.values import Value
 from quizgen.question.levels.guided import NUMERIC
-from quizgen.question.levels.steps import branch, has_name, introduced, key_of, stated, thing
+from quizgen.question.levels.steps import branch, has_name, introduced, key_of, stated
 from quizgen.question.shown import said
+from quizgen.question.worked import thing
 
 SCALES = tuple(map(Fraction, ("2", "3", "4", "1/2", "1/3", "1/4")))
 """Factors that have a word of their own."""

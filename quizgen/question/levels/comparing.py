@@ -11,8 +11,9 @@ from quizgen.question.levels.asking import Asked
 from quizgen.question.levels.changes import Change, Changes, clearly_more, distance, targets
 from quizgen.question.levels.effects import Effect, shown_value
 from quizgen.question.levels.options import Option, choice
-from quizgen.question.levels.steps import key_of, thing
+from quizgen.question.levels.steps import key_of
 from quizgen.question.shown import said
+from quizgen.question.worked import thing
 
 ANSWERS = ("first", "second", "equal")
 

@@ -23,11 +23,11 @@ from quizgen.question.kinds import KINDS
 from quizgen.question.levels.asking import Asked
 from quizgen.question.levels.changes import Change, Changes, needed, targets
 from quizgen.question.levels.options import Option, choice
-from quizgen.question.levels.steps import key_of, thing, value_spec
+from quizgen.question.levels.steps import key_of, value_spec
 from quizgen.question.shown import Maths, pieces, said
 from quizgen.question.solution import Line, Mistake, PartSolution, line_of, mistakes_of
 from quizgen.question.specs import mistaken
-from quizgen.question.worked import drawn_node, drawn_typed
+from quizgen.question.worked import drawn_node, drawn_typed, thing
 
 DIRECTIONS = ("larger", "smaller", "unchanged")
 

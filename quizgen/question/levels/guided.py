@@ -35,13 +35,13 @@ from quizgen.question.levels.steps import (
     key_of,
     right_way,
     stated,
-    thing,
     value_spec,
     wrong_ways,
 )
 from quizgen.question.shown import listed, pieces, said
 from quizgen.question.solution import PartSolution, line_of, mistakes_of
 from quizgen.question.specs import answer_of, mistaken
+from quizgen.question.worked import thing
 
 NUMERIC = frozenset({"number", "quantity", "angle", "point", "table", "set", "interval"})
 WAYS = 4

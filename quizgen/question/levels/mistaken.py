@@ -23,12 +23,11 @@ from quizgen.question.levels.steps import (
     key_of,
     only_units,
     same_value,
-    thing,
     told,
 )
 from quizgen.question.shown import said
 from quizgen.question.solution import line_of
-from quizgen.question.worked import worked
+from quizgen.question.worked import thing, worked
 
 FEWEST, MOST = 2, 8
 """Steps of a solution in which a mistake is looked for."""

@@ -23,7 +23,6 @@ from quizgen.bank.prose import (
     Styled,
     Table,
     Words,
-    fill,
     slots,
 )
 from quizgen.bank.traps import APART, answer_names
@@ -39,8 +38,7 @@ from quizgen.maths.tolerance import RULES
 from quizgen.maths.tree import Call, Expr, Num, Sym, names, walk
 from quizgen.maths.units import factor
 from quizgen.maths.values import Value
-from quizgen.question.authored import printed
-from quizgen.question.shown import Maths, named
+from quizgen.question.shown import Maths
 from quizgen.question.specs import answer_of, counts, notes
 from quizgen.question.worked import drawn_node, drawn_typed
 
@@ -58,12 +56,6 @@ class Way(NamedTuple):
     trap: str
     shown: Maths
     value: Value
-
-
-def thing(drawn: Draw, name: str, lang: str) -> tuple[Inline, ...]:
-    """A quantity in a sentence: what it is called, and its letter."""
-    said = fill(drawn.template.quantities.name(name, lang), printed)
-    return (*said, Words(" ("), named(name), Words(")")) if said else (named(name),)
 
 
 def has_name(drawn: Draw, name: str) -> bool:
