@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import secrets
 
-from starlette.datastructures import FormData
+from starlette.datastructures import FormData, UploadFile
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
 
@@ -34,6 +34,23 @@ async def posted(request: Request) -> FormData:
         if not isinstance(value, str) or len(value) > LONGEST or "\0" in name + value:
             raise HTTPException(400, "A field is too long, or no text.")
     return form
+
+
+async def posted_file(request: Request, name: str) -> bytes:
+    """The file that was sent in a form; empty if there is none.
+
+    Raises
+    ------
+    HTTPException
+        403 without the token.
+    """
+    site: Site = request.app.state.site
+    expected = form_token(site.settings.token).encode()
+    async with request.form(max_files=1, max_fields=5) as form:
+        if not secrets.compare_digest(one(form, "token").encode(), expected):
+            raise HTTPException(403, "This form is not one of these pages.")
+        sent = form.get(name)
+        return await sent.read() if isinstance(sent, UploadFile) else b""
 
 
 def one(form: FormData, name: str) -> str:

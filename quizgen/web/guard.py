@@ -21,6 +21,8 @@ from quizgen.web.settings import Settings
 COOKIE = "quizgen"
 MOST_BYTES = 1_000_000
 """Of a request's body."""
+LARGER = {"/progress/import": 17_000_000}
+"""Where a body may be larger: a file of everything that somebody did."""
 ENTRANCE = "/enter"
 """Where the address that is opened first leads: ``/enter?key=TOKEN``."""
 OPEN = ("/static/",)
@@ -41,6 +43,11 @@ HEADERS = {
 def form_token(token: str) -> str:
     """What every form holds, so that no other site can post one."""
     return hmac.new(token.encode(), b"form", hashlib.sha256).hexdigest()
+
+
+def most_bytes(scope: Scope) -> int:
+    """How large the body of a request may be."""
+    return LARGER.get(scope["path"], MOST_BYTES)
 
 
 class Guard:
@@ -73,12 +80,12 @@ class Guard:
         if refused is not None:
             await refused(scope, receive, guarded)
             return
-        await self.app(scope, _Measured(receive), guarded)
+        await self.app(scope, _Measured(receive, most_bytes(scope)), guarded)
 
     def _refused(self, scope: Scope) -> Response | None:
         headers = {name.decode("latin-1"): value.decode("latin-1")
                    for name, value in scope["headers"]}  # fmt: skip
-        wrong = self._misplaced(headers)
+        wrong = self._misplaced(headers, most_bytes(scope))
         if "\0" in scope["path"]:
             return PlainTextResponse("This address is no text.", 400)
         if wrong is not None or scope["path"].startswith(OPEN):
@@ -92,7 +99,7 @@ class Guard:
             return PlainTextResponse("A page of another site may not send this.", 403)
         return None
 
-    def _misplaced(self, headers: dict[str, str]) -> Response | None:
+    def _misplaced(self, headers: dict[str, str], most: int) -> Response | None:
         """What is wrong with a request whoever sends it."""
         name, _, port = headers.get("host", "").rpartition(":")
         if (name or port).strip("[]") not in self.settings.hosts:
@@ -100,9 +107,7 @@ class Guard:
         length = headers.get("content-length", "0")
         if not length.isdecimal():
             return PlainTextResponse("The length of the body is no number.", 400)
-        return (
-            PlainTextResponse("Too much was sent.", 413) if int(length[:12]) > MOST_BYTES else None
-        )
+        return PlainTextResponse("Too much was sent.", 413) if int(length[:12]) > most else None
 
     def _entered(self, scope: Scope) -> Response:
         key = QueryParams(scope["query_string"]).get("key", "")
@@ -140,8 +145,8 @@ def _own(headers: dict[str, str]) -> bool:
 class _Measured:
     """A body that is refused where it is longer than its header said, or says nothing."""
 
-    def __init__(self, receive: Receive) -> None:
-        self.receive, self.left = receive, MOST_BYTES
+    def __init__(self, receive: Receive, most: int) -> None:
+        self.receive, self.left = receive, most
 
     async def __call__(self) -> Message:
         message = await self.receive()

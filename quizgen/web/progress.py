@@ -14,14 +14,16 @@ from starlette.routing import Route
 from quizgen.bank.formulas import asked_in, formulas
 from quizgen.bank.pages import read_text
 from quizgen.bank.prose import Formula, Inline, Slot, Words, fill
+from quizgen.errors import StoreError
 from quizgen.practice.agenda import Agenda, Standing
 from quizgen.practice.schedule import NAMED, Card, day_of
 from quizgen.question.authored import printed, sentence
 from quizgen.question.markup import inline
 from quizgen.web.agenda import agenda_of, exam_day, today
-from quizgen.web.forms import one, posted
+from quizgen.web.forms import one, posted, posted_file
 from quizgen.web.made import Html
 from quizgen.web.site import Site
+from quizgen.web.store.archive import read_archive
 from quizgen.web.views import lang_of, page, said, to
 
 SHOWN = 30
@@ -57,11 +59,13 @@ async def progress(request: Request) -> Response:
 
 def _shown(request: Request, status: int = 200, problem: str = "") -> Response:
     agenda, lang = agenda_of(request), lang_of(request)
+    came = request.query_params.get("came", "")[:9]
     return page(
         request, "progress.html.j2", status,
         plan=today(request),
         exam=exam_day(request) or "",
-        problem=problem and said(lang, problem),
+        problem=problem,
+        came=came if came.isdecimal() else "",
         topics=_topics(agenda, lang),
         formulas=_formulas(agenda, lang),
         mistakes=[told for card in agenda.mistakes[:SHOWN] if (told := _told(agenda, card, lang))],
@@ -148,13 +152,41 @@ async def set_exam(request: Request) -> Response:
     try:
         day = date.fromisoformat(typed).isoformat() if typed else ""
     except ValueError:
-        return await run_in_threadpool(_shown, request, 400, "progress.no_date")
+        problem = said(lang_of(request), "progress.no_date")
+        return await run_in_threadpool(_shown, request, 400, problem)
     site: Site = request.app.state.site
     await run_in_threadpool(site.store.settle, request.state.learner.id, {"exam": day})
     return to("/progress")
 
 
+async def export(request: Request) -> Response:
+    """Everything that somebody did, as a file."""
+    site: Site = request.app.state.site
+    data = await run_in_threadpool(site.store.archives.write, request.state.learner.id)
+    named = {"content-disposition": 'attachment; filename="quizgen-progress.json"'}
+    return Response(data, media_type="application/json", headers=named)
+
+
+async def take_in(request: Request) -> Response:
+    """Add what a file holds to what is there, all of it or nothing."""
+    data = await posted_file(request, "file")
+    return await run_in_threadpool(_taken_in, request, data)
+
+
+def _taken_in(request: Request, data: bytes) -> Response:
+    site: Site = request.app.state.site
+    try:
+        archive = read_archive(data)
+    except StoreError as error:
+        reason = said(lang_of(request), "progress.no_file", reason=str(error))
+        return _shown(request, 400, reason)
+    count = site.store.archives.take_in(request.state.learner.id, archive)
+    return to(f"/progress?came={count}")
+
+
 ROUTES = [
+    Route("/progress/export", export),
+    Route("/progress/import", take_in, methods=["POST"]),
     Route("/progress", progress),
     Route("/progress/exam", set_exam, methods=["POST"]),
 ]

@@ -23,6 +23,7 @@ from sqlalchemy.engine import make_url
 from sqlalchemy.exc import ArgumentError, SQLAlchemyError
 
 from quizgen.errors import StoreError
+from quizgen.web.store.archive import Archives
 from quizgen.web.store.cards import Cards
 from quizgen.web.store.migrate import upgrade
 from quizgen.web.store.rows import Attempt, Learner, Seen, Which
@@ -62,6 +63,8 @@ class Store:
         """Exams that are sat."""
         self.cards = Cards(self.engine)
         """What is asked again, and when."""
+        self.archives = Archives(self.engine)
+        """Everything of a learner, as a file."""
 
     def close(self) -> None:
         """Give the connections back."""

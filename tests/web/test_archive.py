@@ -1,0 +1,121 @@
+"""Everything of a learner as a file, taken in by another server: added, never doubled, whole or not."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from quizgen.errors import StoreError
+from quizgen.practice.schedule import Asked, Grade
+from quizgen.web.store import Seen, Store, Which
+from quizgen.web.store.archive import read_archive
+
+NOW = 1_795_000_000.0
+
+
+@pytest.fixture
+def store(tmp_path):
+    made = []
+
+    def opened(name: str) -> Store:
+        made.append(Store(f"sqlite:///{tmp_path / name}"))
+        return made[-1]
+
+    yield opened
+    for one in made:
+        one.close()
+
+
+@pytest.fixture
+def full(store):
+    """A learner with a question, an exam, a card and a date."""
+    mine = store("mine")
+    learner = mine.learner().id
+    attempt = mine.begin(learner, Which("rgb-to-hsv", "7"), {"topic": "colour", "tier": ""})
+    done = {"typed": "1", "tries": 1, "hints": 0,
+            "outcome": {"topic": "colour", "right": True, "first": True, "skipped": False}}  # fmt: skip
+    attempt.state = {"parts": {"1a": {"state": done, "values": ["1"], "asked_back": ""}},
+                     "ended": ["1a"], "notes": {}}  # fmt: skip
+    attempt.ended = NOW
+    mine.keep(attempt, (Seen("rgb-to-hsv", "colour", "a", "", right=True, first=True, at=NOW),))
+    sitting = mine.sittings.begin(learner, "mock-1-en-0a1b2c", 60.0, pauses=True)
+    mine.sittings.save(sitting, {"2a": ["x", "৩"]})
+    mine.sittings.flag(sitting, "2")
+    mine.cards.review(learner, [Asked("A3", Grade.AGAIN, ("trap:swapped",))], NOW)
+    mine.settle(learner, {"exam": "2027-02-12", "unknown": 1})
+    return mine
+
+
+def content(store):
+    return json.loads(store.archives.write(store.learner().id))
+
+
+def test_what_comes_out_goes_in_elsewhere_and_is_the_same(full, store):
+    data = full.archives.write(full.learner().id)
+    other = store("other")
+    learner = other.learner().id
+    assert other.archives.take_in(learner, read_archive(data)) == 2
+    assert content(other) == content(full)
+    assert other.seen(learner)[0].template == "rgb-to-hsv"
+    assert other.archives.take_in(learner, read_archive(data)) == 0, "a second time adds nothing"
+    assert content(other) == content(full)
+
+
+def test_somebody_else_on_the_same_server_gets_names_of_their_own(full):
+    data = full.archives.write(full.learner().id)
+    other = full.learner("other").id
+    before = content(full)
+    assert full.archives.take_in(other, read_archive(data)) == 2
+    assert full.archives.take_in(other, read_archive(data)) == 0
+    assert content(full) == before
+    assert full.latest(other)[0].id != full.latest(full.learner().id)[0].id
+
+
+def test_the_later_card_stays(full):
+    learner = full.learner().id
+    data = full.archives.write(learner)
+    full.cards.review(learner, [Asked("A3", Grade.GOOD)], NOW + 90)
+    after = full.cards.all(learner)
+    full.archives.take_in(learner, read_archive(data))
+    assert full.cards.all(learner) == after
+
+
+def changed(**new):
+    whole = {"format": "quizgen learning", "version": 1, "settings": {}, "attempts": [], "seen": [],
+             "cards": [], "sittings": []}  # fmt: skip
+    return json.dumps({**whole, **new}).encode()
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        b"", b"[]", b"\xff\xfe", b"{" * 100_000, changed(version=2), changed(format="other"),
+        changed(more=1), changed(settings={"lang": "x" * 50}), changed(seen=[{"template": "x"}]),
+        changed(cards=[{"kind": "boss", "name": "x", "state": 1, "step": 0, "stability": 1.0,
+                        "difficulty": 5.0, "last": 0.0, "due": 0.0}]),
+        changed(cards=[{"kind": "template", "name": "x", "state": 1, "step": 0, "stability": 1e9,
+                        "difficulty": 5.0, "last": 0.0, "due": 0.0}]),
+    ],
+)  # fmt: skip
+def test_a_file_that_cannot_be_is_refused(data):
+    with pytest.raises(StoreError):
+        read_archive(data)
+
+
+def test_in_the_browser(client, token):
+    data = client.get("/progress/export")
+    assert "attachment" in data.headers["content-disposition"]
+    sent = client.post("/progress/import", data={"token": token}, files={"file": data.content})
+    assert sent.status_code == 200
+    assert "0 questions and exams were added." in sent.text
+    wrong = client.post("/progress/import", data={"token": token}, files={"file": b"<script>"})
+    assert wrong.status_code == 400
+    assert "nothing has changed" in wrong.text
+    assert "<script>" not in wrong.text.split("<main", 1)[1]
+    assert client.post("/progress/import", files={"file": data.content}).status_code == 403
+    assert client.post("/progress/import", data={"token": token}).status_code == 400
+    large = client.post(
+        "/progress/import", data={"token": token}, files={"file": b"x" * 18_000_000}
+    )
+    assert large.status_code == 413
