@@ -21,8 +21,8 @@ CALCULATING = [
     if builtin().rules(name).solver and "guided" in builtin().rules(name).levels
 ]  # fmt: skip
 SEEDS = [1, *(pytest.param(n, marks=pytest.mark.slow) for n in range(2, 9))]
-UNITS_ALONE = [1, 180 / sympy.pi, *(sympy.Integer(1000) ** n for n in range(1, 7))]
-"""Between two values of one formula in different units."""
+UNITS_ALONE = [1, 180 / sympy.pi]
+"""Between two values of one formula in different units; powers of ten also come by chance."""
 
 
 def drawn_at(name, seed):
