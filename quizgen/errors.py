@@ -11,6 +11,7 @@
     |-- FormulaError     mathematics typed by an author or a student cannot be read
     |-- CodeError        a paper's code cannot be rebuilt here
     |-- RenderError      an output could not be made or written
+    |-- StoreError       the database of the browser's server, or its port, cannot be opened
     |-- KeyFileError     a key or an answer file cannot be read
     `-- ChoiceError      an argument is none of the values allowed (names them)
 

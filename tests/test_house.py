@@ -70,3 +70,9 @@ def test_every_public_function_has_a_caller_in_the_product():
         if not function.name.startswith("_") and function.name not in used
     ]
     assert not idle
+
+
+def test_no_two_test_files_have_one_name():
+    """pytest collects only one of them."""
+    names = [path.name for path in (ROOT / "tests").rglob("test_*.py")]
+    assert sorted(names) == sorted(set(names))

@@ -100,7 +100,7 @@ def test_the_printed_answer_is_right(wrong, template):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("template", NAMES)
-def test_twenty_printed_answers_are_right(wrong, template):
+def test_printed_answers_of_more_draws_are_right(wrong, template):
     for seed in map(str, range(int(os.environ.get("QUIZGEN_SEEDS", "4")))):
         for level in levels(template, seed):
             assert wrong(template, seed, "en", level) + wrong(template, seed, "bn", level) == []
