@@ -16,6 +16,8 @@ from quizgen.outside import located
 from quizgen.paper.blueprint import EVERYTHING, Blueprint, SlotRule
 from quizgen.paper.whole import Candidate, Whole, candidate, why_not, working_time
 
+ORDERS = 3
+"""Orders in which the places of a demanding blueprint are filled; an impossible one takes all."""
 TRIES = 20
 """Choices of templates until none is used more often than it has numbers."""
 
@@ -47,13 +49,15 @@ def _as_a_whole(bank: Bank, blueprint: Blueprint, seed: int) -> list[str]:
         [candidate(bank, name, points) for name in _fitting(bank, blueprint, index)]
         for index, points in zip(slots, worth, strict=True)
     ]
-    for n in range(TRIES):
+    for n in range(ORDERS):
         salt = f"{seed}/{n}" if n else str(seed)
         ranked = [
             sorted(place, key=partial(_of_candidate, bank, salt, index, number))
             for number, (index, place) in enumerate(zip(slots, places, strict=True))
         ]
         whole = Whole(blueprint, ranked, _shuffled(salt, len(places)))
+        if not whole.can_end():
+            break  # whatever the order
         chosen = whole.fill()
         if chosen:
             return chosen

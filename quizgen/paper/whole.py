@@ -19,6 +19,7 @@ from msgspec import structs
 
 from quizgen.bank.folder import Bank
 from quizgen.bank.rules import minutes_of, points_of
+from quizgen.errors import BlueprintError
 from quizgen.figures import PHOTOGRAPHS
 from quizgen.paper.blueprint import Blueprint
 
@@ -61,6 +62,10 @@ def candidate(bank: Bank, name: str, worth: float | None) -> Candidate:
     )
 
 
+MOST_SUMS = 4_000_000
+"""Sums of points and minutes, in units, that are looked at: four times those of a mock exam."""
+
+
 class Sums(NamedTuple):
     """What the places filled so far add up to, points and minutes in units."""
 
@@ -96,6 +101,8 @@ class Whole:
         self.first, self.last = self._span()
         self.width = self.last + 1
         self.limits = (blueprint.figures, blueprint.photographs)
+        if (self.total + 1) * self.width > MOST_SUMS:
+            raise BlueprintError("total and minutes are too large to be met together")
         self.steps = STEPS
         self._reach = self._reachable()
 
