@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from quizgen.web.server import _as_before
+import asyncio
+import socket
+
+from quizgen.web.server import _as_before, _listening
 from quizgen.web.settings import Settings
 from quizgen.web.site import Site
 from quizgen.web.store import Store
@@ -34,3 +37,20 @@ def test_it_listens_on_the_port_of_the_first_time_while_that_is_free(tmp_path):
     assert again.getsockname()[1] == port
     again.close()
     store.close()
+
+
+def test_an_answer_is_sent_before_what_went_before_it_is_acknowledged():
+    found = []
+
+    async def ask() -> None:
+        listening = _listening(0)
+        accepted = asyncio.get_running_loop().create_future()
+        server = await asyncio.start_server(lambda _, w: accepted.set_result(w), sock=listening)
+        _, writer = await asyncio.open_connection(*listening.getsockname())
+        there = (await accepted).get_extra_info("socket")
+        found.append(there.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY))
+        writer.close()
+        server.close()
+
+    asyncio.run(ask())
+    assert found[0]
