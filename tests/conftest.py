@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import os
-import shutil
 import sys
 
 import pytest
+from needed import installed
 
 from quizgen.bank.folder import Bank, builtin
 
@@ -19,17 +19,6 @@ sys.dont_write_bytecode = False
 @pytest.fixture(scope="session")
 def bank() -> Bank:
     return builtin()
-
-
-def installed(name: str, *programs: str) -> str:
-    """Path of a browser; its absence fails in CI and skips on a user's machine."""
-    for program in programs:
-        if path := shutil.which(program):
-            return path
-    message = f"{name} is not installed (Debian: apt-get install {programs[0]})"
-    if os.environ.get("CI"):
-        pytest.fail(message)
-    pytest.skip(message)
 
 
 @pytest.fixture(scope="session")

@@ -57,7 +57,7 @@ class Card(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """
 
     kind: Kind
-    name: Annotated[str, msgspec.Meta(min_length=1, max_length=300)]
+    name: Annotated[str, msgspec.Meta(max_length=300, pattern="^[^\0]+$")]
     state: Annotated[int, msgspec.Meta(ge=1, le=3)]
     step: Annotated[int, msgspec.Meta(ge=0, le=9)] | None
     stability: Annotated[float, msgspec.Meta(gt=0, le=36500)]

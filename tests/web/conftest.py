@@ -16,10 +16,38 @@ from quizgen.web.store import Which
 ADDRESS = "http://127.0.0.1:8000"
 
 
+def pytest_generate_tests(metafunc):
+    if "database" in metafunc.fixturenames:
+        both = metafunc.definition.get_closest_marker("both_databases")
+        names = ["sqlite", "postgresql"] if both else ["sqlite"]
+        metafunc.parametrize("database", names, indirect=True, scope="module")
+
+
+@pytest.fixture(scope="session")
+def cluster():
+    """A PostgreSQL server, where something asks for one."""
+    from databases import Cluster
+
+    begun = Cluster()
+    yield begun
+    begun.end()
+
+
 @pytest.fixture(scope="module")
-def settings(tmp_path_factory):
-    file = tmp_path_factory.mktemp("data") / "learning.sqlite3"
-    return Settings(f"sqlite:///{file}", workers=1)
+def database(request, tmp_path_factory):
+    """Makes databases, each new and empty; their addresses."""
+    if request.param == "postgresql":
+        return request.getfixturevalue("cluster").database
+
+    def made() -> str:
+        return f"sqlite:///{tmp_path_factory.mktemp('data') / 'learning.sqlite3'}"
+
+    return made
+
+
+@pytest.fixture(scope="module")
+def settings(database):
+    return Settings(database(), workers=1)
 
 
 @pytest.fixture(scope="module")

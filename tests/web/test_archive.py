@@ -13,13 +13,15 @@ from quizgen.web.store.archive import read_archive
 
 NOW = 1_795_000_000.0
 
+pytestmark = pytest.mark.both_databases
+
 
 @pytest.fixture
-def store(tmp_path):
+def store(database):
     made = []
 
-    def opened(name: str) -> Store:
-        made.append(Store(f"sqlite:///{tmp_path / name}"))
+    def opened() -> Store:
+        made.append(Store(database()))
         return made[-1]
 
     yield opened
@@ -30,7 +32,7 @@ def store(tmp_path):
 @pytest.fixture
 def full(store):
     """A learner with a question, an exam, a card and a date."""
-    mine = store("mine")
+    mine = store()
     learner = mine.learner().id
     attempt = mine.begin(learner, Which("rgb-to-hsv", "7"), {"topic": "colour", "tier": ""})
     done = {"typed": "1", "tries": 1, "hints": 0,
@@ -53,7 +55,7 @@ def content(store):
 
 def test_what_comes_out_goes_in_elsewhere_and_is_the_same(full, store):
     data = full.archives.write(full.learner().id)
-    other = store("other")
+    other = store()
     learner = other.learner().id
     assert other.archives.take_in(learner, read_archive(data)) == 2
     assert content(other) == content(full)
@@ -87,11 +89,29 @@ def changed(**new):
     return json.dumps({**whole, **new}).encode()
 
 
+SEEN = {
+    "template": "x",
+    "topic": "c",
+    "part": "a",
+    "note": "",
+    "right": True,
+    "first": True,
+    "at": 1.0,
+}
+
+
+def test_a_file_of_the_form_of_the_next_test_can_be():
+    assert read_archive(changed(seen=[SEEN])).seen[0].topic == "c"
+
+
 @pytest.mark.parametrize(
     "data",
     [
         b"", b"[]", b"\xff\xfe", b"{" * 100_000, changed(version=2), changed(format="other"),
+        changed(seen=[{**SEEN, "note": "a\0b"}]), changed(seen=[{**SEEN, "part": "x" * 21}]),
         changed(more=1), changed(settings={"lang": "x" * 50}), changed(seen=[{"template": "x"}]),
+        changed(cards=[{"kind": "template", "name": "x\0", "state": 1, "step": 0, "stability": 1.0,
+                        "difficulty": 5.0, "last": 0.0, "due": 0.0}]),
         changed(cards=[{"kind": "boss", "name": "x", "state": 1, "step": 0, "stability": 1.0,
                         "difficulty": 5.0, "last": 0.0, "due": 0.0}]),
         changed(cards=[{"kind": "template", "name": "x", "state": 1, "step": 0, "stability": 1e9,

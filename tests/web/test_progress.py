@@ -7,29 +7,24 @@ import re
 from datetime import UTC, datetime, timedelta
 
 import pytest
-from starlette.testclient import TestClient
+from sqlalchemy import delete
 
 from quizgen.question.compose import compose
-from quizgen.web.app import application
-from quizgen.web.settings import Settings
 from quizgen.web.store import Which
+from quizgen.web.store.tables import LEARNER
 
-ADDRESS = "http://127.0.0.1:8000"
 QUESTION = "point-to-image-plane"
 
-
-@pytest.fixture
-def app(tmp_path):
-    """An application for somebody who has done nothing yet."""
-    settings = Settings(f"sqlite:///{tmp_path / 'learning.sqlite3'}", workers=1, token="secret")
-    app = application(settings)
-    with TestClient(app, ADDRESS):
-        yield app
+pytestmark = pytest.mark.both_databases
 
 
-@pytest.fixture
-def settings(app):
-    return app.state.site.settings
+@pytest.fixture(autouse=True)
+def nothing_done(app):
+    """Somebody who has done nothing yet."""
+    store = app.state.site.store
+    with store.database.writing() as connection:
+        connection.execute(delete(LEARNER))
+    store.learner()
 
 
 def text(page: str) -> str:

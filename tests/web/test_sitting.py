@@ -16,6 +16,8 @@ from quizgen.paper.key import key_of
 from quizgen.paper.paper import rebuild
 from quizgen.web.store.tables import SITTING
 
+pytestmark = pytest.mark.both_databases
+
 
 def shown(page: str) -> str:
     return html.unescape(" ".join(re.sub(r"<[^>]*>", " ", page).split()))
@@ -133,7 +135,7 @@ def test_no_solution_before_it_is_handed_in_and_no_change_after(client, token, e
 def test_the_clock_is_the_servers(client, token, exam, app):
     at, _ = exam()
     name = at.rsplit("/", 1)[1]
-    with app.state.site.store.engine.begin() as connection:
+    with app.state.site.store.database.writing() as connection:
         connection.execute(
             update(SITTING).where(SITTING.c.id == name).values(begun=time.time() - 86400)
         )

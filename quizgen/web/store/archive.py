@@ -7,18 +7,21 @@ from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, Literal, TypeAlias
 
 import msgspec
-from sqlalchemy import Connection, Engine, Table, insert, select, update
+from sqlalchemy import Connection, Table, insert, select, update
 
 from quizgen.errors import StoreError
 from quizgen.practice.schedule import Card, Moment
 from quizgen.practice.state import PartState
 from quizgen.web.store.cards import cards_of, put_card
+from quizgen.web.store.database import Database
 from quizgen.web.store.tables import ANSWER, ATTEMPT, CARD, FLAG, LEARNER, SEEN, SITTING
 
 FORMAT = "quizgen learning"
-Short: TypeAlias = Annotated[str, msgspec.Meta(max_length=200)]
-Part: TypeAlias = Annotated[str, msgspec.Meta(max_length=20)]
-Typed: TypeAlias = Annotated[str, msgspec.Meta(max_length=10_000)]
+TEXT = "^[^\0]*$"
+"""What a database takes as text."""
+Short: TypeAlias = Annotated[str, msgspec.Meta(max_length=200, pattern=TEXT)]
+Part: TypeAlias = Annotated[str, msgspec.Meta(max_length=20, pattern=TEXT)]
+Typed: TypeAlias = Annotated[str, msgspec.Meta(max_length=10_000, pattern=TEXT)]
 Id: TypeAlias = Annotated[str, msgspec.Meta(pattern="^[A-Za-z0-9_-]{8,32}$")]
 
 
@@ -51,7 +54,7 @@ class KeptAttempt(Strict, frozen=True):
 
     id: Id
     template: Short
-    seed: Annotated[str, msgspec.Meta(max_length=80)]
+    seed: Annotated[str, msgspec.Meta(max_length=80, pattern=TEXT)]
     level: Part
     wish: Wish
     state: KeptState
@@ -126,15 +129,15 @@ class Archives:
 
     Parameters
     ----------
-    engine : sqlalchemy.Engine
+    database : Database
     """
 
-    def __init__(self, engine: Engine) -> None:
-        self.engine = engine
+    def __init__(self, database: Database) -> None:
+        self.database = database
 
     def write(self, learner: int) -> bytes:
         """Everything of a learner."""
-        with self.engine.connect() as connection:
+        with self.database.reading() as connection:
             whole = {
                 "format": FORMAT,
                 "version": 1,
@@ -161,7 +164,7 @@ class Archives:
 
     def take_in(self, learner: int, archive: Archive) -> int:
         """Add what a learner does not have yet, all of it or nothing; how many questions came."""
-        with self.engine.begin() as connection:
+        with self.database.writing(learner) as connection:
             _settle(connection, learner, archive.settings)
             count = sum(_attempt(connection, learner, one) for one in archive.attempts)
             known = {_text(row) for row in _rows(connection, SEEN, learner, "id")}

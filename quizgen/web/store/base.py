@@ -9,23 +9,11 @@ from collections.abc import Mapping
 from typing import Any
 
 import msgspec
-from sqlalchemy import (
-    Connection,
-    Engine,
-    create_engine,
-    event,
-    func,
-    insert,
-    select,
-    update,
-)
-from sqlalchemy.engine import make_url
-from sqlalchemy.exc import ArgumentError, SQLAlchemyError
+from sqlalchemy import Connection, func, insert, select, update
 
-from quizgen.errors import StoreError
 from quizgen.web.store.archive import Archives
 from quizgen.web.store.cards import Cards
-from quizgen.web.store.migrate import upgrade
+from quizgen.web.store.database import Database, put
 from quizgen.web.store.rows import Attempt, Learner, Seen, Which
 from quizgen.web.store.sittings import Sittings
 from quizgen.web.store.tables import ATTEMPT, LEARNER, SEEN, SERVER
@@ -50,34 +38,26 @@ class Store:
     """
 
     def __init__(self, address: str) -> None:
-        try:
-            self.engine = _engine(address)
-            with self.engine.begin() as connection:
-                upgrade(connection)
-        except (SQLAlchemyError, ArgumentError, ImportError, OSError) as error:
-            said = str(error).partition("\n")[0]
-            raise StoreError(f"{_shown(address)}: {said}") from error
+        self.database = Database(address)
         self._learners: dict[str, Learner] = {}
         self._one = threading.Lock()
-        self.sittings = Sittings(self.engine)
+        self.sittings = Sittings(self.database)
         """Exams that are sat."""
-        self.cards = Cards(self.engine)
+        self.cards = Cards(self.database)
         """What is asked again, and when."""
-        self.archives = Archives(self.engine)
+        self.archives = Archives(self.database)
         """Everything of a learner, as a file."""
 
     def close(self) -> None:
         """Give the connections back."""
-        self.engine.dispose()
+        self.database.close()
 
     def lasting(self, name: str, value: str) -> str:
         """What servers of this database have in common under a name: the first one's value."""
         query = select(SERVER.c.value).where(SERVER.c.name == name)
-        with self.engine.begin() as connection:
-            found = connection.execute(query).scalar()
-            if found is None:
-                connection.execute(insert(SERVER).values(name=name, value=value))
-        return value if found is None else str(found)
+        with self.database.writing() as connection:
+            put(connection, SERVER, {"name": name, "value": value}, ["name"])
+            return str(connection.execute(query).scalar_one())
 
     def remembered(self, name: str = ALONE) -> Learner | None:
         """A learner who has asked before; None where the database has to say."""
@@ -86,21 +66,18 @@ class Store:
     def learner(self, name: str = ALONE) -> Learner:
         """A learner by name; a new one if nobody has it yet."""
         with self._one:
-            with self.engine.begin() as connection:
+            with self.database.writing() as connection:
+                row = {"name": name, "settings": {}, "since": time.time()}
+                put(connection, LEARNER, row, ["name"])
                 found = _learner(connection, name)
-                if found is None:
-                    row = {"name": name, "settings": {}, "since": time.time()}
-                    connection.execute(insert(LEARNER).values(row))
-                    found = _learner(connection, name)
-            assert found is not None  # noqa: S101 - it was just written
             self._learners[name] = found
         return found
 
     def settle(self, learner: int, changed: Mapping[str, Any]) -> None:
         """Change some settings of a learner."""
-        with self._one, self.engine.begin() as connection:
+        with self._one, self.database.writing(learner) as connection:
             self._learners.clear()
-            query = select(LEARNER.c.settings).where(LEARNER.c.id == learner).with_for_update()
+            query = select(LEARNER.c.settings).where(LEARNER.c.id == learner)
             known = connection.execute(query).scalar_one()
             connection.execute(
                 update(LEARNER).where(LEARNER.c.id == learner).values(settings={**known, **changed})
@@ -112,14 +89,14 @@ class Store:
             secrets.token_urlsafe(12), learner, which.template, which.seed, which.level,
             dict(wish), {}, time.time(),
         )  # fmt: skip
-        with self.engine.begin() as connection:
+        with self.database.writing(learner) as connection:
             connection.execute(insert(ATTEMPT).values(msgspec.to_builtins(attempt)))
         return attempt
 
     def attempt(self, learner: int, name: str) -> Attempt | None:
         """A learner's own attempt; None if there is none of this name, or it is another's."""
         query = select(ATTEMPT).where(ATTEMPT.c.id == name, ATTEMPT.c.learner == learner)
-        with self.engine.connect() as connection:
+        with self.database.reading() as connection:
             row = connection.execute(query).mappings().first()
         return value(row, Attempt) if row else None
 
@@ -131,14 +108,14 @@ class Store:
             .order_by(ATTEMPT.c.begun.desc())
             .limit(most)
         )
-        with self.engine.connect() as connection:
+        with self.database.reading() as connection:
             rows = connection.execute(query).mappings().all()
         return [value(row, Attempt) for row in rows]
 
     def keep(self, attempt: Attempt, seen: tuple[Seen, ...] = ()) -> None:
         """Keep how far an attempt has got, and how parts of it went."""
         values = {"state": attempt.state, "ended": attempt.ended}
-        with self.engine.begin() as connection:
+        with self.database.writing(attempt.learner) as connection:
             connection.execute(update(ATTEMPT).where(ATTEMPT.c.id == attempt.id).values(values))
             for one in seen:
                 row = {"learner": attempt.learner, **msgspec.to_builtins(one)}
@@ -149,7 +126,7 @@ class Store:
         names = [SEEN.c[name] for name in Seen.__struct_fields__]
         query = select(*names).where(SEEN.c.learner == learner)
         query = query.order_by(SEEN.c.at.desc(), SEEN.c.id.desc()).limit(most)
-        with self.engine.connect() as connection:
+        with self.database.reading() as connection:
             rows = connection.execute(query).mappings().all()
         return [value(row, Seen) for row in reversed(rows)]
 
@@ -162,7 +139,7 @@ class Store:
             ATTEMPT.c.id != attempt.id,
             ATTEMPT.c.ended.is_not(None),
         )
-        with self.engine.connect() as connection:
+        with self.database.reading() as connection:
             return connection.execute(query.limit(1)).first() is not None
 
     def times(self, learner: int) -> dict[str, int]:
@@ -172,33 +149,10 @@ class Store:
             .where(ATTEMPT.c.learner == learner)
             .group_by(ATTEMPT.c.template)
         )
-        with self.engine.connect() as connection:
+        with self.database.reading() as connection:
             return {str(name): int(count) for name, count in connection.execute(query)}
 
 
-def _learner(connection: Connection, name: str) -> Learner | None:
+def _learner(connection: Connection, name: str) -> Learner:
     query = select(LEARNER.c.id, LEARNER.c.name, LEARNER.c.settings).where(LEARNER.c.name == name)
-    row = connection.execute(query).mappings().first()
-    return value(row, Learner) if row else None
-
-
-def _engine(address: str) -> Engine:
-    url = make_url(address)
-    if url.get_backend_name() != "sqlite":
-        return create_engine(url, pool_pre_ping=True)
-    engine = create_engine(url, connect_args={"check_same_thread": False, "timeout": 10})
-
-    @event.listens_for(engine, "connect")
-    def _set_up(connection: Any, _record: object) -> None:
-        for setting in ("journal_mode=WAL", "synchronous=NORMAL", "foreign_keys=ON"):
-            connection.execute(f"PRAGMA {setting}")
-
-    return engine
-
-
-def _shown(address: str) -> str:
-    """The address without its password."""
-    try:
-        return make_url(address).render_as_string(hide_password=True)
-    except ArgumentError:
-        return "--database"
+    return value(connection.execute(query).mappings().one(), Learner)

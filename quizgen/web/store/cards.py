@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import msgspec
-from sqlalchemy import Connection, Engine, delete, insert, select
+from sqlalchemy import Connection, select
 
 from quizgen.practice.schedule import Asked, Card, Name, after
+from quizgen.web.store.database import Database, put
 from quizgen.web.store.tables import CARD
 
 
@@ -16,15 +17,15 @@ class Cards:
 
     Parameters
     ----------
-    engine : sqlalchemy.Engine
+    database : Database
     """
 
-    def __init__(self, engine: Engine) -> None:
-        self.engine = engine
+    def __init__(self, database: Database) -> None:
+        self.database = database
 
     def all(self, learner: int) -> dict[Name, Card]:
         """A learner's cards."""
-        with self.engine.connect() as connection:
+        with self.database.reading() as connection:
             return cards_of(connection, learner)
 
     def review(
@@ -40,7 +41,7 @@ class Cards:
         left : int, optional
             Days until the exam.
         """
-        with self.engine.begin() as connection:
+        with self.database.writing(learner) as connection:
             cards = cards_of(connection, learner)
             for one in asked:
                 for card in list(after(cards, one, now, left)):
@@ -57,7 +58,6 @@ def cards_of(connection: Connection, learner: int) -> dict[Name, Card]:
 
 def put_card(connection: Connection, learner: int, card: Card) -> None:
     """Write a card in place of the one of its name."""
-    place = (CARD.c.learner == learner, CARD.c.kind == card.kind, CARD.c.name == card.name)
-    connection.execute(delete(CARD).where(*place))
     row = {"learner": learner, "kind": card.kind, "name": card.name, "due": card.due}
-    connection.execute(insert(CARD).values(**row, data=msgspec.to_builtins(card)))
+    whole = {**row, "data": msgspec.to_builtins(card)}
+    put(connection, CARD, whole, ["learner", "kind", "name"], ["data", "due"])

@@ -20,6 +20,8 @@ def upgrade(connection: Connection) -> None:
     StoreError
         If a newer version has written it.
     """
+    if connection.dialect.name == "postgresql":  # of two servers that start at once one waits
+        connection.execute(text("SELECT pg_advisory_xact_lock(hashtext('quizgen'))"))
     found = _version(connection)
     if found == NEWEST:
         return

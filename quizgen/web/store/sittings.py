@@ -7,9 +7,9 @@ import time
 from collections.abc import Mapping
 
 import msgspec
-from sqlalchemy import Connection, Engine, delete, insert, select, update
-from sqlalchemy.dialects import sqlite
+from sqlalchemy import Connection, delete, insert, select, update
 
+from quizgen.web.store.database import Database, put
 from quizgen.web.store.rows import Seen, Sitting
 from quizgen.web.store.tables import ANSWER, FLAG, SEEN, SITTING
 from quizgen.web.store.values import value
@@ -23,67 +23,67 @@ class Sittings:
 
     Parameters
     ----------
-    engine : sqlalchemy.Engine
+    database : Database
     """
 
-    def __init__(self, engine: Engine) -> None:
-        self.engine = engine
+    def __init__(self, database: Database) -> None:
+        self.database = database
 
     def begin(self, learner: int, code: str, limit: float | None, *, pauses: bool) -> Sitting:
         """Begin an exam."""
         made = Sitting(secrets.token_urlsafe(12), learner, code, time.time(), limit, pauses)
-        with self.engine.begin() as connection:
+        with self.database.writing(learner) as connection:
             connection.execute(insert(SITTING).values(msgspec.to_builtins(made)))
         return made
 
     def find(self, learner: int, name: str) -> Sitting | None:
         """A learner's own exam; None if there is none of this name, or it is another's."""
-        with self.engine.connect() as connection:
+        with self.database.reading() as connection:
             return _sitting(connection, learner, name)
 
     def latest(self, learner: int, most: int = 30) -> list[Sitting]:
         """A learner's exams, the latest first."""
         query = select(SITTING).where(SITTING.c.learner == learner)
         query = query.order_by(SITTING.c.begun.desc()).limit(most)
-        with self.engine.connect() as connection:
+        with self.database.reading() as connection:
             return [value(row, Sitting) for row in connection.execute(query).mappings()]
 
     def answers(self, sitting: Sitting) -> dict[str, list[str]]:
         """Part to what stands in its fields."""
         query = select(ANSWER.c.part, ANSWER.c.fields).where(ANSWER.c.sitting == sitting.id)
-        with self.engine.connect() as connection:
+        with self.database.reading() as connection:
             return {str(part): list(fields) for part, fields in connection.execute(query)}
 
     def flags(self, sitting: Sitting) -> frozenset[str]:
         """Questions to come back to."""
         query = select(FLAG.c.number).where(FLAG.c.sitting == sitting.id)
-        with self.engine.connect() as connection:
+        with self.database.reading() as connection:
             return frozenset(map(str, connection.execute(query).scalars()))
 
     def save(self, sitting: Sitting, answers: Mapping[str, list[str]]) -> bool:
         """Keep what stands in the fields of parts; False if the exam is over."""
         now = time.time()
-        with self.engine.begin() as connection:
-            known = _sitting(connection, sitting.learner, sitting.id, locked=True)
+        with self.database.writing(sitting.learner) as connection:
+            known = _sitting(connection, sitting.learner, sitting.id)
             if known is None or known.resting is not None or known.over(now - GRACE):
                 return False
             for part, fields in answers.items():
                 row = {"sitting": sitting.id, "part": part, "fields": fields, "at": now}
-                _put(connection, row)
+                put(connection, ANSWER, row, ["sitting", "part"], ["fields", "at"])
         return True
 
     def flag(self, sitting: Sitting, number: str) -> None:
         """Mark a question to come back to, or take the mark away."""
         place = (FLAG.c.sitting == sitting.id, FLAG.c.number == number)
-        with self.engine.begin() as connection:
+        with self.database.writing(sitting.learner) as connection:
             if not connection.execute(delete(FLAG).where(*place)).rowcount:
                 connection.execute(insert(FLAG).values(sitting=sitting.id, number=number))
 
     def rest(self, sitting: Sitting, *, on: bool) -> None:
         """Begin or end a pause, where pauses are allowed."""
         now = time.time()
-        with self.engine.begin() as connection:
-            known = _sitting(connection, sitting.learner, sitting.id, locked=True)
+        with self.database.writing(sitting.learner) as connection:
+            known = _sitting(connection, sitting.learner, sitting.id)
             if known is None or not known.pauses or known.over(now):
                 return
             if on and known.resting is None:
@@ -95,8 +95,8 @@ class Sittings:
 
     def hand_in(self, sitting: Sitting, seen: tuple[Seen, ...]) -> bool:
         """Hand an exam in, once; False if it was."""
-        with self.engine.begin() as connection:
-            known = _sitting(connection, sitting.learner, sitting.id, locked=True)
+        with self.database.writing(sitting.learner) as connection:
+            known = _sitting(connection, sitting.learner, sitting.id)
             if known is None or known.handed is not None:
                 return False
             _change(connection, sitting, handed=time.time())
@@ -107,36 +107,17 @@ class Sittings:
 
     def judge(self, sitting: Sitting, part: str, share: float) -> None:
         """Keep the share of the points that a learner gave to a sentence."""
-        with self.engine.begin() as connection:
-            known = _sitting(connection, sitting.learner, sitting.id, locked=True)
+        with self.database.writing(sitting.learner) as connection:
+            known = _sitting(connection, sitting.learner, sitting.id)
             if known is not None and known.handed is not None:
                 _change(connection, sitting, marks={**known.marks, part: share})
 
 
-def _sitting(
-    connection: Connection, learner: int, name: str, *, locked: bool = False
-) -> Sitting | None:
-    own = (SITTING.c.id == name, SITTING.c.learner == learner)
-    if locked and connection.dialect.name == "sqlite":  # which locks where it writes
-        connection.execute(update(SITTING).where(*own).values(learner=learner))
-    query = select(SITTING).where(*own)
-    row = connection.execute(query.with_for_update() if locked else query).mappings().first()
+def _sitting(connection: Connection, learner: int, name: str) -> Sitting | None:
+    query = select(SITTING).where(SITTING.c.id == name, SITTING.c.learner == learner)
+    row = connection.execute(query).mappings().first()
     return value(row, Sitting) if row else None
 
 
 def _change(connection: Connection, sitting: Sitting, **values: object) -> None:
     connection.execute(update(SITTING).where(SITTING.c.id == sitting.id).values(values))
-
-
-def _put(connection: Connection, row: Mapping[str, object]) -> None:
-    """Write an answer, over the one that stands there."""
-    changed = {"fields": row["fields"], "at": row["at"]}
-    place = ["sitting", "part"]
-    if connection.dialect.name == "postgresql":
-        from sqlalchemy.dialects import postgresql
-
-        query = postgresql.insert(ANSWER).values(row)
-        connection.execute(query.on_conflict_do_update(index_elements=place, set_=changed))
-    else:
-        lite = sqlite.insert(ANSWER).values(row)
-        connection.execute(lite.on_conflict_do_update(index_elements=place, set_=changed))

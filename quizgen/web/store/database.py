@@ -1,0 +1,161 @@
+"""The database itself: opened, read from, and written to by one hand of a learner at a time."""
+
+from __future__ import annotations
+
+import contextlib
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from sqlalchemy import URL, Connection, Engine, Table, create_engine, event, make_url, select
+from sqlalchemy.dialects import sqlite
+from sqlalchemy.exc import ArgumentError, DBAPIError, SQLAlchemyError
+
+from quizgen.errors import StoreError
+from quizgen.web.store.migrate import upgrade
+from quizgen.web.store.tables import LEARNER
+
+ADDRESSES = "an address is sqlite:///FILE or postgresql+psycopg://USER:PASSWORD@HOST/DATABASE"
+DRIVERS = {"sqlite", "sqlite+pysqlite", "postgresql", "postgresql+psycopg"}
+PATIENCE = 10
+"""Seconds to wait for a server to answer, or for another hand to have written."""
+_HOST = re.compile(r"[\w.:-]*")
+_WRITES = "writes"
+
+
+class Database:
+    """A database.
+
+    Parameters
+    ----------
+    address : str
+        ``sqlite:///file`` or ``postgresql+psycopg://...``.
+
+    Raises
+    ------
+    StoreError
+        If it cannot be opened, or was written by a newer version.
+    """
+
+    def __init__(self, address: str) -> None:
+        url = _read(address)
+        try:
+            self._reader = _engine(url)
+        except ModuleNotFoundError as error:
+            raise StoreError(f'no {error.name} here: pip install "quizgen[postgres]"') from error
+        self._writer = self._reader.execution_options(**{_WRITES: True})
+        with contextlib.ExitStack() as failing:
+            failing.callback(self.close)
+            try:
+                with self.writing() as connection:
+                    upgrade(connection)
+            except (SQLAlchemyError, OSError) as error:
+                raise StoreError(f"{_shown(url)}: {_said(error)}") from error
+            failing.pop_all()
+
+    def close(self) -> None:
+        """Give the connections back."""
+        self._reader.dispose()
+
+    def reading(self) -> Connection:
+        """A connection to read with; what it reads is of one moment."""
+        return self._reader.connect()
+
+    @contextlib.contextmanager
+    def writing(self, learner: int | None = None) -> Iterator[Connection]:
+        """A connection to write with: all is written, or nothing where an error is raised.
+
+        Of two hands of one learner the second sees what the first has written: SQLite has one
+        writer at a time, PostgreSQL holds the learner's row.
+
+        Parameters
+        ----------
+        learner : int, optional
+            Whose data is written.
+        """
+        with self._writer.begin() as connection:
+            if learner is not None and connection.dialect.name != "sqlite":
+                mine = select(LEARNER.c.id).where(LEARNER.c.id == learner)
+                connection.execute(mine.with_for_update(key_share=True))
+            yield connection
+
+
+def put(
+    connection: Connection,
+    table: Table,
+    row: Mapping[str, object],
+    key: Sequence[str],
+    changed: Sequence[str] = (),
+) -> None:
+    """Write a row; where one of its key stands, some columns of it, or none.
+
+    Parameters
+    ----------
+    connection : sqlalchemy.Connection
+    table : sqlalchemy.Table
+    row : mapping
+    key : sequence of str
+        Columns that no two rows share.
+    changed : sequence of str
+        Columns that are written over.
+    """
+    new = {name: row[name] for name in changed}
+    if connection.dialect.name == "sqlite":
+        lite = sqlite.insert(table).values(row)
+        connection.execute(
+            lite.on_conflict_do_update(index_elements=key, set_=new)
+            if new
+            else lite.on_conflict_do_nothing(index_elements=key)
+        )
+        return
+    from sqlalchemy.dialects import postgresql
+
+    query = postgresql.insert(table).values(row)
+    connection.execute(
+        query.on_conflict_do_update(index_elements=key, set_=new)
+        if new
+        else query.on_conflict_do_nothing(index_elements=key)
+    )
+
+
+def _engine(url: URL) -> Engine:
+    if url.get_backend_name() != "sqlite":
+        wait = {"connect_timeout": PATIENCE}
+        return create_engine(url, pool_pre_ping=True, hide_parameters=True, connect_args=wait)
+    wait = {"check_same_thread": False, "timeout": PATIENCE}
+    engine = create_engine(url, hide_parameters=True, connect_args=wait)
+
+    @event.listens_for(engine, "connect")
+    def _set_up(connection: Any, _record: object) -> None:
+        connection.isolation_level = None  # ``_begin`` says when something begins
+        for setting in ("journal_mode=WAL", "synchronous=NORMAL", "foreign_keys=ON"):
+            connection.execute(f"PRAGMA {setting}")
+
+    @event.listens_for(engine, "begin")
+    def _begin(connection: Connection) -> None:
+        writes = connection.get_execution_options().get(_WRITES)
+        connection.exec_driver_sql("BEGIN IMMEDIATE" if writes else "BEGIN")
+
+    return engine
+
+
+def _read(address: str) -> URL:
+    """The address; what is wrong with one is said without it, for it may hold a password."""
+    try:
+        url = make_url(address)
+    except (ArgumentError, ValueError) as error:
+        raise StoreError(f"--database: {ADDRESSES}") from error
+    if url.drivername not in DRIVERS or not _HOST.fullmatch(url.host or ""):
+        raise StoreError(f"--database: {ADDRESSES} (write @ : / of a password as %40 %3A %2F)")
+    return url
+
+
+def _shown(url: URL) -> str:
+    """The address without its password, which may stand among its settings, too."""
+    return url.set(query={}).render_as_string()
+
+
+def _said(error: Exception) -> str:
+    """What went wrong, as the database says it."""
+    cause = error.orig if isinstance(error, DBAPIError) else error
+    return str(cause).strip().partition("\n")[0]

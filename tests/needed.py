@@ -1,0 +1,24 @@
+"""What tests need beside Python: its absence fails in CI and skips on a user's machine."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from typing import NoReturn
+
+import pytest
+
+
+def absent(name: str, package: str) -> NoReturn:
+    message = f"{name} is not installed (Debian: apt-get install {package})"
+    if os.environ.get("CI"):
+        pytest.fail(message)
+    pytest.skip(message)
+
+
+def installed(name: str, *programs: str) -> str:
+    """Path of a program by one of its names."""
+    for program in programs:
+        if path := shutil.which(program):
+            return path
+    absent(name, programs[0])

@@ -1,0 +1,57 @@
+"""A PostgreSQL of the tests' own: Debian's, in a folder that is thrown away."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
+from uuid import uuid4
+
+import psycopg
+from needed import absent
+
+
+def programs() -> Path:
+    """Where PostgreSQL's programs stand, which Debian keeps off the path."""
+    found = sorted(Path("/usr/lib/postgresql").glob("*/bin/initdb"))
+    on_path = shutil.which("initdb")
+    if not found and not on_path:
+        absent("PostgreSQL", "postgresql")
+    return (found[-1] if found else Path(on_path)).parent
+
+
+class Cluster:
+    """A server without a network, run by somebody who is not root, which it insists on."""
+
+    def __init__(self) -> None:
+        found = programs()
+        self._pg_ctl = found / "pg_ctl"
+        self._folder = Path(tempfile.mkdtemp(prefix="qz"))
+        self._user = "postgres" if os.geteuid() == 0 else None
+        if self._user:
+            shutil.chown(self._folder, self._user)
+        self._run(found / "initdb", "--auth=trust", "--username=tests", "--no-sync",
+                  "--encoding=UTF8", "--locale=C")  # fmt: skip
+        options = f"-k {self._folder} -c listen_addresses='' -c fsync=off"
+        self._run(self._pg_ctl, "start", "-w", "-s", "-l", str(self._folder / "log"), "-o", options)
+
+    def _run(self, *command: object) -> None:
+        subprocess.run(
+            [*map(str, command), "-D", str(self._folder / "data")], check=True, user=self._user,
+            cwd=self._folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+        )  # fmt: skip
+
+    def database(self) -> str:
+        """The address of a new, empty database."""
+        name = f"t{uuid4().hex}"
+        with psycopg.connect(
+            f"host={self._folder} user=tests dbname=postgres", autocommit=True
+        ) as server:
+            server.execute(f"CREATE DATABASE {name}")
+        return f"postgresql+psycopg://tests@/{name}?host={self._folder}"
+
+    def end(self) -> None:
+        self._run(self._pg_ctl, "stop", "-m", "immediate", "-s")
+        shutil.rmtree(self._folder)

@@ -1,0 +1,190 @@
+"""The database: every released form of it comes up, on both kinds; what is wrong with one is said."""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pytest
+from alembic import command
+from alembic.autogenerate import compare_metadata
+from alembic.config import Config
+from alembic.migration import MigrationContext
+from sqlalchemy import create_engine, insert, text
+from sqlalchemy.exc import IntegrityError
+
+from quizgen.errors import StoreError
+from quizgen.practice.schedule import Asked, Grade
+from quizgen.web.store import Seen, Store, Which, migrate
+from quizgen.web.store.tables import METADATA
+
+STEPS = Path(migrate.__file__).parent / "migrations"
+ROWS = {
+    "0001": {
+        "learner": {"id": 7, "name": "me", "settings": '{"lang": "bn"}', "since": 1.5},
+        "attempt": {"id": "abcdefghijkl", "learner": 7, "template": "rgb-to-hsv", "seed": "3",
+                    "level": "exam", "wish": "{}", "state": '{"ended": ["1"]}', "begun": 2.5, "ended": 3.5},
+        "seen": {"id": 5, "learner": 7, "template": "rgb-to-hsv", "topic": "colour", "part": "a",
+                 "note": "trap:হ্যাঁ", "right": False, "first": False, "at": 3.5},
+    },
+    "0002": {
+        "sitting": {"id": "zyxwvutsrqpo", "learner": 7, "code": "trial-1-both-000000", "begun": 4.5, "limit": 60.0,
+                    "pauses": True, "rested": 0.0, "resting": None, "handed": None, "marks": "{}"},
+        "answer": {"sitting": "zyxwvutsrqpo", "part": "1a", "fields": '["৩", ""]', "at": 5.5},
+        "flag": {"sitting": "zyxwvutsrqpo", "number": "2"},
+    },
+    "0003": {"server": {"name": "token", "value": "secret"}},
+    "0004": {"card": {"learner": 7, "kind": "template", "name": "C1", "due": 9.5, "data": json.dumps(
+        {"kind": "template", "name": "C1", "state": 2, "step": None, "stability": 2.5,
+         "difficulty": 5.5, "last": 3.5, "due": 9.5})}},
+}  # fmt: skip
+"""What each release keeps, in the tables that it has added."""
+
+pytestmark = pytest.mark.both_databases
+
+
+def as_released(address: str, release: str) -> None:
+    """Make the database as a release left it, with something in each table."""
+    engine = create_engine(address)
+    with engine.begin() as connection:
+        config = Config()
+        config.set_main_option("script_location", str(STEPS))
+        config.attributes["connection"] = connection
+        command.upgrade(config, release)
+        for step, rows in ROWS.items():
+            for table, row in rows.items() if step <= release else ():
+                names = ", ".join(f'"{name}"' for name in row)
+                values = ", ".join(f":{name}" for name in row)
+                connection.execute(text(f"INSERT INTO {table} ({names}) VALUES ({values})"), row)
+    engine.dispose()
+
+
+@pytest.mark.parametrize("release", sorted(path.name[:4] for path in STEPS.glob("versions/*.py")))
+def test_every_release_comes_up_with_what_it_keeps(database, release):
+    address = database()
+    as_released(address, release)
+    store = Store(address)
+    with store.database.reading() as connection:
+        assert compare_metadata(MigrationContext.configure(connection), METADATA) == []
+    learner = store.learner()
+    assert (learner.id, learner.settings) == (7, {"lang": "bn"})
+    assert store.latest(7)[0].state == {"ended": ["1"]}
+    assert store.seen(7)[0].note == "trap:হ্যাঁ"
+    if release >= "0002":
+        (sitting,) = store.sittings.latest(7)
+        assert (sitting.limit, sitting.pauses) == (60.0, True)
+        assert store.sittings.answers(sitting) == {"1a": ["৩", ""]}
+        assert store.sittings.flags(sitting) == {"2"}
+    if release >= "0003":
+        assert store.lasting("token", "other") == "secret"
+    if release >= "0004":
+        assert store.cards.all(7)["template", "C1"].stability == 2.5
+    store.keep(store.begin(7, Which("rgb-to-hsv", "4"), {}))
+    store.close()
+
+
+def test_a_newer_database_is_left_alone(database):
+    address = database()
+    Store(address).close()
+    engine = create_engine(address)
+    with engine.begin() as connection:
+        connection.execute(text("UPDATE alembic_version SET version_num = '9999'"))
+    engine.dispose()
+    with pytest.raises(StoreError, match="newer version"):
+        Store(address)
+
+
+def test_servers_that_begin_at_once_make_the_tables_once(database):
+    address = database()
+    with ThreadPoolExecutor(4) as threads:
+        stores = list(threads.map(Store, [address] * 4))
+        assert len({store.learner().id for store in stores}) == 1
+        assert len(set(threads.map(lambda s: s.lasting("token", str(id(s))), stores))) == 1
+    for store in stores:
+        store.close()
+
+
+def test_of_what_comes_at_once_from_two_servers_nothing_is_lost(database):
+    address = database()
+    stores = [Store(address) for _ in range(2)]
+    me = stores[0].learner().id
+    sitting = stores[0].sittings.begin(me, "trial-1-both-000000", None, pauses=True)
+    seen = Seen("rgb-to-hsv", "colour", "a", "", right=True, first=True, at=time.time())
+
+    def write(place: int) -> bool:
+        store = stores[place % 2]
+        store.settle(me, {f"s{place}": place})
+        store.cards.review(me, [Asked(f"T{place}", Grade.GOOD)], time.time())
+        store.sittings.save(sitting, {"1": [str(place)], f"{place}a": ["x"]})
+        return store.sittings.hand_in(sitting, (seen,)) if place > 7 else False
+
+    with ThreadPoolExecutor(8) as threads:
+        list(threads.map(write, range(8)))
+        handed = list(threads.map(write, range(8, 16)))
+    assert sum(handed) == 1
+    assert len(stores[1].seen(me)) == 1
+    assert len(stores[1].cards.all(me)) == 16
+    assert stores[0].learner().settings.keys() == {f"s{place}" for place in range(16)}
+    assert stores[0].sittings.answers(sitting).keys() >= {"1"} | {f"{n}a" for n in range(8)}
+    for store in stores:
+        store.close()
+
+
+def test_what_fails_half_way_has_written_nothing(database):
+    store = Store(database())
+    me = store.learner().id
+    attempt = store.begin(me, Which("rgb-to-hsv", "4"), {})
+    attempt.state = {"new": True}
+    with pytest.raises(TypeError):
+        store.keep(attempt, (Seen("t", "c", "a", "", right=True, first=True, at=0.0), None))
+    assert store.attempt(me, attempt.id).state == {}
+    assert store.seen(me) == []
+    store.close()
+
+
+class TestAddresses:
+    """What is wrong with an address is said, and never its password."""
+
+    @pytest.mark.parametrize(
+        ("address", "said"),
+        [
+            ("postgresql+psycopg://me:geheim@127.0.0.1:1/x", r"me:\*\*\*@127.0.0.1:1/x: .*refused"),
+            ("postgresql+psycopg://me@127.0.0.1:1/x?password=geheim", "refused"),
+            ("postgresql+psycopg://me:geheim@nowhere.invalid/x", "nowhere.invalid"),
+            ("postgresql+psycopg://me:geh@eim@127.0.0.1/x", "%40"),
+            ("postgresql+psycopg://me:x@127.0.0.1:geheim/x", "an address is"),
+            ("postgresql+psycopg2://me:geheim@127.0.0.1/x", "an address is"),
+            ("postgres://me:geheim@127.0.0.1/x", "an address is"),
+            ("mysql://me:geheim@127.0.0.1/x", "an address is"),
+            ("geheim", "an address is"),
+            ("", "an address is"),
+            ("sqlite:////nowhere/geh/x.sqlite3", "unable to open"),
+        ],
+    )
+    def test_what_is_wrong_is_said(self, address, said):
+        with pytest.raises(StoreError, match=said) as raised:
+            Store(address)
+        assert "geheim" not in str(raised.value)
+        assert "eim@" not in str(raised.value)
+        assert "\n" not in str(raised.value)
+
+    def test_a_driver_that_is_missing_is_named(self, monkeypatch):
+        monkeypatch.setitem(sys.modules, "psycopg", None)
+        with pytest.raises(StoreError, match=r"psycopg.*quizgen\[postgres\]"):
+            Store("postgresql+psycopg://me:geheim@127.0.0.1:1/x")
+
+    def test_errors_of_the_database_do_not_hold_what_was_written(self, database):
+        store = Store(database())
+        row = {
+            "id": store.learner().id,
+            "name": "me",
+            "settings": {"typed": "geheim"},
+            "since": 1.0,
+        }
+        with store.database.writing() as connection, pytest.raises(IntegrityError) as raised:
+            connection.execute(insert(METADATA.tables["learner"]).values(**row))
+        assert "geheim" not in str(raised.value)
+        store.close()
