@@ -12,19 +12,14 @@ from quizgen.locale import in_script, line_heights, marks, word
 from quizgen.paper.paper import Paper
 from quizgen.question.markup import blocks, display, inline
 from quizgen.render import fonts
+from quizgen.render.layouts import environment
 from quizgen.render.room import squares
 
 
 @cache
-def _environment() -> jinja2.Environment:
-    environment = jinja2.Environment(
-        loader=jinja2.PackageLoader("quizgen.render", "pages"),
-        autoescape=True,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        undefined=jinja2.StrictUndefined,
-    )
-    environment.globals.update(
+def _layouts() -> jinja2.Environment:
+    layouts = environment("quizgen.render")
+    layouts.globals.update(
         inline=inline,
         blocks=blocks,
         display=display,
@@ -34,7 +29,7 @@ def _environment() -> jinja2.Environment:
         squares=squares,
         svg=lambda figure: Markup(figure.svg.decode()),
     )
-    return environment
+    return layouts
 
 
 @cache
@@ -59,7 +54,7 @@ def page(layout: str, langs: tuple[str, ...], style: str = "", **content: object
     """
     bangla = set(langs) & set(in_script("Beng"))
     made = (
-        _environment()
+        _layouts()
         .get_template(layout)
         .render(
             main=langs[0],

@@ -14,6 +14,7 @@ from markupsafe import Markup
 from quizgen.files import write_all
 from quizgen.locale import language, languages
 from quizgen.render.fonts import bangla_uri
+from quizgen.render.layouts import environment
 from quizgen.tradeoff.data import as_data, markdown, words
 from quizgen.tradeoff.knobs import Curve
 from quizgen.tradeoff.measure import Measured, pareto
@@ -47,30 +48,24 @@ def write(report: Report, folder: Path, command: str) -> list[Path]:
 def html(report: Report, command: str) -> str:
     """The whole page."""
     style = (files("quizgen.tradeoff") / "pages" / "tradeoff.css").read_text("utf-8")
-    page = _environment().get_template("tradeoff.html.j2")
+    page = _layouts().get_template("tradeoff.html.j2")
     there = {lang: language(lang) for lang in languages()}
     made = page.render(report=report, command=command, style=style + STYLE, languages=there)
     return made + "\n"
 
 
 @cache
-def _environment() -> jinja2.Environment:
-    environment = jinja2.Environment(
-        loader=jinja2.PackageLoader("quizgen.tradeoff", "pages"),
-        autoescape=True,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        undefined=jinja2.StrictUndefined,
-    )
-    environment.filters.update(time=time_text, count=count)
-    environment.globals.update(
+def _layouts() -> jinja2.Environment:
+    layouts = environment("quizgen.tradeoff")
+    layouts.filters.update(time=time_text, count=count)
+    layouts.globals.update(
         faces={weight: bangla_uri(name) for name, weight in (("Regular", 400), ("Bold", 700))},
         words=words,
         front=lambda rungs: _front(rungs, "hard"),
         family_plot=family_plot,
         knob_plot=knob_plot,
     )
-    return environment
+    return layouts
 
 
 def _front(rungs: tuple[Measured, ...], which: str) -> set[int]:

@@ -12,6 +12,7 @@ from starlette.requests import Request
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 
 from quizgen.locale import FIRST, in_script, known, language, languages, line_heights, marks, table
+from quizgen.render.layouts import environment
 from quizgen.web.guard import form_token
 from quizgen.web.site import Site
 
@@ -20,17 +21,11 @@ HX = "hx-request"
 
 
 @cache
-def _environment() -> jinja2.Environment:
-    environment = jinja2.Environment(
-        loader=jinja2.PackageLoader("quizgen.web", "pages"),
-        autoescape=True,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        undefined=jinja2.StrictUndefined,
-    )
-    environment.filters["html"] = Markup  # of what was made here, see ``made.Html``
-    environment.globals.update(languages=languages, language=language)
-    return environment
+def _layouts() -> jinja2.Environment:
+    layouts = environment("quizgen.web")
+    layouts.filters["html"] = Markup  # of what was made here, see ``made.Html``
+    layouts.globals.update(languages=languages, language=language)
+    return layouts
 
 
 @cache
@@ -70,7 +65,7 @@ def page(request: Request, layout: str, status: int = 200, **content: Any) -> Re
         return said(lang, key, **values)
 
     html = (
-        _environment()
+        _layouts()
         .get_template(layout)
         .render(
             lang=lang,
