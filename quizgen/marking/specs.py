@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from typing import TypeVar
 
@@ -45,13 +46,13 @@ class Common:
         """The unit of each value: the one that the chain shows."""
         return [""] * len(self.of)
 
+    @abstractmethod
     def judge(self, typed: str, options: Options, /) -> Verdict:
         """Judge what was typed; each kind says how."""
-        raise NotImplementedError
 
+    @abstractmethod
     def show(self) -> str:
         """The key as it is printed; each kind says how."""
-        raise NotImplementedError
 
     def show_in(self, _lang: str, /) -> str:
         """The key as it is printed; most kinds have one notation for all languages."""
