@@ -18,7 +18,9 @@ from quizgen.figures._parameters import Parameter, complete
 from quizgen.locale import languages
 from quizgen.maths.notation import people
 
-PHOTOGRAPHS = frozenset({"artefacts", "depth_of_field", "fall_off", "grey_edits", "noise"})
+PHOTOGRAPHS = frozenset(
+    {"artefacts", "depth_of_field", "fall_off", "focus_photos", "grey_edits", "noise"}
+)
 """Figures that are pictures of the camera."""
 
 

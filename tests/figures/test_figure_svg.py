@@ -16,8 +16,8 @@ import pytest
 from figure_cases import HIDDEN, REFERENCE, draws
 
 from quizgen.errors import BankError
+from quizgen.figures import PHOTOGRAPHS, parameters, render
 from quizgen.figures import _pen as pens
-from quizgen.figures import parameters, render
 from quizgen.figures._canvas import Canvas
 from quizgen.figures._letters import SUBSCRIPT, outline
 from quizgen.figures._parameters import complete
@@ -127,6 +127,12 @@ def test_line_art_is_transparent_and_pictures_are_on_white(name, quiz):
             "luminosity", "noise",
         }  # fmt: skip
     assert figure.dark == ("keep" if name in pictures else "invert")
+
+
+def test_what_holds_a_picture_is_a_photograph_unless_it_is_painted():
+    shown = {name for name in FIGURES
+             if b"<image" in render(name, REFERENCE[name], quiz=True, lang="en").svg}  # fmt: skip
+    assert shown - {"hsv_edits", "luminosity"} == PHOTOGRAPHS
 
 
 def _labels(name, values, *, quiz):
