@@ -49,6 +49,11 @@ def _unit(unit: str) -> str:
     return f" {{{unit}}}" if unit else ""
 
 
+def numbered(number: int, told: str, *, quiz: bool) -> str:
+    """Caption of one of several pictures: its number, and outside a quiz what it shows."""
+    return f"{{{number}}}" if quiz else f"{{{number}:}}  {told}"
+
+
 def spoken(label: str) -> str:
     """Turn a label of a figure into plain text: no layout braces."""
     return label.replace("{", "").replace("}", "")

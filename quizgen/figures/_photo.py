@@ -1,10 +1,11 @@
-"""Photographs of the camera simulator inside a figure: framed, with bytes that never vary."""
+"""Pictures inside a figure, framed, with their histograms; bytes that never vary."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from quizgen.camera.codes import histogram as counted
 from quizgen.figures._pen import INK, LINE, THIN, Pen, Point
 from quizgen.png import encode
 
@@ -12,36 +13,37 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from quizgen.figures._canvas import Canvas
-
-Box = tuple[float, float, float, float]
-LETTERS = "ABCD"
+    from quizgen.figures._canvas import Box, Canvas
 
 
 def place(canvas: Canvas, pen: Pen, codes: NDArray[np.uint8], box: Box) -> None:
     """Put a photograph into a box of the figure and frame it."""
+    framed(canvas, pen, encode(codes), box)
+
+
+def framed(canvas: Canvas, pen: Pen, png: bytes, box: Box) -> None:
+    """Put a PNG file into a box of the figure and frame it."""
     left, low, wide, high = box
-    canvas.picture(encode(codes), box)
+    canvas.picture(png, box)
     corners = [(left, low), (left + wide, low), (left + wide, low + high), (left, low + high)]
     pen.area("frames", corners, THIN)
 
 
-def bars(pen: Pen, counts: Sequence[float], box: Box) -> list[Point]:
-    """Draw a histogram as filled steps on a base line; the tallest bar is as high as the box.
+def histogram(pen: Pen, codes: NDArray[np.uint8], bins: int, box: Box) -> None:
+    """Draw the histogram of a grey picture, with 0 and 255 below its ends."""
+    left, low, wide, _ = box
+    bars(pen, [float(count) for count in counted(codes[..., None], bins, top=255)], box)
+    pen.label((left, low - 7), "0", "l", 8.5)
+    pen.label((left + wide, low - 7), "255", "r", 8.5)
 
-    Returns
-    -------
-    list of Point
-        Top middle of each bar.
-    """
+
+def bars(pen: Pen, counts: Sequence[float], box: Box) -> None:
+    """Draw a histogram as filled steps on a base line; the tallest bar is as high as the box."""
     left, low, wide, high = box
     step, tallest = wide / len(counts), max(counts)
     steps: list[Point] = [(left, low)]
-    tops = []
-    for place_, count in enumerate(counts):
-        x, top = left + place_ * step, low + high * count / tallest
+    for number, count in enumerate(counts):
+        x, top = left + number * step, low + high * count / tallest
         steps += [(x, top), (x + step, top)]
-        tops.append((x + step / 2, top))
     pen.area("histogram", [*steps, (left + wide, low)], INK)
     pen.line("axes", [(left, low), (left + wide, low)], LINE)
-    return tops

@@ -6,7 +6,7 @@ from functools import cache
 from itertools import permutations
 from typing import TYPE_CHECKING
 
-from quizgen.figures._numbers import given
+from quizgen.figures._numbers import given, numbered
 from quizgen.figures._parameters import Parameter, Values, require
 from quizgen.figures._words import words_of
 
@@ -31,7 +31,6 @@ EDITS = ("original", "coarse", "squeezed", "brightened")
 BINS = 128
 _WIDE, _HIGH = 144, 78
 _GAP, _CAPTION, _HISTOGRAM, _TICKS = 8.0, 14.0, 34.0, 12.0
-_NUMBERS = "1234"
 
 
 def edit_order(order: float) -> tuple[str, ...]:
@@ -85,7 +84,7 @@ def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
         corner = (_GAP + (place % 2) * (wide + _GAP), (1 - place // 2) * cell)
         _photo(canvas, pen, _edited(edit, values), (*corner, wide, high))
         middle = (corner[0] + wide / 2, corner[1] + cell - 10)
-        pen.label(middle, _caption(values, place, edit, quiz=quiz), size=9.5)
+        pen.label(middle, numbered(place + 1, _symbols(values, edit), quiz=quiz), size=9.5)
     pen.onto(canvas, background="#ffffff")
 
 
@@ -98,21 +97,12 @@ def _edited(edit: str, values: Values) -> Image:
 
 def _photo(canvas: Canvas, pen: Pen, image: Image, where: tuple[float, ...]) -> None:
     from quizgen.camera import pictures
-    from quizgen.camera.codes import histogram
-    from quizgen.figures._photo import bars, place
+    from quizgen.figures._photo import histogram, place
 
     left, low, wide, high = where
     codes = pictures.codes(image)[..., 0]
     place(canvas, pen, codes, (left, low + _TICKS + _HISTOGRAM + 3, wide, high))
-    counts = [float(count) for count in histogram(codes[..., None], BINS, top=255)]
-    bars(pen, counts, (left, low + _TICKS, wide, _HISTOGRAM))
-    pen.label((left, low + 5), "0", "l", 8.5)
-    pen.label((left + wide, low + 5), "255", "r", 8.5)
-
-
-def _caption(values: Values, place: int, edit: str, *, quiz: bool) -> str:
-    mark = f"{{{_NUMBERS[place]}}}"
-    return mark if quiz else f"{mark}{{:}}  {_symbols(values, edit)}"
+    histogram(pen, codes, BINS, (left, low + _TICKS, wide, _HISTOGRAM))
 
 
 def _symbols(values: Values, edit: str) -> str:
@@ -129,7 +119,7 @@ def alt(values: Values, lang: str, *, quiz: bool) -> str:
     words = words_of("grey_edits", lang)
     fill = {name: given(values[name]) for name in ("n", "low", "high", "s")}
     told = [
-        f"{_NUMBERS[place]}: {words[edit + ' seen' if quiz else edit].format(**fill)}"
-        for place, edit in enumerate(edit_order(values["order"]))
+        f"{number}: {words[edit + ' seen' if quiz else edit].format(**fill)}"
+        for number, edit in enumerate(edit_order(values["order"]), 1)
     ]
     return words["figure"] + " " + "; ".join(told) + words["stop"]

@@ -6,7 +6,7 @@ from functools import cache
 from itertools import permutations
 from typing import TYPE_CHECKING
 
-from quizgen.figures._numbers import given, spoken
+from quizgen.figures._numbers import given, numbered, spoken
 from quizgen.figures._parameters import Parameter, Values
 from quizgen.figures._words import words_of
 
@@ -32,7 +32,6 @@ PARAMETERS = {
 }
 
 EDITS = ("original", "V", "S", "H")
-_NUMBERS = "1234"
 _GAP, _CAPTION = 8.0, 15.0
 
 
@@ -56,7 +55,8 @@ def edit_order(order: float) -> tuple[str, ...]:
 def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, show numbers without the edits."""
     from quizgen.figures import _scene
-    from quizgen.figures._pen import THIN, WIDTH, Pen
+    from quizgen.figures._pen import WIDTH, Pen
+    from quizgen.figures._photo import framed
 
     wide = (WIDTH - 3 * _GAP) / 2
     high = round(wide * _scene.HEIGHT / _scene.WIDTH)
@@ -66,16 +66,10 @@ def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
         left = _GAP + (place % 2) * (wide + _GAP)
         low = (1 - place // 2) * (high + _CAPTION) + _CAPTION
         box = (left, low, wide, high)
-        canvas.picture(_png(int(values["scene"]), palettes[edit]), box)
-        frame = [(left, low), (left + wide, low), (left + wide, low + high), (left, low + high)]
-        pen.area("frames", frame, THIN)
-        pen.label((left + wide / 2, low - 7.5), _caption(values, place, edit, quiz=quiz))
+        framed(canvas, pen, _png(int(values["scene"]), palettes[edit]), box)
+        text = numbered(place + 1, _symbols(values, edit), quiz=quiz)
+        pen.label((left + wide / 2, low - 7.5), text)
     pen.onto(canvas, background="#ffffff")
-
-
-def _caption(values: Values, place: int, edit: str, *, quiz: bool) -> str:
-    mark = f"{{{_NUMBERS[place]}}}"
-    return mark if quiz else f"{mark}{{:}}  {_symbols(values, edit)}"
 
 
 def _symbols(values: Values, edit: str) -> str:
@@ -127,7 +121,7 @@ def alt(values: Values, lang: str, *, quiz: bool) -> str:
     if quiz:
         return words["figure"] + words["quiz"]
     captions = []
-    for place, edit in enumerate(edit_order(values["order"])):
+    for number, edit in enumerate(edit_order(values["order"]), 1):
         what = words["original"] if edit == "original" else spoken(_symbols(values, edit))
-        captions.append(f"{_NUMBERS[place]}: {what}")
+        captions.append(f"{number}: {what}")
     return words["figure"] + " " + "; ".join(captions) + words["stop"]

@@ -6,7 +6,7 @@ from functools import cache
 from itertools import permutations
 from typing import TYPE_CHECKING
 
-from quizgen.figures._numbers import given, spoken
+from quizgen.figures._numbers import given, numbered, spoken
 from quizgen.figures._parameters import Parameter, Values
 from quizgen.figures._words import words_of
 
@@ -31,7 +31,6 @@ BINS = 52
 _WIDE, _HIGH = 96, 72
 _GAP, _CAPTION, _ZOOM, _HISTOGRAM, _TICKS = 6.0, 15.0, 48.0, 42.0, 13.0
 _DETAIL = (slice(26, 38), slice(30, 54))
-_NUMBERS = "123"
 
 
 def noise_order(order: float) -> tuple[str, ...]:
@@ -76,30 +75,21 @@ def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     for place, kind in enumerate(noise_order(values["order"])):
         left = _GAP + place * (wide + _GAP)
         _column(canvas, pen, made[KINDS.index(kind)], (left, wide, high))
-        text = _caption(values, place, kind, quiz=quiz)
+        text = numbered(place + 1, _symbols(values, kind), quiz=quiz)
         pen.label((left + wide / 2, pen.height - 8), text, size=9.5)
     pen.onto(canvas, background="#ffffff")
 
 
 def _column(canvas: Canvas, pen: Pen, image: Image, where: tuple[float, float, float]) -> None:
     from quizgen.camera import pictures
-    from quizgen.camera.codes import histogram
-    from quizgen.figures._photo import bars, place
+    from quizgen.figures._photo import histogram, place
 
     left, wide, high = where
     codes = pictures.codes(image)[..., 0]
     low = _TICKS + _HISTOGRAM + _GAP
     place(canvas, pen, codes[_DETAIL].repeat(4, axis=0).repeat(4, axis=1), (left, low, wide, _ZOOM))
     place(canvas, pen, codes, (left, low + _ZOOM + _GAP, wide, high))
-    counts = [float(count) for count in histogram(codes[..., None], BINS, top=255)]
-    bars(pen, counts, (left, _TICKS, wide, _HISTOGRAM))
-    pen.label((left, 6), "0", "l", 8.5)
-    pen.label((left + wide, 6), "255", "r", 8.5)
-
-
-def _caption(values: Values, place: int, kind: str, *, quiz: bool) -> str:
-    mark = f"{{{_NUMBERS[place]}}}"
-    return mark if quiz else f"{mark}{{:}}  {_symbols(values, kind)}"
+    histogram(pen, codes, BINS, (left, _TICKS, wide, _HISTOGRAM))
 
 
 def _symbols(values: Values, kind: str) -> str:
@@ -114,7 +104,7 @@ def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words; in a quiz, say what is seen, not which noise it is."""
     words = words_of("noise", lang)
     told = []
-    for place, kind in enumerate(noise_order(values["order"])):
+    for number, kind in enumerate(noise_order(values["order"]), 1):
         seen = words[f"{kind} seen"] if quiz else f"{words[kind]}, {spoken(_symbols(values, kind))}"
-        told.append(f"{_NUMBERS[place]}: {seen}")
+        told.append(f"{number}: {seen}")
     return words["figure"] + " " + "; ".join(told) + words["stop"]
