@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from quizgen.figures._numbers import equation, given, spoken, statement
 from quizgen.figures._parameters import ABSENT, Parameter, Values, require
 from quizgen.figures._words import words_of
+from quizgen.figures.depth_of_field import disc
 
 if TYPE_CHECKING:
     from quizgen.figures._canvas import Canvas
@@ -30,12 +31,6 @@ PARAMETERS = {
 
 _LEFT, _RIGHT, _LOW, _TOP = 34.0, 292.0, 34.0, 156.0
 _POINTS = 120
-
-
-def disc(values: Values, number: str, z: float) -> float:
-    """Blur disc in um of a thing at z metres: f^2 |z-s| / (N z (s-f))."""
-    focal, s = values["f"], values["s"]
-    return 1000 * focal**2 * abs(z - s) / (values[number] * z * (1000 * s - focal))
 
 
 def _reach(values: Values, number: str, diameter: float) -> tuple[float, float]:
@@ -110,7 +105,7 @@ def _curve(pen: Pen, values: Values, number: str, name: str) -> None:
     first, last = _seen(values, number)
     inverse = [1 / first + (1 / last - 1 / first) * k / _POINTS for k in range(_POINTS + 1)]
     places = sorted({*(1 / u for u in inverse), values["s"]})
-    points = [_at(values, z, disc(values, number, z)) for z in places]
+    points = [_at(values, z, disc(values, values[number], z)) for z in places]
     pen.line("curves", points, BOLD)
     x, y = points[-1]
     at, anchor = ((x + 5, y), "l") if last == values["far"] else ((x, y + 8), "c")
@@ -152,9 +147,9 @@ def alt(values: Values, lang: str, *, quiz: bool) -> str:
     step = _step(values["far"])
     places = [step * count for count in range(1, round(values["far"] / step) + 1)]
     for place, number in enumerate(_numbers(values)):
-        shown = [z for z in places if disc(values, number, z) <= values["high"]]
-        read = "; ".join(f"{given(z)} m: {round(disc(values, number, z))} µm" for z in shown)
-        told.append(words["curve"].format(place + 1, read))
+        discs = [(z, disc(values, values[number], z)) for z in places]
+        read = [f"{given(z)} m: {round(um)} µm" for z, um in discs if um <= values["high"]]
+        told.append(words["curve"].format(place + 1, "; ".join(read)))
     if "c" in values:
         told.append(words["limit"].format(given(values["c"])))
     if not quiz:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from quizgen.figures._numbers import derived, given
+from quizgen.figures._numbers import derived, given, numbered
 from quizgen.figures._parameters import Parameter, Values, require
 from quizgen.figures._words import words_of
 
@@ -34,7 +34,8 @@ SENSOR_MM = 36.0
 
 _WIDE, _HIGH = 144, 96
 _GAP, _TOP, _BELOW = 8.0, 15.0, 15.0
-_NUMBERS = "12"
+_APART = 48.0
+"""Pixels between the middles of neighbouring objects."""
 
 
 def f_numbers(values: Values) -> tuple[float, float]:
@@ -57,9 +58,9 @@ def photographed(values: Values) -> tuple[Scene, Camera]:
     )
     things = tuple(
         Thing(
-            shape, x=Length(48.0 * (place - 1)), y=Length(2.0), width=Length(36), height=Length(52),
-            radius=Length(20), cell=Length(9), depth=values[f"z_{place + 1}"], texture=texture,
-            colour=colour, other=other,
+            shape, x=Length(_APART * (place - 1)), y=Length(2.0), width=Length(36),
+            height=Length(52), radius=Length(20), cell=Length(9), depth=values[f"z_{place + 1}"],
+            texture=texture, colour=colour, other=other,
         )
         for place, (shape, texture, colour, other) in enumerate(looks)
     )  # fmt: skip
@@ -90,10 +91,9 @@ def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     for place, photo in enumerate(photos):
         left = _GAP + place * (wide + _GAP)
         put(canvas, pen, photo.pixels(), (left, _BELOW, wide, high))
-        mark, number = _NUMBERS[place], given(f_numbers(values)[place])
-        text = f"{{{mark}}}" if quiz else f"{{{mark}:}}  f{{/{number}}}"
-        pen.label((left + wide / 2, pen.height - 8), text)
-        _distances(pen, values, left, wide)
+        told = f"f{{/{given(f_numbers(values)[place])}}}"
+        pen.label((left + wide / 2, pen.height - 8), numbered(place + 1, told, quiz=quiz))
+        distances(pen, values, left, wide, 9)
     pen.onto(canvas, background="#ffffff")
 
 
@@ -104,17 +104,22 @@ def _check(values: Values) -> None:
     require("depth_of_field", values["N_1"] != values["N_2"], "the f-numbers must differ")
 
 
-def _distances(pen: Pen, values: Values, left: float, wide: float) -> None:
+def distances(pen: Pen, values: Values, left: float, wide: float, size: float) -> None:
+    """Write below a photograph of the objects how far away each stands."""
     for place in range(3):
-        middle = left + wide / 2 + (place - 1) * 48.0 * wide / _WIDE
-        pen.label((middle, 7), f"{given(values[f'z_{place + 1}'])} {{m}}", size=9)
+        middle = left + wide / 2 + (place - 1) * _APART * wide / _WIDE
+        pen.label((middle, 7), f"{given(values[f'z_{place + 1}'])} {{m}}", size=size)
 
 
 def discs(values: Values, number: float) -> tuple[float, ...]:
-    """Blur discs of the three objects on the sensor, mm: f^2 |z-s| / (N z (s-f))."""
-    focus, focal = 1000.0 * values["s"], values["f"]
-    depths = [1000.0 * values[f"z_{place}"] for place in (1, 2, 3)]
-    return tuple(focal**2 * abs(z - focus) / (number * z * (focus - focal)) for z in depths)
+    """Blur discs of the three objects on the sensor, mm."""
+    return tuple(disc(values, number, values[f"z_{place}"]) / 1000 for place in (1, 2, 3))
+
+
+def disc(values: Values, number: float, z: float) -> float:
+    """Blur disc in um of a thing at z metres: f^2 |z-s| / (N z (s-f))."""
+    focal, s = values["f"], values["s"]
+    return 1000 * focal**2 * abs(z - s) / (number * z * (1000 * s - focal))
 
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
@@ -125,7 +130,7 @@ def alt(values: Values, lang: str, *, quiz: bool) -> str:
     words = words_of("depth_of_field", lang)
     depths = [given(values[f"z_{place}"]) for place in (1, 2, 3)]
     told = [words["figure"].format(*depths)]
-    for mark, number in zip(_NUMBERS, f_numbers(values), strict=True):
+    for mark, number in enumerate(f_numbers(values), 1):
         if quiz:
             told.append(words["wide" if number == min(f_numbers(values)) else "small"].format(mark))
         else:

@@ -9,7 +9,7 @@ from itertools import permutations
 from typing import TYPE_CHECKING
 
 from quizgen.figures import depth_of_field
-from quizgen.figures._numbers import derived, given
+from quizgen.figures._numbers import derived, given, numbered
 from quizgen.figures._parameters import Parameter, Values, require
 from quizgen.figures._words import words_of
 
@@ -37,8 +37,6 @@ PARAMETERS = {
 
 _ORDERS = tuple(permutations(range(4)))
 _GAP, _TOP, _BELOW = 6.0, 15.0, 14.0
-_SPREAD = 48.0 / 144.0
-"""Distance of the objects as a share of the picture's width."""
 
 
 def settings(values: Values) -> tuple[tuple[float, float], ...]:
@@ -66,16 +64,10 @@ def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
             (photo,) = pictures.at_f_numbers(scene, camera, (number,))
         left = _GAP + place * (wide + _GAP)
         put(canvas, pen, photo.pixels(), (left, _BELOW, wide, high))
-        text = f"{{{place + 1}}}" if quiz else _told(place + 1, s, number)
-        pen.label((left + wide / 2, pen.height - 8), text)
-        for thing in (1, 2, 3):
-            middle = left + wide * (0.5 + (thing - 2) * _SPREAD)
-            pen.label((middle, 7), f"{given(values[f'z_{thing}'])} {{m}}", size=8.5)
+        told = f"{given(s)} {{m,}} f{{/{given(number)}}}"
+        pen.label((left + wide / 2, pen.height - 8), numbered(place + 1, told, quiz=quiz))
+        depth_of_field.distances(pen, values, left, wide, 8.5)
     pen.onto(canvas, background="#ffffff")
-
-
-def _told(mark: int, s: float, number: float) -> str:
-    return f"{{{mark}:}}  {given(s)} {{m,}} f{{/{given(number)}}}"
 
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
