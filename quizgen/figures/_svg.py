@@ -15,7 +15,7 @@ def with_title(inside: str, width: float, height: float, title: str, lang: str) 
     Parameters
     ----------
     inside : str
-        From ``body``.
+        From ``Canvas.inside``.
     width, height : float
         Size in points.
     title, lang : str

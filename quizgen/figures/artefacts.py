@@ -106,13 +106,13 @@ def photographed(kind: str, variant: int, way: int = 0) -> tuple[Scene, Camera]:
     variant : int
         0 to 3: where the main thing stands, and which way it moves.
     way : int
-        As ``PARAMETERS`` says; for rolling shutter and motion blur only.
+        As ``PARAMETERS`` says, where something moves.
     """
     from quizgen.camera import Camera, Scene
 
     side = 1.0 if variant % 2 else -1.0
     things, behind = _things(kind, side, variant)
-    if way and kind in ("rolling shutter", "motion blur"):
+    if way:
         things = _turned(things, way)
     camera = Camera(gamma="srgb").but(**_CAMERAS[kind])
     return Scene(_WIDE, _HIGH, things, behind, seed=variant), camera

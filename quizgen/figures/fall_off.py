@@ -127,15 +127,11 @@ def _mark(pen: Pen, values: Values, *, told: bool) -> None:
 
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
-    """Describe the figure in words; in a quiz, the curve is told at its tenths instead."""
+    """Describe the figure in words, the curve at its quarters; in a quiz, not at the mark."""
     words = words_of("fall_off", lang)
     steps = [values["extent"] * step / 4 for step in range(5)]
-    read = "; ".join(f"{given(r)} mm: {_rounded(share(values, r))}" for r in steps)
+    read = "; ".join(f"{given(r)} mm: {share(values, r):.2f}" for r in steps)
     told = words["figure"].format(read=read, mark=spoken(statement("r", values["r"], "mm")))
     if quiz:
         return told
     return told + words["answer"].format(light=derived(share(values, values["r"])))
-
-
-def _rounded(light: float) -> str:
-    return f"{light:.2f}"
