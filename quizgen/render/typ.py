@@ -170,7 +170,7 @@ def document(layout: str, body: str) -> str:
         What calls its functions.
     """
     bangla = "".join(f"{string(lang)}," for lang in in_script("Beng"))
-    return f"#let bangla = ({bangla})\n{_layout(layout)}\n{body}"
+    return f"#let bangla = ({bangla})\n{_layout('common.typ')}\n{_layout(layout)}\n{body}"
 
 
 def compiled(text: str, pictures: Mapping[str, bytes]) -> bytes:
