@@ -75,7 +75,7 @@ class RenderError(QuizgenError):
 
 
 class StoreError(QuizgenError):
-    """A database cannot be opened."""
+    """The database of the browser's server, or its port, cannot be opened."""
 
 
 class KeyFileError(QuizgenError):

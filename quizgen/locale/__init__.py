@@ -163,7 +163,7 @@ def table(lang: str, name: str = "interface") -> dict[str, Any]:
     lang : str
         One of ``languages()``.
     name : str
-        The file: ``interface``, ``messages``, ``figures``, ``speech``, ``cards`` or ``tradeoff``.
+        One of its files without the suffix, such as ``interface``.
 
     Raises
     ------
