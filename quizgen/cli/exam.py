@@ -12,7 +12,16 @@ import click
 from quizgen import render
 from quizgen.bank.levels import CHOICES, EXAM
 from quizgen.cli.command import command
-from quizgen.cli.options import SEED, BankOptions, Whole, bank_options, checked, open_bank, split
+from quizgen.cli.options import (
+    LEVEL_HELP,
+    SEED,
+    BankOptions,
+    Whole,
+    bank_options,
+    checked,
+    open_bank,
+    split,
+)
 from quizgen.cli.terminal import Progress
 from quizgen.errors import ChoiceError, CodeError, RenderError
 from quizgen.locale import FIRST, choices
@@ -66,7 +75,7 @@ class Options(BankOptions):
 @click.option(
     "--level",
     type=click.Choice(CHOICES, case_sensitive=False),
-    help=f"As in an exam, step by step, turned round, or by the seed. [default: {EXAM}]",
+    help=f"{LEVEL_HELP} [default: {EXAM}]",
 )
 @click.option(
     "--format", "formats", default="html,pdf", show_default=True,

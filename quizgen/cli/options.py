@@ -25,6 +25,7 @@ class Whole(click.IntRange):
     name = "whole number"
 
 
+LEVEL_HELP = "As in an exam, step by step, turned round, or by the seed."
 SEED = Whole(0, LARGEST_SEED)
 """Seeds of papers, decks and previews."""
 
@@ -64,8 +65,7 @@ def level_option(command: Callable[P, T]) -> Callable[P, T]:
     """Add ``--level``, one of the levels there are."""
     kind = click.Choice(CHOICES, case_sensitive=False)
     return click.option(
-        "--level", type=kind, default=EXAM, show_default=True,
-        help="As in an exam, step by step, turned round, or by the seed.",
+        "--level", type=kind, default=EXAM, show_default=True, help=LEVEL_HELP
     )(command)  # fmt: skip
 
 

@@ -9,8 +9,8 @@ import click
 
 from quizgen.cli.options import BankOptions, bank_options, checked, open_bank, split, topic_option
 from quizgen.locale import FIRST, choices
+from quizgen.render import RENDERERS
 
-FORMATS = ("html", "pdf")
 NAME = "formulas"
 
 
@@ -27,7 +27,7 @@ class Options(BankOptions):
 @click.option("--lang", type=click.Choice(choices(), case_sensitive=False), default=FIRST,
               show_default=True, help="Language.")  # fmt: skip
 @click.option("--topic", "topics", help="Only these topics, by comma.")
-@click.option("--format", "formats", default=",".join(FORMATS), show_default=True,
+@click.option("--format", "formats", default=",".join(RENDERERS), show_default=True,
               help="html (with all remarks), pdf (to print); by comma.")  # fmt: skip
 @click.option("--out", type=click.Path(path_type=Path), default=Path("sheet"), show_default=True,
               help="Folder to write to.")  # fmt: skip
@@ -38,10 +38,10 @@ def sheet(**options: Unpack[Options]) -> None:
     from quizgen.question.sheet import sheet as formula_sheet
     from quizgen.render import render_sheet
 
-    formats = [checked("--format", name, FORMATS) for name in split(options["formats"])]
+    formats = [checked("--format", name, RENDERERS) for name in split(options["formats"])]
     if not formats:
         raise click.BadParameter(
-            f"no format (allowed: {', '.join(FORMATS)})", param_hint="--format"
+            f"no format (allowed: {', '.join(RENDERERS)})", param_hint="--format"
         )
     bank = open_bank(options)
     topics = [topic_option(bank, name) for name in split(options["topics"])]
