@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Literal, get_args
 
 Made = Literal["guided", "transfer"]
 """Levels that are made from the chain."""
@@ -10,5 +10,5 @@ EXAM = "exam"
 """As its author wrote it: the level of whoever asks for none."""
 MIXED = "mixed"
 """One of the others for each question, by the seed."""
-CHOICES = (EXAM, "guided", "transfer", MIXED)
+CHOICES: tuple[str, ...] = (EXAM, *get_args(Made), MIXED)
 """What can be asked for."""
