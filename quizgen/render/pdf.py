@@ -299,6 +299,3 @@ def render(paper: Paper, kind: str) -> bytes:
         If Typst refuses the document or a font is missing.
     """
     return compiled(*source(paper, kind))
-
-
-__all__ = ["Part", "render", "source"]
