@@ -6,17 +6,7 @@ from collections.abc import Iterable, Iterator
 from functools import singledispatch
 from itertools import chain
 
-from quizgen.bank.prose import (
-    Block,
-    Code,
-    CodeBlock,
-    Inline,
-    Items,
-    Paragraph,
-    Styled,
-    Table,
-    Words,
-)
+from quizgen.bank import prose
 from quizgen.locale import word
 from quizgen.paper.paper import Item
 from quizgen.question.shown import Maths
@@ -24,23 +14,23 @@ from quizgen.question.solution import PartSolution
 
 
 @singledispatch
-def inline(part: Inline | tuple[Inline, ...]) -> str:
+def inline(part: prose.Inline | tuple[prose.Inline, ...]) -> str:
     """Inlines as text; formulas as Unicode can write them."""
     raise TypeError(type(part).__name__)
 
 
 @inline.register(tuple)
-def _inlines(parts: tuple[Inline, ...]) -> str:
+def _inlines(parts: tuple[prose.Inline, ...]) -> str:
     return "".join(map(inline, parts))
 
 
 @inline.register
-def _plain(part: Words | Code) -> str:
+def _plain(part: prose.Words | prose.Code) -> str:
     return part.text
 
 
 @inline.register
-def _styled(part: Styled) -> str:
+def _styled(part: prose.Styled) -> str:
     return inline(part.children)
 
 
@@ -49,33 +39,33 @@ def _maths(part: Maths) -> str:
     return part.text
 
 
-def blocks(parts: Iterable[Block]) -> Iterator[str]:
+def blocks(parts: Iterable[prose.Block]) -> Iterator[str]:
     """Blocks as lines."""
     return chain.from_iterable(map(_lines, parts))
 
 
 @singledispatch
-def _lines(part: Block) -> Iterable[str]:
+def _lines(part: prose.Block) -> Iterable[str]:
     raise TypeError(type(part).__name__)
 
 
 @_lines.register
-def _paragraph(part: Paragraph) -> Iterable[str]:
+def _paragraph(part: prose.Paragraph) -> Iterable[str]:
     return [inline(part.children)]
 
 
 @_lines.register
-def _code_block(part: CodeBlock) -> Iterable[str]:
+def _code_block(part: prose.CodeBlock) -> Iterable[str]:
     return [f"    {line}" for line in part.text.splitlines()]
 
 
 @_lines.register
-def _items(part: Items) -> Iterable[str]:
+def _items(part: prose.Items) -> Iterable[str]:
     return [f"  - {line}" for item in part.items for line in blocks(item)]
 
 
 @_lines.register
-def _table(part: Table) -> Iterable[str]:
+def _table(part: prose.Table) -> Iterable[str]:
     return [" | ".join(map(inline, row)) for row in (part.head, *part.rows)]
 
 

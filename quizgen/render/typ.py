@@ -10,17 +10,7 @@ from importlib.resources import files
 from typing import Any, Final
 
 from quizgen import typeset
-from quizgen.bank.prose import (
-    Block,
-    Code,
-    CodeBlock,
-    Inline,
-    Items,
-    Paragraph,
-    Styled,
-    Table,
-    Words,
-)
+from quizgen.bank import prose
 from quizgen.errors import RenderError
 from quizgen.locale import in_script, word
 from quizgen.question.filling import tied
@@ -38,23 +28,23 @@ def string(text: str) -> str:
 
 
 @singledispatch
-def inline(part: Inline | tuple[Inline, ...], lang: str) -> str:
+def inline(part: prose.Inline | tuple[prose.Inline, ...], lang: str) -> str:
     """Inlines as Typst markup."""
     raise TypeError(f"no Typst for {type(part).__name__} ({lang})")
 
 
 @inline.register(tuple)
-def _inlines(parts: tuple[Inline, ...], lang: str) -> str:
+def _inlines(parts: tuple[prose.Inline, ...], lang: str) -> str:
     return "".join(_together(group, lang) for group in tied(parts))
 
 
-def _together(group: tuple[Inline, ...], lang: str) -> str:
+def _together(group: tuple[prose.Inline, ...], lang: str) -> str:
     body = "".join(inline(part, lang) for part in group)
     return f"#box[{body}];" if len(group) > 1 else body
 
 
 @inline.register
-def _plain(part: Words, _lang: str) -> str:
+def _plain(part: prose.Words, _lang: str) -> str:
     return f"#{string(part.text)};"
 
 
@@ -64,12 +54,12 @@ def _maths(part: Maths, lang: str) -> str:
 
 
 @inline.register
-def _code(part: Code, _lang: str) -> str:
+def _code(part: prose.Code, _lang: str) -> str:
     return f"#raw({string(part.text)});"
 
 
 @inline.register
-def _styled(part: Styled, lang: str) -> str:
+def _styled(part: prose.Styled, lang: str) -> str:
     name = "emph" if part.style == "em" else "strong"
     return f"#{name}[{inline(part.children, lang)}];"
 
@@ -82,34 +72,34 @@ def equation(maths: Maths, lang: str, *, block: bool) -> str:
     return f"#math.equation(alt: {spoken}, block: {str(block).lower()}, {body});"
 
 
-def blocks(parts: Iterable[Block], lang: str) -> str:
+def blocks(parts: Iterable[prose.Block], lang: str) -> str:
     """Blocks as Typst markup."""
     return "\n\n".join(_block(part, lang) for part in parts)
 
 
 @singledispatch
-def _block(part: Block, lang: str) -> str:
+def _block(part: prose.Block, lang: str) -> str:
     raise TypeError(f"no Typst for {type(part).__name__} ({lang})")
 
 
 @_block.register
-def _paragraph(part: Paragraph, lang: str) -> str:
+def _paragraph(part: prose.Paragraph, lang: str) -> str:
     return inline(part.children, lang)
 
 
 @_block.register
-def _code_block(part: CodeBlock, _lang: str) -> str:
+def _code_block(part: prose.CodeBlock, _lang: str) -> str:
     return f"#raw({string(part.text)}, block: true);"
 
 
 @_block.register
-def _items(part: Items, lang: str) -> str:
+def _items(part: prose.Items, lang: str) -> str:
     name = "enum" if part.ordered else "list"
     return f"#{name}({', '.join(f'[{blocks(item, lang)}]' for item in part.items)});"
 
 
 @_block.register
-def _table(part: Table, lang: str) -> str:
+def _table(part: prose.Table, lang: str) -> str:
     cells = [cell for row in (part.head, *part.rows) for cell in row]
     head = ", ".join(f"[{inline(cell, lang)}]" for cell in part.head)
     rest = ", ".join(f"[{inline(cell, lang)}]" for cell in cells[len(part.head) :])
