@@ -33,6 +33,20 @@ def solved(drawn, wrong=(), **scaled):
     return {symbol.name: value for symbol, value in env.items()}
 
 
+def symbols(drawn, values):
+    """Each symbol of the model with its value."""
+    own = model(drawn.template)
+    return {one: values[one.name] for one in [*own.given, *(step.symbol for step in own.steps)]}
+
+
+def mistaken(drawn, values, trap, name):
+    """What a quantity is to who makes a mistake there, and everything before it right."""
+    wrong = model(drawn.template).traps[trap]
+    steps = wrong if isinstance(wrong, tuple) else (wrong,)
+    expr = next(step.expr for step in steps if step.symbol.name == name)
+    return sympy.N(sympy.S(expr).subs(symbols(drawn, values)), DIGITS)
+
+
 def near(a, b):
     size = max(abs(a), abs(b))
     return abs(a - b) <= sympy.Float("1e-12") * size  # models may hold floats: 0.299

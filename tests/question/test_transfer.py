@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import pytest
 import sympy
-from models import DIGITS, model, near, solved
+from models import DIGITS, model, near, solved, symbols
 
 from quizgen.bank.draw import draw
 from quizgen.bank.folder import builtin
@@ -79,8 +79,8 @@ def test_the_first_wrong_step_is_the_first_that_the_model_does_not_take(name):
         own = model(drawn.template)
         traps = own.traps[found.trap] if found.trap else ()
         env = solved(drawn, traps if isinstance(traps, tuple) else (traps,))
-        symbols = {one: env[one.name] for one in [*own.given, *(step.symbol for step in own.steps)]}
-        right = {step.symbol.name: sympy.N(step.expr.subs(symbols), DIGITS) for step in own.steps}
+        known = symbols(drawn, env)
+        right = {step.symbol.name: sympy.N(step.expr.subs(known), DIGITS) for step in own.steps}
         odd = [
             place
             for place, step in enumerate(found.steps)
