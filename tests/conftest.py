@@ -41,3 +41,16 @@ def browser(chromium):
         )
         yield instance
         instance.close()
+
+
+@pytest.fixture
+def barriers():
+    """What keeps people out of a page: what axe finds, and scrolling sideways."""
+    from axe_playwright_python.sync_playwright import Axe
+
+    def found(page) -> list[tuple[str, str]]:
+        told = Axe().run(page).response["violations"]
+        wide = page.evaluate("document.documentElement.scrollWidth > innerWidth")
+        return [(one["id"], one["nodes"][0]["html"][:200]) for one in told] + [("wide", "")] * wide
+
+    return found
