@@ -3,38 +3,15 @@
 from __future__ import annotations
 
 import hashlib
-from dataclasses import dataclass, field
 from itertools import combinations
-from types import SimpleNamespace
 
 import pytest
+from shelf import Shelf
 
 from quizgen.bank.folder import builtin
 from quizgen.errors import BlueprintError
 from quizgen.paper.blueprint import Blueprint, SlotRule, load_blueprint
 from quizgen.paper.choose import choose, variety, weights
-
-
-@dataclass
-class Shelf:
-    """Rules without files: name to tier, topic, pool, minutes and what must stand apart."""
-
-    table: dict[str, dict[str, object]]
-    paths: dict[str, None] = field(init=False)
-
-    def __post_init__(self):
-        self.paths = dict.fromkeys(self.table)
-
-    def rules(self, name):
-        default = {"tier": "A", "topic": "optics", "pool": None, "minutes": 5, "apart": (),
-                   "beyond": False}  # fmt: skip
-        return SimpleNamespace(**{**default, **self.table[name]})
-
-    def folder_of(self, name):
-        return self.paths[name]
-
-    def origin(self, name):
-        return name
 
 
 def timed(topic, minutes=0):

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections import Counter
 from fractions import Fraction
 from itertools import combinations, product
-from types import SimpleNamespace
 
 import pytest
+from shelf import Shelf
 
 from quizgen.bank.rules import minutes_of
 from quizgen.bank.traps import answer_names
@@ -17,27 +17,6 @@ from quizgen.paper.blueprint import Blueprint, SlotRule, load_blueprint
 from quizgen.paper.choose import choose
 from quizgen.paper.paper import build
 from quizgen.paper.whole import working_time
-
-DEFAULT = {"tier": "A", "topic": "light", "pool": None, "minutes": 5, "apart": (), "beyond": False}
-
-
-class Shelf:
-    """Rules without files: name to points, minutes, figure and what must stand apart."""
-
-    def __init__(self, **table):
-        self.table, self.paths = table, dict.fromkeys(table)
-
-    def rules(self, name):
-        given = {**DEFAULT, "points": 5, "figure": "", **self.table[name]}
-        figure = given["figure"] and SimpleNamespace(name=given["figure"], quiz=True)
-        part = (SimpleNamespace(points=given["points"]),)
-        return SimpleNamespace(**{**given, "figure": figure, "part": part})
-
-    def folder_of(self, name):
-        return self.paths[name]
-
-    def origin(self, name):
-        return name
 
 
 def plan(*slots, **demands):
