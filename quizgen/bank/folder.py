@@ -77,6 +77,7 @@ class Bank:
         self.trusted = trusted
         self._templates: dict[str, Template] = {}
         self._rules: dict[str, Rules] = {}
+        self._pages: dict[str, list[Path]] = {}
         if not self.folder.is_dir():
             raise BankError(f"{root}: no folder 'templates' here")
 
@@ -240,9 +241,10 @@ class Bank:
         return tuple(path.stem for path in self._prose(name))
 
     def _prose(self, name: str) -> list[Path]:
-        return [
-            path for path in sorted(self.folder_of(name).iterdir()) if PROSE.fullmatch(path.name)
-        ]
+        if name not in self._pages:
+            found = sorted(self.folder_of(name).iterdir())
+            self._pages[name] = [path for path in found if PROSE.fullmatch(path.name)]
+        return self._pages[name]
 
     def _load(self, name: str) -> Template:
         folder = self.folder_of(name)
