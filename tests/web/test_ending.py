@@ -8,9 +8,9 @@ import signal
 import subprocess
 import sys
 import time
-from concurrent.futures import ThreadPoolExecutor
 
 import pytest
+from served import ran
 
 from quizgen.errors import BankError
 from quizgen.web.made import Wanted
@@ -24,12 +24,6 @@ def workers():
     found.warm()
     yield found
     found.close()
-
-
-def ran(coroutine):
-    """What a coroutine gives, in a thread: the browsers of other tests keep a loop in this one."""
-    with ThreadPoolExecutor(1) as thread:
-        return thread.submit(asyncio.run, coroutine).result()
 
 
 def test_a_process_that_dies_is_followed_by_another(workers):

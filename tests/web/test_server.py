@@ -5,6 +5,8 @@ from __future__ import annotations
 import asyncio
 import socket
 
+from served import ran
+
 from quizgen.web.server import _as_before, _listening
 from quizgen.web.settings import Settings
 from quizgen.web.site import Site
@@ -52,5 +54,5 @@ def test_an_answer_is_sent_before_what_went_before_it_is_acknowledged():
         writer.close()
         server.close()
 
-    asyncio.run(ask())
+    ran(ask())
     assert found[0]
