@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import secrets
 import time
 from collections.abc import Iterable, Sequence
@@ -16,6 +17,7 @@ from quizgen.practice.choosing import fitting
 from quizgen.practice.schedule import Asked, day_of, days_left
 from quizgen.practice.state import Outcome, Wish
 from quizgen.web.site import Site
+from quizgen.web.store import Attempt, Which
 from quizgen.web.turn import Turn
 from quizgen.web.views import lang_of
 
@@ -71,18 +73,33 @@ def today(request: Request) -> Today:
     return Today(len(ready), fresh, round(whole), agenda.left)
 
 
-def following_of(request: Request, names: Sequence[str]) -> str:
-    """The template of these that is to be done next."""
+def following_of(request: Request, names: Sequence[str]) -> Which:
+    """The question of these templates that is to be done next."""
     site: Site = request.app.state.site
     learner = request.state.learner.id
     latest = site.store.latest(learner, 1)
-    return agenda_of(request).next(
+    seed = _seed_after(latest)
+    template = agenda_of(request).next(
         names,
         [Outcome(one.topic, one.right, one.first) for one in site.store.seen(learner)],
         site.store.times(learner),
         latest[0].template if latest else "",
-        secrets.token_hex(4),
+        seed,
     )
+    return Which(template, seed)
+
+
+def seed_of_next(request: Request) -> str:
+    """Seed of the question that is begun next."""
+    site: Site = request.app.state.site
+    return _seed_after(site.store.latest(request.state.learner.id, 1))
+
+
+def _seed_after(latest: Sequence[Attempt]) -> str:
+    """By chance; the same until another is begun, so that it can be made before it is asked."""
+    if not latest:
+        return secrets.token_hex(4)
+    return hashlib.sha256(latest[0].id.encode()).hexdigest()[:8]
 
 
 def count_turn(request: Request, turn: Turn) -> None:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import secrets
 from typing import Any
 
+from starlette.background import BackgroundTask
 from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
@@ -13,7 +13,7 @@ from starlette.routing import Route
 
 from quizgen.practice.choosing import fitting
 from quizgen.practice.state import Wish
-from quizgen.web.agenda import count_turn, following_of, today
+from quizgen.web.agenda import count_turn, following_of, seed_of_next, today
 from quizgen.web.echo import read_back
 from quizgen.web.forms import every, one, posted
 from quizgen.web.made import GUIDED, Made, Wanted
@@ -43,25 +43,26 @@ async def begin(request: Request) -> Response:
     template = one(form, "template")
     site: Site = request.app.state.site
     if template in site.bank.paths:
-        return await _begun(request, Which(template, _seed()), wish)
+        seed = await run_in_threadpool(seed_of_next, request)
+        return await _begun(request, Which(template, seed), wish)
     return await _asked(request, wish)
 
 
 async def _asked(request: Request, wish: dict[str, str]) -> Response:
     """The question that fits a wish and is to be done next."""
+    which = await _following(request, wish)
+    if which is None:
+        return page(request, "message.html.j2", 404, title="practice.title", text="practice.none")
+    return await _begun(request, which, wish)
+
+
+async def _following(request: Request, wish: dict[str, str]) -> Which | None:
     site: Site = request.app.state.site
     names = fitting(
         site.bank,
         Wish(lang_of(request), topic=wish.get("topic") or None, tier=wish.get("tier") or None),
     )
-    if not names:
-        return page(request, "message.html.j2", 404, title="practice.title", text="practice.none")
-    template = await run_in_threadpool(following_of, request, names)
-    return await _begun(request, Which(template, _seed()), wish)
-
-
-def _seed() -> str:
-    return secrets.token_hex(4)
+    return await run_in_threadpool(following_of, request, names) if names else None
 
 
 async def _begun(request: Request, which: Which, wish: dict[str, Any]) -> Response:
@@ -79,10 +80,13 @@ async def _attempt(request: Request) -> Attempt:
     return found
 
 
+def _wanted(request: Request, which: Which) -> Wanted:
+    return Wanted(which.template, which.seed, lang_of(request), level=which.level)
+
+
 async def _made(request: Request, attempt: Attempt) -> Made:
     site: Site = request.app.state.site
-    wanted = Wanted(attempt.template, attempt.seed, lang_of(request), level=attempt.level)
-    return await site.workers.question(wanted)
+    return await site.workers.question(_wanted(request, attempt.which))
 
 
 async def _turn(request: Request) -> Turn:
@@ -100,8 +104,20 @@ def _place(request: Request, turn: Turn) -> Place:
 async def question(request: Request) -> Response:
     """The question, as far as it has got."""
     turn = await _turn(request)
-    return page(request, "question.html.j2", turn=turn, made=turn.made,
-                said_last=turn.place(request.query_params.get("said", "")))  # fmt: skip
+    shown = page(request, "question.html.j2", turn=turn, made=turn.made,
+                 said_last=turn.place(request.query_params.get("said", "")))  # fmt: skip
+    shown.background = BackgroundTask(_prepare, request, turn.attempt)
+    return shown
+
+
+async def _prepare(request: Request, attempt: Attempt) -> None:
+    """Make what is likely asked next while this is read: another question, and other numbers."""
+    site: Site = request.app.state.site
+    following = await _following(request, attempt.wish) if site.workers.spare else None
+    if following is not None:
+        variant = Which(attempt.template, following.seed, attempt.level)
+        for which in (following, variant):
+            await site.workers.prepare(_wanted(request, which))
 
 
 async def _kept(request: Request, turn: Turn, place: Place) -> Response:
@@ -153,7 +169,8 @@ async def variant(request: Request) -> Response:
     """The same question with other numbers."""
     await posted(request)
     attempt = await _attempt(request)
-    return await _begun(request, Which(attempt.template, _seed(), attempt.level), attempt.wish)
+    seed = await run_in_threadpool(seed_of_next, request)
+    return await _begun(request, Which(attempt.template, seed, attempt.level), attempt.wish)
 
 
 async def again(request: Request) -> Response:

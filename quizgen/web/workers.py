@@ -3,20 +3,53 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 from collections import OrderedDict
 from concurrent.futures import ThreadPoolExecutor
 from queue import LifoQueue
 
 import msgspec
 
+from quizgen.errors import QuizgenError
 from quizgen.web.made import Job, Made, MadePaper, Wanted, WantedPaper
 from quizgen.web.makers import Maker
 from quizgen.web.settings import Settings
 
-KEPT = 256
-"""Questions that are kept ready, the latest ones."""
-JOBS_KEPT = 24
-"""Of other things, such as photographs, which are larger."""
+ROOM = 100_000_000
+"""Bytes of what is kept ready, as it was sent; the latest."""
+
+Asked = Wanted | WantedPaper | Job
+Given = Made | MadePaper | bytes
+
+
+class Kept:
+    """The latest of what was made, as much of it as there is room for.
+
+    Parameters
+    ----------
+    room : int
+        Bytes.
+    """
+
+    def __init__(self, room: int) -> None:
+        self.room = room
+        self._found: OrderedDict[Asked, tuple[Given, int]] = OrderedDict()
+
+    def get(self, wanted: Asked) -> Given | None:
+        """What was kept; None where nothing is."""
+        if wanted not in self._found:
+            return None
+        self._found.move_to_end(wanted)
+        return self._found[wanted][0]
+
+    def put(self, wanted: Asked, found: Given, size: int) -> None:
+        """Keep something; what was not asked for the longest goes."""
+        _, before = self._found.pop(wanted, (None, 0))
+        self._found[wanted] = (found, size)
+        self.room += before - size
+        while self.room < 0:
+            _, (_, size) = self._found.popitem(last=False)
+            self.room += size
 
 
 class Workers:
@@ -27,9 +60,8 @@ class Workers:
         self.makers: list[Maker] = []
         self._idle: LifoQueue[Maker] = LifoQueue()
         self._threads = ThreadPoolExecutor(settings.workers, "maker")
-        self._kept: OrderedDict[Wanted | WantedPaper, Made | MadePaper] = OrderedDict()
-        self._due: dict[Wanted | WantedPaper, asyncio.Future[Made | MadePaper]] = {}
-        self._jobs: OrderedDict[Job, asyncio.Future[bytes]] = OrderedDict()
+        self._kept = Kept(ROOM)
+        self._due: dict[Asked, asyncio.Future[Given]] = {}
 
     def warm(self) -> None:
         """Start the processes."""
@@ -38,7 +70,7 @@ class Workers:
             self.makers.append(maker)
             self._idle.put(maker)
 
-    def _asked(self, wanted: Wanted | WantedPaper | Job) -> bytes:
+    def _asked(self, wanted: Asked) -> bytes:
         """Let the first maker that is idle make it; there is one for each thread."""
         maker = self._idle.get()
         try:
@@ -68,7 +100,6 @@ class Workers:
         """
         found = await self._found(wanted)
         assert isinstance(found, MadePaper)  # noqa: S101 - what was asked for
-        self._kept[WantedPaper(wanted.lang, found.code)] = found
         return found
 
     async def done(self, job: Job) -> bytes:
@@ -79,41 +110,35 @@ class Workers:
         QuizgenError
             If it cannot be done; tried anew by whoever asks next.
         """
-        if job not in self._jobs:
-            self._jobs[job] = asyncio.ensure_future(self._bytes(job))
-        self._jobs.move_to_end(job)
-        while len(self._jobs) > JOBS_KEPT:
-            self._jobs.popitem(last=False)
-        try:
-            return await asyncio.shield(self._jobs[job])
-        except Exception:
-            self._jobs.pop(job, None)
-            raise
+        found = await self._found(job)
+        assert isinstance(found, bytes)  # noqa: S101 - what was asked for
+        return found
 
-    async def _bytes(self, wanted: Wanted | WantedPaper | Job) -> bytes:
-        loop = asyncio.get_running_loop()
-        return await loop.run_in_executor(self._threads, self._asked, wanted)
+    @property
+    def spare(self) -> bool:
+        """Whether a process has nothing to do, and another has not either: that is for others."""
+        return len(self._due) < self.settings.workers - 1
 
-    async def _found(self, wanted: Wanted | WantedPaper) -> Made | MadePaper:
+    async def prepare(self, wanted: Wanted) -> None:
+        """Make a question that is likely asked soon, where a process has nothing else to do."""
+        if self.spare:
+            with contextlib.suppress(QuizgenError):  # told to whoever asks
+                await self._found(wanted)
+
+    async def _found(self, wanted: Asked) -> Given:
         found = self._kept.get(wanted)
         if found is not None:
-            self._kept.move_to_end(wanted)
             return found
         if wanted not in self._due:
             self._due[wanted] = asyncio.ensure_future(self._make(wanted))
         return await asyncio.shield(self._due[wanted])
 
-    async def _make(self, wanted: Wanted | WantedPaper) -> Made | MadePaper:
+    async def _make(self, wanted: Asked) -> Given:
+        loop = asyncio.get_running_loop()
         try:
-            data = await self._bytes(wanted)
-            found: Made | MadePaper
-            if isinstance(wanted, WantedPaper):
-                found = msgspec.json.decode(data, type=MadePaper)
-            else:
-                found = msgspec.json.decode(data, type=Made)
-            self._kept[wanted] = found
-            while len(self._kept) > KEPT:
-                self._kept.popitem(last=False)
+            data = await loop.run_in_executor(self._threads, self._asked, wanted)
+            name, found = _read(wanted, data)
+            self._kept.put(name, found, len(data))
             return found
         finally:
             del self._due[wanted]
@@ -123,3 +148,13 @@ class Workers:
         for maker in self.makers:
             maker.close()
         self._threads.shutdown(cancel_futures=True)
+
+
+def _read(wanted: Asked, data: bytes) -> tuple[Asked, Given]:
+    """What was made, after what it will be asked by: a paper by its code, however chosen."""
+    if isinstance(wanted, WantedPaper):
+        paper = msgspec.json.decode(data, type=MadePaper)
+        return WantedPaper(wanted.lang, code=paper.code), paper
+    if isinstance(wanted, Wanted):
+        return wanted, msgspec.json.decode(data, type=Made)
+    return wanted, data

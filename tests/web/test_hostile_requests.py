@@ -136,7 +136,7 @@ def test_nothing_of_a_key_is_sent_before_it_is_handed_in(client, token, app):
     at = client.post("/exam", data={"token": token, "blueprint": "mock"}).url.path
     store = app.state.site.store
     sitting = store.sittings.find(store.learner().id, at.rsplit("/", 1)[1])
-    kept = app.state.site.workers._kept[WantedPaper("en", code=sitting.code)]
+    kept = app.state.site.workers._kept.get(WantedPaper("en", code=sitting.code))
     parts = [part for item in kept.items for part in item.parts]
     json = {"accept": "application/json"}
     sent = [client.get(at).text, client.post(f"{at}/flag/1", data={"token": token}).text]

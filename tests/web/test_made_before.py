@@ -1,0 +1,109 @@
+"""What is made before it is asked, and how much of what was made is kept."""
+
+from __future__ import annotations
+
+import pytest
+from starlette.testclient import TestClient
+
+from quizgen.errors import BankError
+from quizgen.web.app import application
+from quizgen.web.guard import form_token
+from quizgen.web.made import Wanted
+from quizgen.web.settings import Settings
+from quizgen.web.workers import Kept
+
+QUESTION = "point-to-image-plane"
+
+
+@pytest.fixture(scope="module")
+def client(tmp_path_factory):
+    """A browser that was let in, at a server with two processes that make questions."""
+    file = tmp_path_factory.mktemp("data") / "x.sqlite3"
+    app = application(Settings(f"sqlite:///{file}", workers=2))
+    with TestClient(app, "http://127.0.0.1:8000") as browser:
+        browser.get(f"/enter?key={app.state.site.settings.token}")
+        yield browser
+
+
+@pytest.fixture
+def site(client):
+    return client.app.state.site
+
+
+@pytest.fixture
+def asked(site, monkeypatch):
+    """What the processes are asked, in turn."""
+    found, ask = [], site.workers._asked
+    monkeypatch.setattr(site.workers, "_asked", lambda one: found.append(one) or ask(one))
+    return found
+
+
+@pytest.fixture
+def token(site):
+    return {"token": form_token(site.settings.token)}
+
+
+def posted(client, at: str, **fields: str) -> str:
+    """Where a form leads."""
+    return client.post(at, data=fields, follow_redirects=False).headers["location"]
+
+
+def which(site, at: str) -> tuple[str, str]:
+    """Template and seed of a question."""
+    attempt = site.store.attempt(site.store.learner().id, at.rsplit("/", 1)[1])
+    return attempt.template, attempt.seed
+
+
+@pytest.mark.parametrize("action", ["next", "variant"])
+def test_what_is_asked_after_a_question_was_made_while_it_was_shown(
+    client, site, asked, token, action
+):
+    at = posted(client, "/practice", **token, template=QUESTION)
+    client.get(at)
+    made = [(one.template, one.seed) for one in asked]
+    following = posted(client, f"{at}/{action}", **token)
+    assert which(site, following) == made[{"next": 1, "variant": 2}[action]]
+    client.get(following)
+    assert asked.count(Wanted(*which(site, following), "en")) == 1
+
+
+def test_the_same_wish_twice_gives_other_numbers(client, site, token):
+    at = posted(client, "/practice", **token, template=QUESTION)
+    found = {which(site, posted(client, f"{at}/variant", **token)) for _ in range(3)}
+    assert len(found | {which(site, at)}) == 4
+
+
+def test_nothing_is_made_ahead_where_that_would_take_the_last_process(
+    client, site, asked, token, monkeypatch
+):
+    at = posted(client, "/practice", **token, template=QUESTION)
+    monkeypatch.setitem(site.workers._due, Wanted("another", "1", "en"), None)
+    client.get(at)
+    assert [(one.template, one.seed) for one in asked] == [which(site, at)]
+
+
+def test_what_cannot_be_made_ahead_is_said_to_who_asks(client, site):
+    nothing = Wanted("nothing", "1", "en")
+    client.portal.call(site.workers.prepare, nothing)
+    with pytest.raises(BankError):
+        client.portal.call(site.workers.question, nothing)
+
+
+def keys(kept: Kept) -> list[str]:
+    return [one for one in "abcd" if kept.get(one) is not None]
+
+
+def test_the_latest_are_kept_as_far_as_there_is_room():
+    kept = Kept(10)
+    kept.put("a", b"1", 4)
+    kept.put("b", b"2", 4)
+    assert keys(kept) == ["a", "b"]
+    kept.get("a")
+    kept.put("c", b"3", 4)
+    assert keys(kept) == ["a", "c"], "b was not asked for the longest"
+    kept.put("c", b"4", 6)
+    assert keys(kept) == ["a", "c"], "in place of the other one"
+    kept.put("d", b"5", 11)
+    assert keys(kept) == []
+    kept.put("a", b"6", 10)
+    assert keys(kept) == ["a"]
