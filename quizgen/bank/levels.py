@@ -8,6 +8,8 @@ Made = Literal["guided", "transfer"]
 """Levels that are made from the chain."""
 EXAM = "exam"
 """As its author wrote it: the level of whoever asks for none."""
+GUIDED = "guided"
+"""Its steps, one after another."""
 MIXED = "mixed"
 """One of the others for each question, by the seed."""
 CHOICES: tuple[str, ...] = (EXAM, *get_args(Made), MIXED)

@@ -7,7 +7,7 @@ KDD 2022, as the package ``fsrs`` has it.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from datetime import UTC, date, datetime
 from enum import IntEnum
 from functools import cache
@@ -15,7 +15,8 @@ from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
 
 import msgspec
 
-from quizgen.practice.state import Outcome
+from quizgen.bank.levels import GUIDED
+from quizgen.practice.state import Outcome, PartState
 
 if TYPE_CHECKING:
     import fsrs
@@ -159,6 +160,23 @@ class Asked(msgspec.Struct, frozen=True):
     origin: str
     grade: Grade
     notes: tuple[str, ...] = ()
+
+
+def asked_of(origin: str, parts: Sequence[PartState], level: str) -> Asked | None:
+    """What a finished question says of its template; None if all of it was skipped.
+
+    Parameters
+    ----------
+    origin : str
+    parts : sequence of PartState
+    level : str
+        At which it was asked; step by step is help throughout.
+    """
+    grade = graded(part.outcome for part in parts if part.outcome is not None)
+    if grade is None:
+        return None
+    helped = Grade.HARD if level == GUIDED and grade is Grade.GOOD else grade
+    return Asked(origin, helped, tuple(part.note for part in parts))
 
 
 def after(

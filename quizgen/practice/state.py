@@ -56,12 +56,16 @@ class PartState(msgspec.Struct):
         How many have been used.
     outcome : Outcome, optional
         How it went, once it is done.
+    wrong, note : str
+        The last answer that was not right, and which mistake it was.
     """
 
     typed: str = ""
     tries: int = 0
     hints: int = 0
     outcome: Outcome | None = None
+    wrong: str = ""
+    note: str = ""
 
 
 class State(msgspec.Struct):

@@ -133,6 +133,8 @@ class Task(Generic[P, S]):
         then = self._next(verdict)
         if then is not Next.ASK_BACK:
             self.state.typed = typed
+        if then in {Next.AGAIN, Next.OUT_OF_TRIES}:
+            self.state.wrong, self.state.note = typed, verdict.note
         if then in {Next.RIGHT, Next.OUT_OF_TRIES}:
             self._end(right=then is Next.RIGHT)
         return Feedback(verdict, then, TRIES - self.state.tries)

@@ -105,10 +105,9 @@ def _seed_after(latest: Sequence[Attempt]) -> str:
 def count_turn(request: Request, turn: Turn) -> None:
     """Take a practised question into the schedule; the same numbers again say nothing new."""
     site: Site = request.app.state.site
-    grade = turn.grade()
-    if grade is not None and not site.store.known(turn.attempt):
-        notes = tuple(turn.attempt.state["notes"].values())
-        count(request, [Asked(site.bank.origin(turn.attempt.template), grade, notes)])
+    asked = turn.asked(site.bank.origin(turn.attempt.template))
+    if asked is not None and not site.store.known(turn.attempt):
+        count(request, [asked])
 
 
 def count(request: Request, asked: Iterable[Asked]) -> None:

@@ -14,14 +14,14 @@ from starlette.responses import Response
 from starlette.routing import Route
 
 from quizgen.bank.folder import Bank
-from quizgen.bank.levels import EXAM
+from quizgen.bank.levels import EXAM, GUIDED
 from quizgen.errors import QuizgenError
 from quizgen.question.compose import instance, put_into_words
 from quizgen.web.made import Made, Wanted, made
 from quizgen.web.site import Site
 from quizgen.web.views import lang_of, page
 
-LEVELS = (EXAM, "guided", "transfer")
+LEVELS = (EXAM, GUIDED, "transfer")
 DIGITS = 9
 """Of a seed."""
 

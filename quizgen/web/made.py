@@ -13,7 +13,7 @@ from typing import Protocol
 import msgspec
 
 from quizgen.bank.folder import Bank, builtin
-from quizgen.bank.levels import EXAM
+from quizgen.bank.levels import EXAM, GUIDED
 from quizgen.bank.prose import Block, Inline
 from quizgen.errors import BlueprintError
 from quizgen.locale import BOTH
@@ -28,8 +28,6 @@ from quizgen.question.markup import blocks, display, inline
 from quizgen.question.sheet import cited
 from quizgen.question.shown import named
 from quizgen.question.solution import Mistake, PartSolution, Rung
-
-GUIDED = "guided"
 
 Html = str
 """Markup made here; whatever a learner typed never gets into it."""

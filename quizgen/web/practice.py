@@ -11,12 +11,13 @@ from starlette.requests import Request
 from starlette.responses import HTMLResponse, Response
 from starlette.routing import Route
 
+from quizgen.bank.levels import GUIDED
 from quizgen.practice.choosing import fitting
 from quizgen.practice.state import Wish
 from quizgen.web.agenda import count_turn, following_of, seed_of_next, today
 from quizgen.web.echo import read_back
 from quizgen.web.forms import every, one, posted
-from quizgen.web.made import GUIDED, Made, Wanted
+from quizgen.web.made import Made, Wanted
 from quizgen.web.site import Site
 from quizgen.web.store import Attempt, Which
 from quizgen.web.turn import Place, Turn

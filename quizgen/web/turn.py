@@ -11,10 +11,10 @@ from quizgen.marking.options import Options
 from quizgen.marking.verdict import Verdict
 from quizgen.paper.marking import Marker
 from quizgen.practice.boxes import joined
-from quizgen.practice.schedule import Grade, graded
+from quizgen.practice.schedule import Asked, asked_of
 from quizgen.practice.state import PartState
 from quizgen.practice.task import TRIES, Feedback, Next, Task
-from quizgen.web.made import GUIDED, Made, MadePart
+from quizgen.web.made import Made, MadePart
 from quizgen.web.store import Attempt, Seen
 
 
@@ -109,31 +109,20 @@ class Turn:
         self.attempt.state = {
             "parts": {p.name: msgspec.to_builtins(p.progress) for p in self.places},
             "ended": [place.name for place in ended],
-            "notes": self.attempt.state.get("notes", {}) | self._notes(),
         }
         if self.finished and self.attempt.ended is None:
             self.attempt.ended = time.time()
         return tuple(self._seen(place) for place in ended if place.name not in before)
 
-    def grade(self) -> Grade | None:
-        """How the question went, once it is finished; step by step is help throughout."""
-        found = graded(p.task.outcome for p in self.places if p.task.outcome is not None)
-        guided = self.attempt.level == GUIDED
-        return Grade.HARD if guided and found is Grade.GOOD else found
-
-    def _notes(self) -> dict[str, str]:
-        """The last mistake of each part that had one."""
-        return {
-            p.name: p.verdict.note
-            for p in self.places
-            if p.verdict and p.verdict.graded and p.verdict.verdict != "correct"
-        }
+    def asked(self, origin: str) -> Asked | None:
+        """What the question says of its template, once it is finished."""
+        parts = [place.task.state for place in self.places]
+        return asked_of(origin, parts, self.attempt.level)
 
     def _seen(self, place: Place) -> Seen:
         outcome = place.task.outcome
         right, first = (outcome.right, outcome.first) if outcome else (False, False)
-        note = self.attempt.state["notes"].get(place.name, "")
         return Seen(
-            self.made.wanted.template, self.made.topic, place.part.label, note, right, first,
-            time.time(),
+            self.made.wanted.template, self.made.topic, place.part.label, place.task.state.note,
+            right, first, time.time(),
         )  # fmt: skip

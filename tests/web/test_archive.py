@@ -35,10 +35,10 @@ def full(store):
     mine = store()
     learner = mine.learner().id
     attempt = mine.begin(learner, Which("rgb-to-hsv", "7"), {"topic": "colour", "tier": ""})
-    done = {"typed": "1", "tries": 1, "hints": 0,
-            "outcome": {"topic": "colour", "right": True, "first": True, "skipped": False}}  # fmt: skip
+    done = {"typed": "1", "tries": 1, "hints": 0, "wrong": "2", "note": "sign",
+            "outcome": {"topic": "colour", "right": True, "first": False, "skipped": False}}  # fmt: skip
     attempt.state = {"parts": {"1a": {"state": done, "values": ["1"], "asked_back": ""}},
-                     "ended": ["1a"], "notes": {}}  # fmt: skip
+                     "ended": ["1a"]}  # fmt: skip
     attempt.ended = NOW
     mine.keep(attempt, (Seen("rgb-to-hsv", "colour", "a", "", right=True, first=True, at=NOW),))
     sitting = mine.sittings.begin(learner, "mock-1-en-0a1b2c", 60.0, pauses=True)

@@ -14,10 +14,10 @@ import pytest
 from typed import Fields, typed
 
 from quizgen.bank.folder import builtin
-from quizgen.bank.levels import EXAM
+from quizgen.bank.levels import EXAM, GUIDED
 from quizgen.question.compose import instance, put_into_words
 from quizgen.question.levels import level_of
-from quizgen.web.made import GUIDED, made
+from quizgen.web.made import made
 from quizgen.web.store import Which
 
 NAMES = sorted(builtin().paths)

@@ -41,12 +41,13 @@ class KeptPart(Strict, frozen=True):
     asked_back: Typed = ""
 
 
-class KeptState(Strict, frozen=True):
+class KeptState(Strict, frozen=True, omit_defaults=True):
     """How far a question has got."""
 
     parts: dict[Part, KeptPart] = {}
     ended: list[Part] = []
     notes: dict[Part, Short] = {}
+    """The mistakes, where earlier versions kept them."""
 
 
 class KeptAttempt(Strict, frozen=True):
