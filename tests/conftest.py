@@ -54,3 +54,13 @@ def barriers():
         return [(one["id"], one["nodes"][0]["html"][:200]) for one in told] + [("wide", "")] * wide
 
     return found
+
+
+@pytest.fixture
+def collection(tmp_path):
+    """An Anki collection to import into."""
+    from anki.collection import Collection
+
+    opened = Collection(str(tmp_path / "collection.anki2"))
+    yield opened
+    opened.close()

@@ -33,7 +33,8 @@ LAYERS = {
     "render": "errors outside files locale typeset bank question paper",
     "cards": "errors outside files locale maths typeset bank figures question paper render",
     "tradeoff": "errors outside files locale maths arrays typeset bank figures render",
-    "web": "errors outside files png locale maths typeset bank camera figures marking question paper practice render",
+    "web": "errors outside files png locale maths typeset bank camera figures marking question paper practice render "
+    "cards tradeoff",
     "audit": "errors outside files locale maths bank figures marking question paper render",
     "cli": "errors outside files png locale maths bank camera figures marking question paper practice render cards "
     "tradeoff audit web",

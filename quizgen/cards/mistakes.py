@@ -7,13 +7,14 @@ wrong and how it is done.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
 import msgspec
 
+from quizgen.bank.draw import Draw
 from quizgen.bank.folder import Bank
 from quizgen.bank.prose import Paragraph, Words
 from quizgen.cards.content import words
@@ -28,7 +29,7 @@ from quizgen.locale import chosen
 from quizgen.outside import located, parse_json, read_text
 from quizgen.paper.blueprint import load_blueprint
 from quizgen.paper.code import parse_code
-from quizgen.paper.paper import Item, Paper, rebuild
+from quizgen.paper.paper import Paper, rebuild
 from quizgen.question.compose import Key, put_into_words
 
 LOOKED_AT = frozenset({"wrong", "partial", "blank"})
@@ -71,6 +72,23 @@ def read_marks(path: Path) -> tuple[Marked, ...]:
         raise KeyFileError(f"{path}: not a result of `quizgen check --json`: {error}") from error
 
 
+@dataclass(frozen=True)
+class Missed:
+    """A part that was not right, and the question that it belongs to.
+
+    Parameters
+    ----------
+    part : MarkedPart
+    draw : Draw
+    level : str
+        At which the question was asked.
+    """
+
+    part: MarkedPart
+    draw: Draw
+    level: str
+
+
 def from_marks(path: Path, lang: str, *, bank: Bank, blueprint: str | None = None) -> Deck:
     """Make a deck of what went wrong.
 
@@ -92,42 +110,73 @@ def from_marks(path: Path, lang: str, *, bank: Bank, blueprint: str | None = Non
     CodeError
         If the paper cannot be made again with this installation.
     """
-    wish = Wish(chosen(lang, bank.languages), bank=bank)
-    notes: dict[str, Note] = {}
-    seed = 0
     own = load_blueprint(blueprint, bank) if blueprint else None
+    found: list[Missed] = []
+    seed = 0
     for marked in read_marks(path):
         with located(path, CodeError):
             code = parse_code(marked.code)
             paper = rebuild(bank, marked.code, own)
         seed = max(seed, 0 if code.is_reference else int(code.seed))
-        for found in _notes(marked, paper, wish, path):
-            notes.setdefault(found.key, found)
-    return Deck(tuple(notes.values()), replace(wish, seed=seed))
+        with located(path, KeyFileError):
+            found += missed(marked, paper)
+    with located(path, KeyFileError):
+        return deck_of(found, lang, bank=bank, seed=seed)
 
 
-def _notes(marked: Marked, paper: Paper, wish: Wish, path: Path) -> Iterator[Note]:
+def missed(marked: Marked, paper: Paper) -> Iterator[Missed]:
+    """Parts of a paper that were not right.
+
+    Raises
+    ------
+    KeyFileError
+        If the paper has no such part.
+    """
     items = {item.number: item for item in paper.items}
     for part in marked.parts:
         if part.status in LOOKED_AT:
-            if part.question not in items or _template(items[part.question]) != part.template:
-                raise KeyFileError(f"{path}: part {part.id!r} is not in the paper {marked.code}")
-            yield _note(part, items[part.question], wish, path)
+            item = items.get(part.question)
+            if item is None or item.keys[0].template != part.template:
+                raise KeyFileError(f"part {part.id!r} is not in the paper {marked.code}")
+            yield Missed(part, item.keys[0].draw, item.keys[0].level)
 
 
-def _template(item: Item) -> str:
-    return item.keys[0].template
+def deck_of(missed: Iterable[Missed], lang: str, *, bank: Bank, seed: int = 0) -> Deck:
+    """A deck of parts that were not right, each mistake once: as it was made first.
+
+    Parameters
+    ----------
+    missed : iterable of Missed
+    lang : str
+        A language, or ``both`` for all of them.
+    bank : Bank
+        The bank that the questions were made from.
+    seed : int
+        Of the deck.
+
+    Raises
+    ------
+    KeyFileError
+        If a question has no such part.
+    """
+    wish = Wish(chosen(lang, bank.languages), bank=bank, seed=seed)
+    notes: dict[str, Note] = {}
+    for one in missed:
+        found = _note(one, wish)
+        notes.setdefault(found.key, found)
+    return Deck(tuple(notes.values()), wish)
 
 
-def _note(part: MarkedPart, item: Item, wish: Wish, path: Path) -> Note:
-    drawn, level = item.keys[0].draw, item.keys[0].level
+def _note(missed: Missed, wish: Wish) -> Note:
+    part, drawn = missed.part, missed.draw
     pairs = {
-        lang: put_into_words(drawn, lang, number=item.number, level=level) for lang in wish.langs
+        lang: put_into_words(drawn, lang, number=part.question, level=missed.level)
+        for lang in wish.langs
     }
     question, key = next(iter(pairs.values()))
     places = [i for i, one in enumerate(question.parts) if one.field.id == part.id]
     if not places:
-        raise KeyFileError(f"{path}: question {item.number} has no part {part.id!r}")
+        raise KeyFileError(f"question {part.question} has no part {part.id!r}")
     index, rules = places[0], drawn.template.rules
     slip = part.note or part.status
     return Note(
@@ -152,7 +201,7 @@ def _note(part: MarkedPart, item: Item, wish: Wish, path: Path) -> Note:
 def _front(pair: Pair, index: int, part: MarkedPart, lang: str) -> Blocks:
     question, said = pair[0], words(lang)
     asks = front(question, index)
-    if part.status == "blank":
+    if not part.typed.strip():
         return (*asks, Label(said["start"]))
     typed = Paragraph((Words(part.read_as or part.typed),))
     return (*asks, Label(said["answered"]), typed, Label(said["wrongly"]))

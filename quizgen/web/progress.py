@@ -63,6 +63,7 @@ def _shown(request: Request, status: int = 200, problem: str = "") -> Response:
     return page(
         request, "progress.html.j2", status,
         plan=today(request),
+        begun=bool(agenda.cards),
         exam=exam_day(request) or "",
         problem=problem,
         came=came if came.isdecimal() else "",

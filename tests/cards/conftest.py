@@ -1,4 +1,4 @@
-"""A deck for the tests, built once, and Anki collections to import it into."""
+"""A deck for the tests, built once."""
 
 from __future__ import annotations
 
@@ -16,12 +16,3 @@ def deck():
 @pytest.fixture(scope="session")
 def packed(deck):
     return package(deck)
-
-
-@pytest.fixture
-def collection(tmp_path):
-    from anki.collection import Collection
-
-    opened = Collection(str(tmp_path / "collection.anki2"))
-    yield opened
-    opened.close()

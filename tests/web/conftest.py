@@ -6,12 +6,14 @@ import re
 
 import pytest
 from served import Served
+from sqlalchemy import delete
 from starlette.testclient import TestClient
 
 from quizgen.web.app import application
 from quizgen.web.guard import form_token
 from quizgen.web.settings import Settings
 from quizgen.web.store import Which
+from quizgen.web.store.tables import LEARNER
 
 ADDRESS = "http://127.0.0.1:8000"
 
@@ -59,21 +61,30 @@ def app(settings):
 
 
 @pytest.fixture
+def nothing_done(app):
+    """Somebody who has done nothing yet."""
+    store = app.state.site.store
+    with store.database.writing() as connection:
+        connection.execute(delete(LEARNER))
+    store.learner()
+
+
+@pytest.fixture
 def visitor(app):
     """A browser that has not been let in."""
     return TestClient(app, ADDRESS)
 
 
 @pytest.fixture
-def client(visitor, settings):
+def client(visitor, app):
     """A browser that was let in."""
-    visitor.get(f"/enter?key={settings.token}")
+    visitor.get(f"/enter?key={app.state.site.settings.token}")
     return visitor
 
 
 @pytest.fixture
-def token(settings):
-    return form_token(settings.token)
+def token(app):
+    return form_token(app.state.site.settings.token)
 
 
 @pytest.fixture

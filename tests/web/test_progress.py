@@ -7,24 +7,13 @@ import re
 from datetime import UTC, datetime, timedelta
 
 import pytest
-from sqlalchemy import delete
 
 from quizgen.question.compose import compose
 from quizgen.web.store import Which
-from quizgen.web.store.tables import LEARNER
 
 QUESTION = "point-to-image-plane"
 
-pytestmark = pytest.mark.both_databases
-
-
-@pytest.fixture(autouse=True)
-def nothing_done(app):
-    """Somebody who has done nothing yet."""
-    store = app.state.site.store
-    with store.database.writing() as connection:
-        connection.execute(delete(LEARNER))
-    store.learner()
+pytestmark = [pytest.mark.both_databases, pytest.mark.usefixtures("nothing_done")]
 
 
 def text(page: str) -> str:
