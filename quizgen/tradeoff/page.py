@@ -21,10 +21,10 @@ from quizgen.tradeoff.measure import Measured, pareto
 from quizgen.tradeoff.plot import (
     HEIGHT,
     PANEL,
-    STYLE,
     Mark,
     accuracy_panel,
     document,
+    style,
     time_text,
     work_panel,
 )
@@ -47,11 +47,18 @@ def write(report: Report, folder: Path, command: str) -> list[Path]:
 
 def html(report: Report, command: str) -> str:
     """The whole page."""
-    style = (files("quizgen.tradeoff") / "pages" / "tradeoff.css").read_text("utf-8")
+    frame = (files("quizgen.tradeoff") / "pages" / "tradeoff.css").read_text("utf-8")
     page = _layouts().get_template("tradeoff.html.j2")
     there = {lang: language(lang) for lang in languages()}
-    made = page.render(report=report, command=command, style=style + STYLE, languages=there)
+    made = page.render(report=report, command=command, style=frame + style(), languages=there)
     return made + "\n"
+
+
+def fragment(report: Report, command: str, lang: str) -> str:
+    """What the page says in one language, to stand in another page; ``style`` goes with it."""
+    page = _layouts().get_template("measured.html.j2")
+    said = page.make_module({"report": report, "command": command})
+    return str(said.body(lang, words(lang)))  # type: ignore[attr-defined]
 
 
 @cache

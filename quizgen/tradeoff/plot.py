@@ -10,9 +10,10 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
+from importlib.resources import files
 
 STYLE = """
-.tp text{font:11px system-ui,"Hind Siliguri",sans-serif;fill:currentColor}
+.tp text{font:11px system-ui,"Hind Siliguri","QuizBangla",sans-serif;fill:currentColor}
 .tp .axis{stroke:currentColor;stroke-width:1;fill:none}
 .tp .grid{stroke:currentColor;stroke-width:.5;opacity:.18}
 .tp .rule{stroke:currentColor;stroke-width:1;stroke-dasharray:5 3;opacity:.7}
@@ -21,6 +22,12 @@ STYLE = """
 .tp .second{stroke:#b3470a;fill:#b3470a}.tp .third{stroke:#3f7d20;fill:#3f7d20}
 .tp .line{fill:none;stroke-width:1.6}.tp .small{font-size:10px}.tp .head{font-weight:600}
 """
+
+
+def style() -> str:
+    """The style of measurements on a page."""
+    return (files("quizgen.tradeoff") / "pages" / "measured.css").read_text("utf-8") + STYLE
+
 
 PANEL, HEIGHT, LEFT, TOP, BOTTOM = 430, 300, 52, 26, 44
 

@@ -20,7 +20,7 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 from quizgen.errors import QuizgenError
 from quizgen.locale import languages
 from quizgen.render.fonts import WEB
-from quizgen.web import anki, author, camera, exam, formulas, practice, progress
+from quizgen.web import anki, author, camera, exam, formulas, practice, progress, tradeoff
 from quizgen.web.forms import one, posted
 from quizgen.web.guard import Guard
 from quizgen.web.settings import Settings
@@ -28,7 +28,7 @@ from quizgen.web.site import Site
 from quizgen.web.views import language_style, page, to
 
 PAGES = (*practice.ROUTES, *exam.ROUTES, *progress.ROUTES, *formulas.ROUTES, *camera.ROUTES,
-         *anki.ROUTES)  # fmt: skip
+         *anki.ROUTES, *tradeoff.ROUTES)  # fmt: skip
 
 
 def application(settings: Settings) -> Starlette:

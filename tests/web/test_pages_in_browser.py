@@ -33,7 +33,7 @@ def addresses(browser, served):
     page.goto(served.entrance)
     found = [
         served.address + path
-        for path in ("/", "/exam", "/progress", "/formulas", "/camera", "/nowhere")
+        for path in ("/", "/exam", "/progress", "/formulas", "/camera", "/tradeoff", "/nowhere")
     ]
     for template in QUESTIONS:
         fresh = post(page, "/practice", template=template)

@@ -1,0 +1,87 @@
+"""What accuracy costs in time, in the browser: what the command's page says, in the site's frame."""
+
+from __future__ import annotations
+
+import asyncio
+import re
+
+import msgspec
+import pytest
+
+from quizgen.tradeoff.page import fragment, html
+from quizgen.tradeoff.report import measure
+from quizgen.web.tradeoff import Measurement
+
+COMMAND = "quizgen tradeoff --quick"
+
+
+@pytest.fixture(scope="module")
+def report():
+    return measure(["thin-lens"], quick=True)
+
+
+@pytest.fixture
+def measured(app, monkeypatch, report):
+    """The answer of a worker that has measured one family; what it was asked."""
+    asked = []
+
+    async def done(job):
+        asked.append(job)
+        return msgspec.json.encode({one: fragment(report, COMMAND, one) for one in ("en", "bn")})
+
+    monkeypatch.setattr(app.state.site.workers, "done", done)
+    return asked
+
+
+def test_the_page_of_the_command_stands_in_the_frame(client, token, measured, report):
+    page = client.get("/tradeoff").text
+    assert measured == [Measurement()]
+    assert '<nav aria-label="Menu">' in page
+    assert '<a href="/tradeoff" aria-current="page">Accuracy</a>' in page
+    plots = re.findall("<svg.*?</svg>", html(report, COMMAND), re.DOTALL)
+    assert len(plots) == 2
+    assert plots[0] in page
+    assert plots[1] not in page
+    client.post("/settings", data={"token": token, "lang": "bn", "back": "/"})
+    assert plots[1] in client.get("/tradeoff").text
+    client.post("/settings", data={"token": token, "lang": "en", "back": "/"})
+
+
+def test_nothing_on_it_needs_what_the_policy_forbids(client, measured):
+    page = client.get("/tradeoff").text
+    assert (
+        re.findall(r"<script(?![^>]*src=)|\son\w+=|http://(?!www\.w3\.org)|data:font", page) == []
+    )
+
+
+def test_while_it_is_measured_the_page_says_so_and_looks_again(client, app, monkeypatch):
+    async def done(job):
+        del job
+        await asyncio.sleep(60)
+
+    monkeypatch.setattr(app.state.site.workers, "done", done)
+    page = client.get("/tradeoff").text
+    assert "That takes some seconds." in page
+    assert 'hx-get="/tradeoff"' in page
+    assert '<a href="/tradeoff">Look again</a>' in page
+
+
+def test_it_is_measured_once_for_all_languages(bank, monkeypatch, report):
+    asked = []
+
+    def once(*, quick):
+        asked.append(quick)
+        return report
+
+    monkeypatch.setattr("quizgen.tradeoff.report.measure", once)
+    said = msgspec.json.decode(Measurement().run(bank))
+    assert asked == [True]
+    assert set(said) >= {"en", "bn"}
+    assert COMMAND in said["en"]
+
+
+def test_its_style_is_served(client):
+    answer = client.get("/static/tradeoff.css")
+    assert answer.headers["content-type"].startswith("text/css")
+    assert ".measured" in answer.text
+    assert ".tp" in answer.text
