@@ -48,8 +48,8 @@ def grouped(digits: str) -> str:
     if len(whole) > LONGEST_UNGROUPED:
         whole = whole.lstrip("0") or "0"
         first = len(whole) % 3 or 3
-        ends = range(first, len(whole) + 1, 3)
-        whole = GAP.join((whole[:first], *(whole[end : end + 3] for end in ends[:-1])))
+        starts = range(first, len(whole), 3)
+        whole = GAP.join([whole[:first], *(whole[start : start + 3] for start in starts)])
     return f"{whole}{point}{behind}"
 
 
