@@ -18,8 +18,8 @@ from quizgen.maths.notation import ReadError
 
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 _TRUE = frozenset(
-    {"true", "t", "yes", "y", "right", "correct", "wahr", "w", "ja", "j", "richtig", "r"}
-    | {"সত্য", "হ্যাঁ", "হ্যা", "সত্যি", "stimmt", "ঠিক", "সঠিক", "স", "1", "✓", "✔"}
+    {"true", "t", "yes", "y", "right", "correct", "wahr", "w", "ja", "j", "richtig", "r", "stimmt"}
+    | {"সত্য", "হ্যাঁ", "হ্যা", "সত্যি", "ঠিক", "সঠিক", "স", "1", "✓", "✔"}
 )
 _FALSE = frozenset(
     {"false", "f", "no", "n", "wrong", "incorrect", "falsch", "nein"}
