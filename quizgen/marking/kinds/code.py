@@ -9,7 +9,7 @@ import msgspec
 
 from quizgen.marking.echo import safe
 from quizgen.marking.options import Options
-from quizgen.marking.reading.rewrites import LONGEST_PROSE, REWRITES, refuse_invisible
+from quizgen.marking.reading.rewrites import LONGEST_PROSE, REWRITES, refuse_invisible, unfenced
 from quizgen.marking.reading.source import Source
 from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import HALF, Verdict, correct, partial, wrong
@@ -32,7 +32,7 @@ class Spec(Worded, kw_only=True, frozen=True):
             source = source.sub(*REWRITES[name])
         source = source.sub(_QUOTES, lambda quote: _STRAIGHT[quote[0]])
         refuse_invisible(source, "\r\n")
-        given = folded(_FENCE.sub("", source.text.strip()))
+        given = folded(unfenced(source).text.strip("` \r\n"))
         if not given:
             raise ReadError("no-answer", 1)
         for output in (self.output, *self.also):
@@ -56,8 +56,6 @@ _SEPARATORS = re.compile(r"[\[\](){},\s]+")
 _STRAIGHT = {**dict.fromkeys("“”„‟«»", '"'), **dict.fromkeys("‘’‚‛", "'")}
 """Quotation marks that an editor puts in place of those of a program."""
 _QUOTES = re.compile(f"[{''.join(_STRAIGHT)}]")
-_FENCE = re.compile(r"^(`{1,3})(?:\w*\n)?(?=.*\1$)|(?<=.)`{1,3}$|^`+$", re.DOTALL)
-"""Marks of code in notes and chats."""
 _INSIDE = re.compile(r"\s*([\[\](){},:=])\s*")
 
 

@@ -121,7 +121,8 @@ _ALWAYS = ("answer", "about", "classifiers", "x between numbers", "ties", "power
 _RAISED = re.compile(r"[-+−–]?\d+·(?!10)\d{2,}")
 _STOPS = ".;।॥"
 _UNFINISHED = re.compile(r"[-+]?(?:\d+;|\d{1,3}(?:\.\d{3}){2,}\.)")
-_FENCED = re.compile(r"\s*`{1,3}([^`]+)`{1,3}\s*")
+_FENCED = re.compile(r"\s*(?:```[^\W\d]\w*\n(?!\s*`)|`{1,3})([^`]*)`{1,3}\s*")
+"""Marks of code in notes and chats, maybe with the name of its language in a line of its own."""
 _EXOTIC = re.compile(r"[^ -~]")
 _LATEX = re.compile(r"[\\${]")
 """A text without one of these holds no LaTeX; its many patterns are made when it is first met."""
@@ -154,7 +155,7 @@ def normalise(typed: str, *, keep_x: bool = False, longest: int = LONGEST) -> So
     """
     if len(typed) > longest:
         raise ReadError("too-long", longest + 1, str(longest))
-    source = _unfenced(Source.of(typed))
+    source = unfenced(Source.of(typed))
     if _EXOTIC.search(typed):
         source = _fold(source)
     if _LATEX.search(source.text):
@@ -172,7 +173,7 @@ def normalise(typed: str, *, keep_x: bool = False, longest: int = LONGEST) -> So
     return _finished(source) if source.text[-1] in _STOPS else source
 
 
-def _unfenced(source: Source) -> Source:
+def unfenced(source: Source) -> Source:
     """Drop marks of code around everything."""
     fence = _FENCED.fullmatch(source.text) if "`" in source.text else None
     return source.cut(*fence.span(1)) if fence else source
