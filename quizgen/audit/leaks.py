@@ -12,23 +12,21 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
 
-from quizgen.audit.alike import Form, equation, forms, in_program
 from quizgen.bank.draw import Draw
-from quizgen.bank.plan import plan_of
+from quizgen.bank.levels import EXAM
 from quizgen.bank.prose import Block, Code, CodeBlock, Inline, Items, Paragraph, Styled, Table
 from quizgen.errors import FormulaError
 from quizgen.figures import in_words
-from quizgen.marking.kinds import choice, expression, gap, match, order, text
+from quizgen.marking.kinds import choice, gap, match, order, text
 from quizgen.marking.mark import show
-from quizgen.marking.reading.formulas import author
-from quizgen.maths.notation import ReadError, parse, to_text
-from quizgen.maths.tree import Expr, substitute
+from quizgen.marking.specs import AnySpec
+from quizgen.maths.alike import Form, forms, in_program
+from quizgen.maths.notation import ReadError, parse
+from quizgen.maths.tree import Expr
+from quizgen.paper.draws import asked_formulas
 from quizgen.paper.paper import Item, Paper
 from quizgen.question.compose import Key, Question, figure_values
-from quizgen.question.contract import Built
-from quizgen.question.kinds import build
 from quizgen.question.shown import Maths
 from quizgen.render.text import blocks, inline
 
@@ -176,41 +174,30 @@ def secrets(item: Item, place: int, own: Said) -> Iterator[Secret]:
     """What each part of a question asks, in the language at a place."""
     question, key = item.questions[place], item.keys[place]
     for index, part in enumerate(question.parts):
-        built = build(key.draw, index)
+        spec = key.specs[index]
         asked = _asked_formulas(key, index)
-        shown = show(built.spec, question.lang) if built.spec.kind in NUMBERS else ""
-        steps = built.spec.steps if isinstance(built.spec, order.Spec) else []
+        shown = show(spec, question.lang) if spec.kind in NUMBERS else ""
+        steps = spec.steps if isinstance(spec, order.Spec) else []
         options = {mark: inline(text) for mark, text in part.field.options}
         yield Secret(
             part.label,
             {form: name for form, name in asked.items() if form not in own.formulas},
             frozenset(_numbers(shown)) - own.numbers,
-            tuple(_right_sentences(question, index, built)),
-            built.spec if isinstance(built.spec, text.Spec) else None,
+            tuple(_right_sentences(question, index, spec)),
+            spec if isinstance(spec, text.Spec) else None,
             tuple(options[mark] for mark in steps),
         )
 
 
 def _asked_formulas(key: Key, index: int) -> dict[Form, str]:
-    """Forms of the steps to an answer, each also with the steps before it put in, and the key."""
-    found: dict[Form, str] = {}
-    inner: dict[str, Expr] = {}
-    for step in plan_of(key.draw.template).parts[index].steps:
-        inner[step.name] = substitute(step.expr, inner)
-        for expr in (step.expr, inner[step.name]):
-            found |= dict.fromkeys(equation(step.name, expr), f"{step.name} = {to_text(expr)}")
-    spec = key.specs[index]
-    if isinstance(spec, expression.Spec):
-        formula = author(spec.value, tuple(spec.symbols))
-        found |= dict.fromkeys(equation("", formula), spec.value)
-    return found
+    """What a part asks; where a level has made the parts, what any authored one asks."""
+    parts = [index] if key.level == EXAM else range(len(key.draw.template.rules.part))
+    return {f: told for part in parts for f, told in asked_formulas(key.draw, part).items()}
 
 
-def _right_sentences(
-    question: Question, index: int, built: Built[Any]
-) -> Iterator[tuple[str, str]]:
+def _right_sentences(question: Question, index: int, spec: AnySpec) -> Iterator[tuple[str, str]]:
     """What is right in words, options, pairs, filled gaps: what must be told, and what may be."""
-    shown, spec = question.parts[index].field, built.spec
+    shown = question.parts[index].field
     options = {mark: inline(text) for mark, text in shown.options}
     if isinstance(spec, match.Spec):
         targets = {mark: inline(text) for mark, text in shown.targets}

@@ -18,8 +18,9 @@ from quizgen.bank.plan import Plan, admissible, plan_of
 from quizgen.bank.rules import Scalar
 from quizgen.bank.template import Template
 from quizgen.errors import DrawError
+from quizgen.maths.alike import Form
 from quizgen.maths.chain import ChainStep
-from quizgen.maths.numbers import at_a_glance, exact_text, rational, rounded_text
+from quizgen.maths.numbers import at_a_glance, exact_text, rational, rounded_text, to_float
 from quizgen.maths.precision import working_precision
 from quizgen.maths.units import factor
 from quizgen.maths.values import Value, Values
@@ -29,6 +30,19 @@ SHOWN_FIGURES = 6
 """Significant figures of a shown value that has no short exact form."""
 MAX_TRIES = 5000
 """Tries before a template is called impossible."""
+
+
+def digits(value: Value) -> str:
+    """A number by its first four digits: what somebody who copies it would take for the same."""
+    return f"{abs(to_float(value)):.4g}"
+
+
+@dataclass(frozen=True)
+class Elsewhere:
+    """What the other questions of a paper ask: forms of formulas, and numbers by their digits."""
+
+    formulas: frozenset[Form] = frozenset()
+    numbers: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,6 +64,8 @@ class Draw:
         Every quantity of the chain in base units.
     traps : tuple of tuple of str
         Per part, the mistakes that give a wrong and recognisable answer here.
+    elsewhere : Elsewhere
+        What this question must not tell, because others of its paper ask it.
     shown_values : mapping of str to flint.fmpq or flint.arb
         Every quantity, drawn or solved, in the unit it is shown in. Computed when the draw is made:
         a property cached later would wait for the lock of the precision under a lock of its own.
@@ -63,6 +79,7 @@ class Draw:
     words: Mapping[str, str]
     values: Values
     traps: tuple[tuple[str, ...], ...] = field(default=())
+    elsewhere: Elsewhere = Elsewhere()
     shown_values: Values = field(init=False, repr=False, compare=False)
     _texts: dict[str, str] = field(init=False, repr=False, compare=False, default_factory=dict)
 

@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
 
-from quizgen.bank.draw import Draw, draw
+from quizgen.bank.draw import Draw, Elsewhere, digits, draw
 from quizgen.bank.folder import Bank
+from quizgen.bank.plan import plan_of
 from quizgen.bank.template import Template
 from quizgen.bank.traps import answer_names
 from quizgen.errors import DrawError
+from quizgen.marking.kinds import expression
+from quizgen.marking.reading.formulas import author
+from quizgen.maths.alike import Form, equation
+from quizgen.maths.notation import to_text
 from quizgen.maths.numbers import to_float
-from quizgen.maths.values import Value
+from quizgen.maths.tree import Expr, substitute
 from quizgen.paper.blueprint import Blueprint
 from quizgen.paper.choose import choose
 from quizgen.question.compose import identity
+from quizgen.question.kinds import build
+from quizgen.question.specs import answer_of
 
 REDRAWS = 50
 """Tries to avoid the same numbers twice in one paper."""
@@ -83,18 +90,47 @@ def _asked(one: Draw) -> set[str]:
     """Numbers that are asked for, small whole ones aside."""
     names = [name for part in one.template.rules.part for name in answer_names(part.answer)]
     values = [one.shown_values[name] for name in names]
-    return {_digits(v) for v in values if abs(to_float(v)) >= COUNTED or to_float(v) % 1}
+    return {digits(v) for v in values if abs(to_float(v)) >= COUNTED or to_float(v) % 1}
 
 
 def _given(one: Draw) -> set[str]:
     """Numbers that a question states, as far as they have digits enough."""
-    return {text for text in map(_digits, one.shown.values()) if _significant(text) >= DIGITS}
-
-
-def _digits(value: Value) -> str:
-    return f"{abs(to_float(value)):.4g}"
+    return {text for text in map(digits, one.shown.values()) if _significant(text) >= DIGITS}
 
 
 def _significant(text: str) -> int:
     """Digits without zeros at the ends."""
     return len(text.partition("e")[0].replace(".", "").strip("0"))
+
+
+def aware(drawn: Sequence[Draw]) -> Iterator[Draw]:
+    """Each draw with what the other questions of its paper ask."""
+    formulas = [frozenset(_formulas(one)) for one in drawn]
+    numbers = [frozenset(n for n in _asked(one) if _significant(n) >= DIGITS) for one in drawn]
+    for place, one in enumerate(drawn):
+        others = [other for other in range(len(drawn)) if other != place]
+        asked = Elsewhere(
+            frozenset().union(*(formulas[other] for other in others)),
+            frozenset().union(*(numbers[other] for other in others)),
+        )
+        yield replace(one, elsewhere=asked)
+
+
+def _formulas(one: Draw) -> Iterator[Form]:
+    for index in range(len(one.template.rules.part)):
+        yield from asked_formulas(one, index)
+
+
+def asked_formulas(drawn: Draw, index: int) -> dict[Form, str]:
+    """Forms of the steps to an answer, each also with the steps before it put in, and the key."""
+    found: dict[Form, str] = {}
+    inner: dict[str, Expr] = {}
+    for step in plan_of(drawn.template).parts[index].steps:
+        inner[step.name] = substitute(step.expr, inner)
+        for expr in (step.expr, inner[step.name]):
+            found |= dict.fromkeys(equation(step.name, expr), f"{step.name} = {to_text(expr)}")
+    if answer_of(drawn, index)["kind"] == "expression":
+        spec: expression.Spec = build(drawn, index).spec
+        formula = author(spec.value, tuple(spec.symbols))
+        found |= dict.fromkeys(equation("", formula), spec.value)
+    return found

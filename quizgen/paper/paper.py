@@ -24,7 +24,7 @@ from quizgen.outside import located
 from quizgen.paper.blueprint import Blueprint, SlotRule, named_blueprint
 from quizgen.paper.choose import levels, variety, weights
 from quizgen.paper.code import REFERENCE, Code, checked_seed, digest_of, parse_code
-from quizgen.paper.draws import draws
+from quizgen.paper.draws import aware, draws
 from quizgen.paper.whole import working_time
 from quizgen.question.compose import Key, Question, instance, put_into_words
 from quizgen.question.levels import level_of
@@ -165,8 +165,11 @@ class _Wanted(NamedTuple):
 
 
 def _levels(drawn: Iterable[Draw], wanted: Iterable[str]) -> Iterator[_Wanted]:
-    """The level of each question, as far as it has such a form."""
-    for one, level in zip(drawn, wanted, strict=False):
+    """The level of each question, as far as it has such a form that tells nothing of another."""
+    pairs = [*zip(drawn, wanted, strict=False)]
+    ones = [one for one, _ in pairs]
+    made = any(level != EXAM for _, level in pairs)
+    for one, (_, level) in zip(aware(ones) if made else ones, pairs, strict=True):
         yield _Wanted(one, level_of(one, level))
 
 

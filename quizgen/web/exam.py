@@ -32,7 +32,7 @@ FIELDS = "a-"
 """Before the name of a part in a form."""
 SHOWN = "on-"
 """Before the name of a part in a form: what its fields held when the page was made."""
-PART = re.compile(r"[0-9]{1,4}[a-z]{0,2}")
+PART = re.compile(r"[0-9]{1,4}[a-z]{0,4}[0-9]{0,2}")
 """Names of parts."""
 MINUTES = (15, 30, 45, 60, 90)
 """Lengths of a paper of a topic."""

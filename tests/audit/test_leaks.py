@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 from click.testing import CliRunner
 
-from quizgen.audit.alike import equation, forms
 from quizgen.audit.leaks import leaks, said
 from quizgen.bank.folder import Bank
 from quizgen.cli.lint import lint
+from quizgen.maths.alike import equation, forms
 from quizgen.maths.notation import parse
 from quizgen.paper.blueprint import Blueprint, SlotRule, load_blueprint
 from quizgen.paper.paper import build

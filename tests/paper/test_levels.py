@@ -8,6 +8,7 @@ import msgspec
 import pytest
 from road import Desk, all_templates, fields, typed
 
+from quizgen.audit.leaks import leaks
 from quizgen.bank.folder import builtin
 from quizgen.bank.levels import CHOICES, EXAM
 from quizgen.errors import CodeError
@@ -52,6 +53,24 @@ def test_a_code_holds_its_level_and_makes_the_paper_again(level):
     if any(item.keys[0].level != EXAM for item in paper.items):
         with pytest.raises(CodeError):
             rebuild(builtin(), paper.code.replace(f"-{level}", ""), figures=False)
+
+
+@pytest.mark.parametrize("level", LEVELS)
+@pytest.mark.parametrize(
+    "seed", [0, *(pytest.param(n, marks=pytest.mark.slow) for n in range(1, 25))]
+)
+def test_no_question_of_a_paper_tells_what_another_one_asks(level, seed):
+    for name in ("mock", "trial"):
+        paper = build(builtin(), at(level, name), seed, "both", figures=False)
+        assert leaks(paper) == []
+
+
+@pytest.mark.parametrize("level", ["guided", "transfer"])
+def test_formulas_that_two_questions_ask_are_printed_by_neither(level):
+    pair = ("image-height-and-fill-distance", "point-to-image-plane", "image-scaling-laws")
+    slots = tuple(SlotRule(templates=(name,), level=level) for name in pair)
+    for seed in range(8):
+        assert leaks(build(builtin(), Blueprint({"en": "x"}, slots, name="x"), seed)) == []
 
 
 def test_a_slot_may_have_a_level_of_its_own():

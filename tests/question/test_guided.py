@@ -8,6 +8,7 @@ import pytest
 
 from quizgen.bank.draw import draw, reference
 from quizgen.bank.folder import builtin
+from quizgen.bank.prose import Paragraph, Styled
 from quizgen.marking.options import Options
 from quizgen.paper.key import key_question
 from quizgen.paper.marking import Marker
@@ -125,6 +126,38 @@ def test_a_formula_that_the_text_gives_is_no_question(name, told):
         asked = {stage.formula.name for stage in stages(draw(builtin().template(name), seed)) if stage.formula}  # fmt: skip
         assert asked
         assert not asked & told
+
+
+def bold(blocks):
+    """Questions in bold."""
+    shown = (part for block in blocks if isinstance(block, Paragraph) for part in block.children)
+    return [part for part in shown if isinstance(part, Styled) and part.style == "strong"]
+
+
+@pytest.mark.parametrize("name", CALCULATING)
+def test_one_question_is_asked_at_a_time(name):
+    drawn = draw(builtin().template(name), 1)
+    if not LEVELS["guided"].fits(drawn):
+        return
+    question, _ = guided(drawn)
+    authored = {part.label: part for part in put_into_words(drawn, "en", figures=False)[0].parts}
+    for part in question.parts:
+        usual = authored.get(part.label)
+        assert len(bold(part.body)) <= 1 or (usual and bold(part.body) == bold(usual.body))
+    if all(part.label not in authored for part in question.parts):
+        assert bold(question.stem) == [] or len(authored) > 1
+
+
+@pytest.mark.parametrize("level", ["guided", "transfer"])
+@pytest.mark.parametrize("name", CALCULATING)
+def test_letters_of_parts_are_not_those_of_the_fields_of_a_table(name, level):
+    drawn = draw(builtin().template(name), 1)
+    question, key = put_into_words(drawn, "en", level=level, figures=False)
+    cells = {
+        cell for spec in key.specs for cell in getattr(spec, "values", {}) if spec.kind == "table"
+    }
+    authored = drawn.template.labels if len(drawn.template.labels) > 1 else ()
+    assert cells.isdisjoint({part.label for part in question.parts}.difference(authored))
 
 
 def test_a_time_that_the_text_gives_is_no_step():

@@ -10,6 +10,7 @@ from models import DIGITS, model, near, solved, symbols
 
 from quizgen.bank.draw import draw
 from quizgen.bank.folder import builtin
+from quizgen.bank.prose import Items, Paragraph
 from quizgen.marking.mark import mark
 from quizgen.maths.constants import exact_value
 from quizgen.maths.notation import parse
@@ -17,6 +18,7 @@ from quizgen.maths.numbers import key_text
 from quizgen.maths.scaling import power_of
 from quizgen.maths.units import factor
 from quizgen.question.compose import put_into_words
+from quizgen.question.filling import plain
 from quizgen.question.levels import LEVELS
 from quizgen.question.levels.changes import Changes
 from quizgen.question.levels.comparing import compared
@@ -106,6 +108,15 @@ def test_every_option_is_answered_and_every_mistake_named(name, lang):
             for mistake in solution.mistakes:
                 verdict = mark(spec, mistake.value, lang=lang, decimal="point")
                 assert verdict.note == f"trap:{mistake.name}"
+
+
+@pytest.mark.parametrize("lang", ["en", "bn"])
+def test_a_worked_solution_and_two_changes_are_introduced(lang):
+    drawn = draw(builtin().template("diameter-stops-and-exposure-time"), 3)
+    for part in (found_mistake(drawn)(lang), compared(Changes(drawn), None)(lang)):
+        assert [type(block) for block in part.body] == [Paragraph, Items, Paragraph]
+        assert plain(part.body[0].children).endswith(":")
+        assert all(len(plain(text)) < 40 for _, text in part.options)
 
 
 def test_a_mistake_whose_value_cannot_be_written_is_left_out():

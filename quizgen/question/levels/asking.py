@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Protocol
 
 from quizgen.bank.draw import Draw
-from quizgen.bank.prose import Block, Inline
+from quizgen.bank.prose import Block, Inline, Paragraph, Styled
 from quizgen.marking.specs import AnySpec
 from quizgen.question.contract import LINE, Control
 from quizgen.question.solution import PartSolution, Solution
@@ -55,6 +55,16 @@ class Level(Protocol):
 
     def asking(self, drawn: Draw, lang: str) -> Asking:
         """Put a draw into words at this level."""
+
+
+def quiet(block: Block) -> Block:
+    """A block without bold questions, where others are asked in their place."""
+    if not isinstance(block, Paragraph):
+        return block
+    plain: list[Inline] = []
+    for part in block.children:
+        plain += part.children if isinstance(part, Styled) and part.style == "strong" else (part,)
+    return Paragraph(tuple(plain))
 
 
 def shared_out(total: Fraction, weights: Sequence[Fraction]) -> tuple[Fraction, ...]:

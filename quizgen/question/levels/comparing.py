@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from quizgen.bank.plan import pick, shuffled
-from quizgen.bank.prose import Inline, Paragraph, Styled
+from quizgen.bank.prose import Inline, Items, Paragraph, Styled
 from quizgen.maths.precision import working_precision
 from quizgen.question.levels.asking import Asked
 from quizgen.question.levels.changes import Change, Changes, clearly_more, distance, targets
@@ -40,19 +40,17 @@ class Pair:
             )  # fmt: skip
 
         def option(name: str) -> Option:
-            return Option(
-                lambda each: self._wording(name, each), name == self.answer, because, name
-            )
+            wording = f"transfer.{name}"
+            return Option(lambda each: said(each, wording), name == self.answer, because, name)
 
+        intro = Paragraph(said(lang, "transfer.compare_said"))
+        changes = Items(
+            tuple((Paragraph(change.said(lang)),) for change in (self.first, self.second)),
+            ordered=True,
+        )
         asked = said(lang, "transfer.compare", target=thing(drawn, target, lang))
-        body = (Paragraph((Styled("strong", asked),)),)
+        body = (intro, changes, Paragraph((Styled("strong", asked),)))
         return choice(drawn, lang, body, [option(name) for name in ANSWERS])
-
-    def _wording(self, name: str, lang: str) -> tuple[Inline, ...]:
-        if name == "equal":
-            return said(lang, "transfer.equal")
-        change = self.first if name == "first" else self.second
-        return said(lang, f"transfer.{name}", change=change.said(lang))
 
 
 def compared(changes: Changes, asked: Effect | None) -> Pair | None:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from string import ascii_lowercase
 
 import msgspec
 
@@ -23,7 +22,7 @@ from quizgen.question.contract import Built
 from quizgen.question.filling import Filler
 from quizgen.question.kinds import KINDS
 from quizgen.question.levels import exam
-from quizgen.question.levels.asking import Asked, Asking, shared_out
+from quizgen.question.levels.asking import Asked, Asking, quiet, shared_out
 from quizgen.question.levels.options import Option, choice
 from quizgen.question.levels.steps import (
     Way,
@@ -33,6 +32,7 @@ from quizgen.question.levels.steps import (
     has_name,
     introduced,
     key_of,
+    labels,
     right_way,
     stated,
     value_spec,
@@ -154,7 +154,8 @@ def asking(drawn: Draw, lang: str) -> Asking:
         for part, worth in zip((p for group in groups for p in group), points, strict=True)
     )
     solution = replace(usual.solution, parts=tuple(part.solved for part in parts))
-    return Asking(usual.stem, parts, solution)
+    stem = usual.stem if len(groups) > 1 else tuple(map(quiet, usual.stem))
+    return Asking(stem, parts, solution)
 
 
 class _Guide:
@@ -177,14 +178,19 @@ class _Guide:
             if stage.formula is not None and stage.formula not in stage.before:
                 found.append(self._formula(stage, stage.formula, len(found)))
             found.append(self._rest(stage, usual))
-        goal = usual.body if len(found) > 1 else ()
+        goal = map(quiet, usual.body) if len(found) > 1 else ()
         found[0] = replace(found[0], body=(*goal, *found[0].body))
-        labels = _labels(usual.label, len(found))
         worth = usual.points / len(found)
         return [
             replace(part, points=worth, solved=replace(part.solved, label=label))
-            for part, label in zip(found, labels, strict=True)
+            for part, label in zip(found, self._labels(usual.label, len(found)), strict=True)
         ]
+
+    def _labels(self, label: str, count: int) -> list[str]:
+        """Labels of the parts that take the place of one."""
+        if label and count > 1:
+            return [f"{label}{n}" for n in range(1, count + 1)]
+        return [label] if label else labels(self.drawn, count)
 
     def _strong(self, key: str, **blanks: tuple[Inline, ...]) -> tuple[Block, ...]:
         return (Paragraph((Styled("strong", said(self.lang, key, **blanks)),)),)
@@ -258,10 +264,3 @@ def _offered(drawn: Draw, stage: Stage, step: ChainStep) -> list[Way]:
     """The formulas to choose from, in a drawn order."""
     ways = [right_way(drawn, step, stage.known), *wrong_ways(drawn, step, stage.known)[: WAYS - 1]]
     return shuffled(f"{key_of(drawn)}/{step.name}/order", ways)
-
-
-def _labels(label: str, count: int) -> list[str]:
-    """Labels of the parts that take the place of one."""
-    if count == 1:
-        return [label]
-    return [f"{label}{n}" for n in range(1, count + 1)] if label else list(ascii_lowercase[:count])

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from quizgen.bank.draw import Draw
-from quizgen.bank.plan import pick, shuffled
+from quizgen.bank.draw import Draw, digits
+from quizgen.bank.plan import shuffled
 from quizgen.bank.prose import Block, Inline, Items, Paragraph, Styled, Words
 from quizgen.bank.traps import answer_names
 from quizgen.errors import MathError
@@ -23,6 +23,7 @@ from quizgen.question.levels.steps import (
     key_of,
     only_units,
     same_value,
+    tells,
     told,
 )
 from quizgen.question.shown import said
@@ -46,6 +47,7 @@ class Wrong:
         """The part in a language."""
         shown = self._shown()
         rows = tuple(self._row(shown, step, lang) for step in self._written())
+        intro = Paragraph(said(lang, "transfer.mistake_said"))
         asked = Paragraph((Styled("strong", said(lang, "transfer.mistake")),))
         options = [self._option(place) for place in range(len(self.steps))]
         none = Option(
@@ -53,15 +55,21 @@ class Wrong:
         )
         right = Filler(self.drawn, lang)
         lines = (line_of(right, self.steps[self.place]),) if self.trap else ()
-        body = (Items(rows, ordered=True), asked)
+        body = (intro, Items(rows, ordered=True), asked)
         return choice(self.drawn, lang, body, [*options, none], lines)
 
     def _shown(self) -> Draw:
         """The draw with the values that the mistake leads to."""
-        if not self.trap:
-            return self.drawn
-        values = self.drawn.template.chain.trapped(self.trap, self.drawn.values)
-        return replace(self.drawn, values=values)
+        return _mistaken(self.drawn, self.trap) if self.trap else self.drawn
+
+    @property
+    def tells(self) -> bool:
+        """Whether a line holds a formula or a result that another question of the paper asks."""
+        values, numbers = self._shown().shown_values, self.drawn.elsewhere.numbers
+        return any(
+            digits(values[step.name]) in numbers or tells(self.drawn, step.name, step.expr)
+            for step in self._written()
+        )
 
     def _wrong(self) -> tuple[ChainStep, ...]:
         return self.drawn.template.chain.traps.get(self.trap, ())
@@ -106,10 +114,6 @@ class Wrong:
         return said(lang, "transfer.one_wrong" if self.trap else "transfer.all_right")
 
 
-def _none(lang: str) -> tuple[Inline, ...]:
-    return said(lang, "transfer.none")
-
-
 def found_mistake(drawn: Draw) -> Wrong | None:
     """A solution of one part with a drawn mistake, or with none; None if no part has steps for it.
 
@@ -119,17 +123,22 @@ def found_mistake(drawn: Draw) -> Wrong | None:
         steps = _steps(drawn, index)
         if not FEWEST <= len(steps) <= MOST:
             continue
-        by_place: dict[int, list[str]] = {}
+        by_place: dict[int, list[Wrong]] = {-1: [Wrong(drawn, steps)]}
         for trap, place in _usable(drawn, index, steps):
-            by_place.setdefault(place, []).append(trap)
-        if by_place:
-            key = f"{key_of(drawn)}/mistake/{index}"
-            place = [-1, *sorted(by_place)][pick(key, len(by_place) + 1)]
-            if place < 0:
-                return Wrong(drawn, steps)
-            traps = by_place[place]
-            return Wrong(drawn, steps, traps[pick(f"{key}/trap", len(traps))], place)
+            by_place.setdefault(place, []).append(Wrong(drawn, steps, trap, place))
+        if len(by_place) == 1:
+            continue
+        key = f"{key_of(drawn)}/mistake/{index}"
+        for place in shuffled(key, sorted(by_place)):
+            for wrong in shuffled(f"{key}/trap", by_place[place]):
+                if not wrong.tells:
+                    return wrong
     return None
+
+
+def _mistaken(drawn: Draw, trap: str) -> Draw:
+    """The draw with the values that a mistake leads to."""
+    return replace(drawn, values=drawn.template.chain.trapped(trap, drawn.values))
 
 
 def _steps(drawn: Draw, index: int) -> tuple[ChainStep, ...]:
@@ -154,11 +163,12 @@ def _usable(drawn: Draw, index: int, steps: tuple[ChainStep, ...]) -> Iterator[t
         if any(only_units(one.expr, steps[places[one.name]].expr) for one in inside):
             continue
         try:
-            values = drawn.template.chain.trapped(trap, drawn.values)
+            shown = _mistaken(drawn, trap)
         except MathError:
             continue
-        if not _writable(replace(drawn, values=values), steps):
+        if not _writable(shown, steps):
             continue
+        values = shown.values
         changed = [
             one.name for one in inside if not same_value(values[one.name], drawn.values[one.name])
         ]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from fractions import Fraction
+from string import ascii_lowercase
 from typing import Any, NamedTuple
 
 from flint import fmpq
@@ -29,6 +30,7 @@ from quizgen.bank.traps import APART, answer_names
 from quizgen.errors import MathError
 from quizgen.marking.kinds import angle, number, quantity
 from quizgen.marking.specs import OneNumber, decode
+from quizgen.maths.alike import forms
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.notation import to_text
 from quizgen.maths.numbers import key_text, short_decimal, to_float
@@ -44,6 +46,7 @@ from quizgen.question.worked import drawn_node, drawn_typed
 
 USUAL = {"rel": "0.005"}
 """What is accepted where the rule of the part does not fit the step."""
+ROMAN = ("i", "ii", "iii", "iv", "v", "vi", "vii", "viii", "ix", "x", "xi", "xii")
 _BANNED = tuple(1000**n for n in range(1, 7))
 """Factors in a wrong formula that only change a unit."""
 _DEGREES = Call("div", (Num(Fraction(180)), Call("pi", ())))
@@ -166,16 +169,23 @@ def formula(drawn: Draw, step: ChainStep, expr: Expr, known: frozenset[str]) -> 
 
 
 def gives_away(drawn: Draw, step: ChainStep, known: frozenset[str]) -> bool:
-    """Whether the formula of a step would print its value, or a number that is to be found."""
+    """Whether the formula of a step would print its value, or anything else that is asked."""
     formulas = [step.expr, *(expr for _, expr in _wrong(drawn, step))]
     strangers = {name for expr in formulas for name in names(branch(drawn, expr)) - known}
-    bare = not isinstance(branch(drawn, step.expr), Call) and not names(step.expr) & known
-    return bare or not strangers <= stated(drawn)
+    right = branch(drawn, step.expr)
+    bare = not isinstance(right, Call) and not names(step.expr) & known
+    return bare or not strangers <= stated(drawn) or tells(drawn, step.name, right)
 
 
 def right_way(drawn: Draw, step: ChainStep, known: frozenset[str]) -> Way:
     """The right formula, in the branch that applies."""
     return Way("", formula(drawn, step, branch(drawn, step.expr), known), drawn.values[step.name])
+
+
+def tells(drawn: Draw, name: str, expr: Expr) -> bool:
+    """Whether a formula in print tells what another question of the paper asks."""
+    asked = drawn.elsewhere.formulas
+    return bool(asked) and not asked.isdisjoint(forms(Call("eq", (Sym(name), expr))))
 
 
 def branch(drawn: Draw, expr: Expr) -> Expr:
@@ -193,9 +203,27 @@ def wrong_ways(drawn: Draw, step: ChainStep, known: frozenset[str]) -> list[Way]
         value = value_of(drawn, expr)
         if value is None or only_units(expr, step.expr) or same_value(value, right.value):
             continue
+        if tells(drawn, step.name, branch(drawn, expr)):
+            continue
         found.setdefault(shown.typed, Way(trap, shown, value))
     ways = [way for way in found.values() if way.trap]
     return shuffled(f"{key_of(drawn)}/{step.name}/ways", ways)
+
+
+def labels(drawn: Draw, count: int) -> list[str]:
+    """Labels of parts that a level makes: letters, unless the task itself tells things by them."""
+    if count == 1:
+        return [""]
+    task = {*_letters(_text(drawn)), *_cells(drawn)}
+    letters = list(ascii_lowercase[:count])
+    return letters if task.isdisjoint(letters) else list(ROMAN[:count])
+
+
+def _cells(drawn: Draw) -> Iterator[str]:
+    """What the authored parts call the fields of a table."""
+    for part in drawn.template.rules.part:
+        if isinstance(part.answer.get("of"), Mapping):
+            yield from part.answer["of"]
 
 
 def key_of(drawn: Draw) -> str:

@@ -10,21 +10,20 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from fractions import Fraction
-from string import ascii_lowercase
 
 from quizgen.bank.draw import Draw
 from quizgen.bank.plan import shuffled
-from quizgen.bank.prose import Block, Inline, Items, Paragraph, Styled, Words
+from quizgen.bank.prose import Block, Items, Paragraph, Styled, Words
 from quizgen.locale import word
 from quizgen.question.filling import Filler
 from quizgen.question.levels import exam
-from quizgen.question.levels.asking import Asked, Asking, shared_out
+from quizgen.question.levels.asking import Asked, Asking, quiet, shared_out
 from quizgen.question.levels.changes import Changes
 from quizgen.question.levels.comparing import compared
 from quizgen.question.levels.effects import effect
 from quizgen.question.levels.guided import NUMERIC
 from quizgen.question.levels.mistaken import found_mistake
-from quizgen.question.levels.steps import key_of
+from quizgen.question.levels.steps import key_of, labels
 
 SMALL, MIDDLE = 1, 3
 """Points up to which one part is asked, and two."""
@@ -61,11 +60,10 @@ def asking(drawn: Draw, lang: str) -> Asking:
     makers = list(_makers(drawn))
     count = 1 if total <= SMALL else 2 if total <= MIDDLE else 3
     kept = sorted(shuffled(f"{key_of(drawn)}/forms", range(len(makers)))[:count])
-    labels = ascii_lowercase[: len(kept)] if len(kept) > 1 else [""]
     worth = shared_out(total, [Fraction(1)] * len(kept))
     parts = tuple(
         _placed(makers[place](lang), label, points)
-        for place, label, points in zip(kept, labels, worth, strict=True)
+        for place, label, points in zip(kept, labels(drawn, len(kept)), worth, strict=True)
     )
     solution = replace(
         usual.solution, parts=tuple(part.solved for part in parts),
@@ -81,21 +79,11 @@ def _placed(part: Asked, label: str, points: Fraction) -> Asked:
 def _task(drawn: Draw, lang: str, usual: Asking) -> Iterator[Block]:
     """The task as the exam asks it, with what its calculating parts say."""
     yield Paragraph((Styled("em", (Words(word(lang, "transfer.about")),)),))
-    yield from map(_quiet, Filler(drawn, lang, hidden=True).blocks(drawn.template.texts[lang].stem))
+    yield from map(quiet, Filler(drawn, lang, hidden=True).blocks(drawn.template.texts[lang].stem))
     kinds = [part.answer["kind"] for part in drawn.template.rules.part]
     bodies = [
-        tuple(map(_quiet, part.body)) for part, kind in zip(usual.parts, kinds, strict=True)
+        tuple(map(quiet, part.body)) for part, kind in zip(usual.parts, kinds, strict=True)
         if kind in NUMERIC and part.body
     ]  # fmt: skip
     if bodies:
         yield Items(tuple(bodies))
-
-
-def _quiet(block: Block) -> Block:
-    """A block without bold questions, which are not asked here."""
-    if not isinstance(block, Paragraph):
-        return block
-    plain: list[Inline] = []
-    for part in block.children:
-        plain += part.children if isinstance(part, Styled) and part.style == "strong" else (part,)
-    return Paragraph(tuple(plain))
