@@ -44,15 +44,18 @@ def test_it_listens_on_the_port_of_the_first_time_while_that_is_free(tmp_path):
 def test_an_answer_is_sent_before_what_went_before_it_is_acknowledged():
     found = []
 
+    async def answer(_, there) -> None:
+        sent_to = there.get_extra_info("socket")
+        found.append(sent_to.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY))
+        there.close()
+
     async def ask() -> None:
         listening = _listening(0)
-        accepted = asyncio.get_running_loop().create_future()
-        server = await asyncio.start_server(lambda _, w: accepted.set_result(w), sock=listening)
-        _, writer = await asyncio.open_connection(*listening.getsockname())
-        there = (await accepted).get_extra_info("socket")
-        found.append(there.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY))
-        writer.close()
-        server.close()
+        async with await asyncio.start_server(answer, sock=listening):
+            reader, writer = await asyncio.open_connection(*listening.getsockname())
+            await reader.read()
+            writer.close()
+            await writer.wait_closed()
 
     ran(ask())
     assert found[0]
