@@ -180,7 +180,7 @@ class Whole:
 
 
 def why_not(blueprint: Blueprint, places: Sequence[Sequence[Candidate]]) -> str:
-    """Which demand cannot be met by any choice, or that they cannot be met together."""
+    """Which demand cannot be met by any choice, or that nothing was found that meets all."""
     for name, none in NOTHING.items():
         others = {other: value for other, value in NOTHING.items() if other != name}
         alone = structs.replace(blueprint, **others)
@@ -191,7 +191,7 @@ def why_not(blueprint: Blueprint, places: Sequence[Sequence[Candidate]]) -> str:
     if blueprint.figure_kinds > len(kinds):
         return f"figure_kinds = {blueprint.figure_kinds} cannot be met: there are {len(kinds)}"
     asked = ", ".join(name for name, none in NOTHING.items() if getattr(blueprint, name) != none)
-    return f"no choice of templates that may stand together meets {asked}"
+    return f"no choice of templates that may stand together was found that meets {asked}"
 
 
 NOTHING = {"total": None, "minutes": None, "figures": 0, "photographs": 0, "figure_kinds": 0}
