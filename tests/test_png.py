@@ -122,3 +122,18 @@ def test_huge_pictures_are_refused_before_they_are_unpacked():
     huge = data[:16] + struct.pack(">II", 10_000, 5_001) + data[24:]
     with pytest.raises(ValueError, match="more than 24 megapixels"):
         png.decode(huge)
+
+
+@pytest.mark.parametrize("run", [*range(1, 14), 257, 258, 259, 260, 261, 516, 517, 600])
+def test_inflate_reads_every_run_length(run):
+    data = np.repeat(np.array([0, 7, 143, 144, 255, 0], np.uint8), run)
+    assert zlib.decompress(png.deflate(data)) == data.tobytes()
+
+
+def test_indexed_pictures_are_read_by_pillow():
+    rng = np.random.default_rng(3)
+    indices = rng.integers(0, 256, (17, 31), dtype=np.uint8)
+    palette = [tuple(map(int, colour)) for colour in rng.integers(0, 256, (256, 3))]
+    file = png.indexed(indices.shape, png.index_data(indices), palette)
+    picture = np.asarray(Image.open(io.BytesIO(file)).convert("RGB"))
+    assert (picture == np.array(palette)[indices]).all()
