@@ -13,7 +13,7 @@ from alembic import command
 from alembic.autogenerate import compare_metadata
 from alembic.config import Config
 from alembic.migration import MigrationContext
-from sqlalchemy import create_engine, insert, text
+from sqlalchemy import create_engine, insert, inspect, text
 from sqlalchemy.exc import IntegrityError
 
 from quizgen.errors import StoreError
@@ -60,6 +60,30 @@ def as_released(address: str, release: str) -> None:
                 values = ", ".join(f":{name}" for name in row)
                 connection.execute(text(f"INSERT INTO {table} ({names}) VALUES ({values})"), row)
     engine.dispose()
+
+
+def test_a_new_database_is_as_the_steps_leave_one(database):
+    stepped, made = database(), database()
+    as_released(stepped, "head")
+    Store(made).close()
+
+    def tables(address: str) -> dict[str, object]:
+        engine = create_engine(address)
+        with engine.connect() as connection:
+            there = inspect(connection)
+            version = connection.execute(text("SELECT * FROM alembic_version")).all()
+            found = {
+                name: [
+                    sorted(map(str, told(name)))
+                    for told in (there.get_columns, there.get_indexes, there.get_foreign_keys,
+                                 there.get_unique_constraints)
+                ] + [there.get_pk_constraint(name)]
+                for name in there.get_table_names()
+            }  # fmt: skip
+        engine.dispose()
+        return {"version": version, **found}
+
+    assert tables(made) == tables(stepped)
 
 
 @pytest.mark.parametrize("release", sorted(path.name[:4] for path in STEPS.glob("versions/*.py")))

@@ -1,15 +1,34 @@
-"""Bringing a database to the tables of this version, by the steps in ``migrations``."""
+"""Bringing a database to the tables of this version; an older one by ``migrations``."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from sqlalchemy import Connection, inspect, text
+from sqlalchemy import (
+    Column,
+    Connection,
+    MetaData,
+    PrimaryKeyConstraint,
+    String,
+    Table,
+    insert,
+    inspect,
+    select,
+    text,
+)
 
 from quizgen.errors import StoreError
+from quizgen.web.store.tables import METADATA
 
 NEWEST = "0004"
 """The last step in ``migrations/versions``."""
+_VERSIONS = Table(
+    "alembic_version",
+    MetaData(),
+    Column("version_num", String(32), nullable=False),
+    PrimaryKeyConstraint("version_num", name="alembic_version_pkc"),
+)
+"""Where alembic writes the last step that was taken."""
 
 
 def upgrade(connection: Connection) -> None:
@@ -22,6 +41,8 @@ def upgrade(connection: Connection) -> None:
     """
     if connection.dialect.name == "postgresql":  # of two servers that start at once one waits
         connection.execute(text("SELECT pg_advisory_xact_lock(hashtext('quizgen'))"))
+    if not inspect(connection).get_table_names():
+        _begin(connection)
     found = _version(connection)
     if found == NEWEST:
         return
@@ -36,7 +57,14 @@ def upgrade(connection: Connection) -> None:
     command.upgrade(config, "head")
 
 
+def _begin(connection: Connection) -> None:
+    """Make all tables at once: the steps lead to the same, but loading them takes a while."""
+    METADATA.create_all(connection)
+    _VERSIONS.create(connection)
+    connection.execute(insert(_VERSIONS).values(version_num=NEWEST))
+
+
 def _version(connection: Connection) -> str | None:
-    if not inspect(connection).has_table("alembic_version"):
+    if not inspect(connection).has_table(_VERSIONS.name):
         return None
-    return connection.execute(text("SELECT version_num FROM alembic_version")).scalar()
+    return connection.execute(select(_VERSIONS.c.version_num)).scalar()
