@@ -5,18 +5,26 @@ They stand in ``templates/cards/formulas.toml``.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
+from collections.abc import Iterator, Mapping
+from functools import cache
 
 import msgspec
 
 from quizgen.bank.entries import Entry, Passage, authored
 from quizgen.bank.folder import Bank
+from quizgen.maths.notation import parse
+from quizgen.maths.tree import Call, Expr, Sym, names, substitute, walk
 
 NAME = "formulas"
 """The file without its suffix."""
 
 Piece = Mapping[str, str | tuple[str, ...]]
 """What the grammar of formulas does not have, described: see ``question.equations``."""
+
+_SIGN = re.compile(r"\s(!=|<=|>=|[=<>≠≤≥∝≈→∈~≪≫⇒])\s")
+_ANYWHERE = frozenset({"add", "sub", "neg", "div"})
+"""Operators of means and shares, which many a step is without being a formula of the sheet."""
 
 
 class FormulaEntry(Entry, frozen=True, kw_only=True):
@@ -47,6 +55,52 @@ def missing_formulas(bank: Bank, name: str) -> list[str]:
     named = bank.template(name).chain.formulas.values()
     known = {entry.id for entry in formulas(bank)}
     return sorted({*named} - known)
+
+
+def unnamed_formulas(bank: Bank, name: str) -> dict[str, list[str]]:
+    """Steps of a template's solver that have the form of formulas of the bank, and name none."""
+    chain, known = bank.template(name).chain, dict[Expr, list[str]]()
+    steps = {step.name: _form(step.expr) for step in chain.steps if step.name not in chain.formulas}
+    for entry in formulas(bank) if steps else ():
+        for expr in filter(_tells, _right_sides(entry)):
+            known.setdefault(_form(expr), []).append(entry.id)
+    return {step: sorted({*known[form]}) for step, form in steps.items() if form in known}
+
+
+def _right_sides(entry: FormulaEntry) -> Iterator[Expr]:
+    """What a formula is computed by: all sides but the first, pieces outside the grammar aside."""
+    for line in entry.lines:
+        for text in cut(line)[1][1:]:
+            expr = _parsed(text)
+            if not names(expr) & entry.inside.keys():
+                yield expr
+
+
+def _tells(expr: Expr) -> bool:
+    """Whether a form is rare enough to be known again."""
+    calls = [node.op for node in walk(expr) if isinstance(node, Call)]
+    return len(calls) > 1 and not _ANYWHERE.issuperset(calls)
+
+
+def _form(expr: Expr) -> Expr:
+    """A formula whatever its letters are."""
+    return substitute(expr, dict.fromkeys(names(expr), Sym("")))
+
+
+_parsed = cache(parse)
+
+
+def cut(line: str) -> tuple[list[str], list[str]]:
+    """Cut a line at its relation signs: the signs, and one side more."""
+    cuts = [found for found in _SIGN.finditer(line) if _outside(line[: found.start()])]
+    starts, ends = [0, *(one.end() for one in cuts)], [*(one.start() for one in cuts), len(line)]
+    sides = [line[start:end] for start, end in zip(starts, ends, strict=True)]
+    return [found[1] for found in cuts], sides
+
+
+def _outside(before: str) -> bool:
+    """Whether a place is outside all brackets."""
+    return before.count("(") == before.count(")")
 
 
 def asked_in(bank: Bank) -> dict[str, tuple[str, ...]]:

@@ -153,13 +153,17 @@ def _examined(
 ) -> tuple[tuple[str, ...], list[str]]:
     """Cells of a template's row, and its problems."""
     from quizgen.audit.lint import lint_template
-    from quizgen.bank.formulas import missing_formulas
+    from quizgen.bank.formulas import missing_formulas, unnamed_formulas
 
     try:
         report = lint_template(bank.template(name), seeds, bank.languages)
         report.problems += [
             f"the solver names formula {formula!r}, which templates/cards/formulas.toml lacks"
             for formula in missing_formulas(bank, name)
+        ]
+        report.problems += [
+            f"step {step!r} of the solver has the form of {', '.join(forms)} and names no formula"
+            for step, forms in unnamed_formulas(bank, name).items()
         ]
     except Exception as error:
         if interrupted():

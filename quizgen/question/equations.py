@@ -25,7 +25,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import pairwise
 
 from quizgen import typeset
-from quizgen.bank.formulas import Piece
+from quizgen.bank.formulas import Piece, cut
 from quizgen.errors import BankError, FormulaError, RenderError
 from quizgen.maths.notation import parse, to_text
 from quizgen.maths.tree import Call, Expr, names
@@ -36,7 +36,6 @@ from quizgen.typeset.nodes import ATOM, PRODUCT, Big, Func, Ident, Number, Op, R
 Inside = Mapping[str, Piece]
 """Letter in a line to the piece it stands for."""
 
-_SIGN = re.compile(r"\s(!=|<=|>=|[=<>≠≤≥∝≈→∈~≪≫⇒])\s")
 _SPELLED = {"!=": "≠", "<=": "≤", ">=": "≥"}
 _SYMBOL = re.compile(r"\w[\w']*")
 _ENDS = ("()", "(]", "[)", "[]")
@@ -65,16 +64,9 @@ def sides(line: str, inside: Inside, where: str) -> tuple[list[str], list[Maths]
     BankError
         Naming the place and the column.
     """
-    cuts = [found for found in _SIGN.finditer(line) if _outside(line[: found.start()])]
-    signs = [_SPELLED.get(found[1], found[1]) for found in cuts]
-    starts, ends = [0, *(cut.end() for cut in cuts)], [*(cut.start() for cut in cuts), len(line)]
-    texts = [line[start:end] for start, end in zip(starts, ends, strict=True)]
-    return signs, [side(text, inside, where) for text in texts]
-
-
-def _outside(before: str) -> bool:
-    """Whether a place is outside all brackets."""
-    return before.count("(") == before.count(")")
+    signs, texts = cut(line)
+    printed = [_SPELLED.get(sign, sign) for sign in signs]
+    return printed, [side(text, inside, where) for text in texts]
 
 
 def side(text: str, inside: Inside, where: str) -> Maths:

@@ -45,7 +45,7 @@ with evaluate(False):
             Step(e_s, G * n_s),
             Step(e_q, 4 * q),
         ),
-        formulas={"c": "F33", "n_k": "F20"},
+        formulas={"c": "F33", "n_k": "F20", "a": "F08", "u": "F05"},
         traps={
             "radius": Step(n_c, c / (2 * p)),
             "number-multiplied": Step(c, f**2 * Abs(z - s) * N / (z * (s - f))),

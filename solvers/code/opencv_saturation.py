@@ -14,6 +14,7 @@ with evaluate(False):
     MODEL = Model(
         given={a: "", b: "", p: "", q: ""},
         steps=(Step(u, Min(255, a + b)), Step(v, Max(0, p - q))),
+        formulas={"u": "F13", "v": "F13"},
         traps={
             "wrapped": (Step(u, Mod(a + b, 256)), Step(v, Mod(p - q, 256))),
             "unlimited": (Step(u, a + b), Step(v, p - q)),

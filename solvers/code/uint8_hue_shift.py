@@ -19,7 +19,7 @@ with evaluate(False):
             Step(w, Mod(s, 256)),
             Step(c, Mod(w, 180)),
         ),
-        formulas={"w": "F36"},
+        formulas={"w": "F36", "o": "F37"},
         traps={
             "no-wrap": Step(w, s),
             "offset-in-degrees": Step(o, d),

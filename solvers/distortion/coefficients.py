@@ -22,6 +22,7 @@ with evaluate(False):
             Step(k_2, (m - k_0) / (r_2**2 - r_1**2)),
             Step(k_1, k_0 - k_2 * r_1**2),
         ),
+        formulas={"q_1": "F20", "k_0": "F20", "q_2": "F20"},
         traps={
             "absolute-shift": (Step(q_1, d_1 - r_1), Step(q_2, d_2 - r_2)),
             "upside-down": (Step(q_1, r_1 / d_1 - 1), Step(q_2, r_2 / d_2 - 1)),

@@ -20,6 +20,7 @@ with evaluate(False):
             Step(E, log(1 / q, 2), "stop"),
             Step(g, 1 / q),
         ),
+        formulas={"E": "F34"},
         traps={
             "cosine-squared": Step(q, 1 / (1 + t**2)),
             "ratio-for-angle": Step(q, cos(t) ** 4),

@@ -22,6 +22,7 @@ with evaluate(False):
             Step(x, x_d * s),
             Step(y, y_d * s),
         ),
+        formulas={"r_1": "F20", "r_2": "F20", "r_3": "F20"},
         traps={
             "forward": (
                 Step(r_1, r_d * (1 + k_1 * r_d**2)),

@@ -17,6 +17,7 @@ with evaluate(False):
             Step(day, (P_1 * V_1) / (P_2 * V_2)),
             Step(night, (P_1 * N_1) / (P_2 * N_2)),
         ),
+        formulas={"r_d": "F03", "r_n": "F03"},
         traps={
             "only-power": (Step(day, P_1 / P_2), Step(night, P_1 / P_2)),
             "only-height": (Step(day, V_1 / V_2), Step(night, N_1 / N_2)),

@@ -19,6 +19,7 @@ with evaluate(False):
             Step(P_2, P_1 * (h_1 / h_2), "mW"),
             Step(there, here + width, "nm"),
         ),
+        formulas={"Phi": "F03", "P_2": "F03"},
         traps={
             "other-height": Step(flux, K * P_1 * h_2),
             "no-height": Step(flux, K * P_1),

@@ -36,7 +36,7 @@ with evaluate(False):
             Step(S, _sum([a * b * c for a, b, c in BANDS]), "mW/nm"),
             Step(B, K * S * w, "lm"),
         ),
-        formulas={"B": "F02"},
+        formulas={"B": "F02", "S": "F02"},
         traps={
             "no-luminosity": Step(S, _sum([a * b for a, b, _ in BANDS])),
             "no-reflectance": Step(S, _sum([a * c for a, _, c in BANDS])),

@@ -18,6 +18,7 @@ with evaluate(False):
             Step(colour, 3 * W * H * 8 * f, "MB/s"),
             Step(t, S / raw, "s"),
         ),
+        formulas={"q_r": "F01", "q_c": "F01"},
         traps={
             "three-for-raw": Step(raw, 3 * W * H * b * f),
             "bytes-for-bits": Step(raw, W * H * b * f / 8),

@@ -20,6 +20,7 @@ with evaluate(False):
             Step(squeezed, low + (high - low) * (before / 255)),
             Step(bright, Min(before + s, 255)),
         ),
+        formulas={"B": "F01", "I_r": "F11", "I_s": "F13"},
         traps={
             "bars-for-bits": Step(bits, n),
             "down": Step(k, floor(before / 255 * (n - 1))),

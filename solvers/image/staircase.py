@@ -19,6 +19,7 @@ with evaluate(False):
             Step(q, k / (n - 1)),
             Step(worst, h / c),
         ),
+        formulas={"b": "F01"},
         traps={
             "levels-for-bits": Step(b, n),
             "halved": Step(b, n / 2),

@@ -21,7 +21,7 @@ with evaluate(False):
             Step(g, g_0 * exp(-q / 2)),
             Step(rho, sigma_1 / sigma_2),
         ),
-        formulas={"g_0": "F40", "g": "F40"},
+        formulas={"g_0": "F40", "g": "F40", "q": "F41"},
         traps={
             "determinant-of-deviations": Step(d, sigma_1 * sigma_2),
             "root-forgotten": Step(g_0, 1 / (2 * pi * d)),

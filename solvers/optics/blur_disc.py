@@ -21,7 +21,7 @@ with evaluate(False):
             Step(c_2, c * (D_2 / D), "um"),
             Step(n, c / p),
         ),
-        formulas={"D": "F31", "c": "F33", "D_2": "F31"},
+        formulas={"D": "F31", "c": "F33", "D_2": "F31", "c_2": "F33"},
         traps={
             "sensor-distance-below": Step(c, D * (Abs(z_s - z_p) / z_s)),
             "aperture-below": Step(c, z_p * (Abs(z_s - z_p) / D)),

@@ -21,6 +21,7 @@ with evaluate(False):
             Step(Y, y * Z, "m"),
             Step(d, sqrt(Add(X**2, Y**2, Z**2)), "m"),
         ),
+        formulas={"x": "F09", "y": "F09", "X": "F10", "Y": "F10"},
         traps={
             "no-principal-point": (Step(x, u / f_x), Step(y, v / f_y)),
             "y-up": Step(y, (o_y - v) / f_y),

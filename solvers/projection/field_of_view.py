@@ -20,6 +20,7 @@ with evaluate(False):
             Step(delta, 2 * (180 / pi) * atan(D / (2 * f)), "deg"),
             Step(w, Z * W / f, "m"),
         ),
+        formulas={"w": "F10"},
         traps={
             "whole-width": (
                 Step(alpha, 180 / pi * atan(W / f)),

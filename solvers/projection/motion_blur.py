@@ -18,6 +18,7 @@ with evaluate(False):
             Step(b, f * s / Z, "px"),
             Step(t_1, Z / (f * v), "ms"),
         ),
+        formulas={"b": "F05", "t_1": "F10"},
         traps={
             "depth-left-out": Step(b, f * s),
             "depth-multiplies": Step(b, f * s * Z),

@@ -27,7 +27,7 @@ with evaluate(False):
             Step(u, d_u + o_x, "px"),
             Step(v, d_v + o_y, "px"),
         ),
-        formulas={"m": "F08", "f_x": "F08", "u": "F09", "v": "F09"},
+        formulas={"m": "F08", "f_x": "F08", "u": "F09", "v": "F09", "d_u": "F05", "d_v": "F05"},
         traps={
             "metric-plane": (Step(u, 1000 * f * x), Step(v, 1000 * f * y)),
             "no-principal-point": (Step(u, d_u), Step(v, d_v)),

@@ -25,7 +25,7 @@ with evaluate(False):
             Step(u, o_x + d_u, "px"),
             Step(v, o_y - d_v, "px"),
         ),
-        formulas={"f_x": "F08", "f_y": "F08", "u": "F09", "v": "F09"},
+        formulas={"f_x": "F08", "f_y": "F08", "u": "F09", "v": "F09", "d_u": "F05", "d_v": "F05"},
         traps={
             "y-down": Step(v, o_y + d_v),
             "square-pixels": Step(f_y, f / s_x),

@@ -19,7 +19,7 @@ with evaluate(False):
             Step(z_1, f * p_y / S, "m"),
             Step(q, p_z / z_1),
         ),
-        formulas={"p'_y": "F05", "z_1": "F10"},
+        formulas={"p'_y": "F05", "z_1": "F10", "n": "F08"},
         traps={
             "size-distance-swapped": Step(h, f * p_z / p_y),
             "forgot-f": Step(h, p_y / p_z / 1000),

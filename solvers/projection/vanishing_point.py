@@ -22,6 +22,7 @@ with evaluate(False):
             Step(u, o_x + f * x, "px"),
             Step(v, o_y + f * y, "px"),
         ),
+        formulas={"u": "F09", "v": "F09"},
         traps={
             "point-of-the-line": (Step(x, a_x / a_z), Step(y, a_y / a_z)),
             "next-point": (Step(x, (a_x + d_x) / (a_z + d_z)), Step(y, (a_y + d_y) / (a_z + d_z))),

@@ -19,6 +19,7 @@ with evaluate(False):
             Step(L, 20 * log(R, 10), "dB"),
             Step(n, ceiling(E), "bit"),
         ),
+        formulas={"E": "F34", "L": "F45"},
         traps={
             "read-noise-ignored": Step(R, Q),
             "read-noise-squared": Step(R, Q / sigma_r**2),

@@ -21,6 +21,7 @@ with evaluate(False):
             Step(I_2, (r_2 - d) * g_2),
             Step(w, r_2 / f_2 * m),
         ),
+        formulas={"I_1": "F39", "I_2": "F39", "w": "F39"},
         traps={
             "dark-left-in": (Step(I_1, r_1 / f_1 * m), Step(I_2, r_2 / f_2 * m)),
             "dark-left-in-flat": (Step(g_1, m / f_1), Step(g_2, m / f_2)),

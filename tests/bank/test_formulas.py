@@ -10,7 +10,13 @@ import pytest
 
 from quizgen.bank.entries import load
 from quizgen.bank.folder import Bank, builtin_root
-from quizgen.bank.formulas import FormulaEntry, asked_in, formulas, missing_formulas
+from quizgen.bank.formulas import (
+    FormulaEntry,
+    asked_in,
+    formulas,
+    missing_formulas,
+    unnamed_formulas,
+)
 from quizgen.errors import BankError
 
 ENTRY = """
@@ -38,13 +44,35 @@ def test_steps_name_formulas_that_are_there(bank):
     assert not [name for name in bank.paths if missing_formulas(bank, name)]
 
 
-def test_a_formula_that_is_not_there_is_found(tmp_path):
-    (tmp_path / "templates").symlink_to(builtin_root() / "templates")
-    solvers = tmp_path / "solvers"
-    shutil.copytree(builtin_root() / "solvers", solvers)
-    file = solvers / "projection" / "perspective.py"
-    file.write_text(file.read_text().replace('"F05"', '"F99"'))
-    assert missing_formulas(Bank(tmp_path, trusted=True), "point-to-image-plane") == ["F99"]
+def test_steps_that_have_the_form_of_a_formula_name_one(bank):
+    assert not {name: found for name in bank.paths if (found := unnamed_formulas(bank, name))}
+
+
+@pytest.fixture
+def rewritten(tmp_path):
+    """The bank with the solver of ``point-to-image-plane`` changed by hand."""
+
+    def write(old, new):
+        (tmp_path / "templates").symlink_to(builtin_root() / "templates")
+        shutil.copytree(builtin_root() / "solvers", tmp_path / "solvers")
+        file = tmp_path / "solvers" / "projection" / "perspective.py"
+        assert old in file.read_text()
+        file.write_text(file.read_text().replace(old, new))
+        return Bank(tmp_path, trusted=True)
+
+    return write
+
+
+def test_a_formula_that_is_not_there_is_found(rewritten):
+    bank = rewritten('"F05"', '"F99"')
+    assert missing_formulas(bank, "point-to-image-plane") == ["F99"]
+
+
+def test_a_step_that_applies_a_formula_without_naming_it_is_found(rewritten):
+    bank = rewritten('formulas={"p\'_x": "F05", "p\'_y": "F05"},', "")
+    found = unnamed_formulas(bank, "point-to-image-plane")
+    assert sorted(found) == ["p'_x", "p'_y"]
+    assert "F05" in found["p'_x"]
 
 
 def test_letters_with_a_unit_stand_in_the_formula(bank):
