@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import colorsys
+import math
 import re
 from collections.abc import Iterable
 from fractions import Fraction
@@ -97,6 +98,25 @@ def to_hsv(page: Page) -> dict[str, Any]:
 def near_grey(page: Page) -> dict[str, Any]:
     """Notes 4.6, F24, with red as the largest channel."""
     return {"a": 60 * (page["v"] - 0) / page["u"] % 360}
+
+
+@solves("white-balance-and-chromaticity")
+def white_balance(page: Page) -> dict[str, Any]:
+    """X-D12: the card must become grey at its green value; shares of X, Y and Z."""
+    gains = tuple(page["G_c"] / page[name] for name in ("R_c", "B_c"))
+    pixel = tuple(gain * page[name] for gain, name in zip(gains, ("R_p", "B_p"), strict=True))
+    measured = [page[name] for name in "XYZ"]
+    return {"a": gains, "b": pixel, "c": tuple(one / sum(measured) for one in measured[:2])}
+
+
+@solves("lab-distance-and-lightness")
+def lab_distance(page: Page) -> dict[str, Any]:
+    """X-D16: the longer way through Lab, and CIE's cube root."""
+    first, second = (one for one in points(page.stem) if len(one) == 3)
+    ways = math.dist(first, second), math.hypot(*page.amounts("", "b"))
+    wider = ("first", "প্রথম") if ways[0] > ways[1] else ("other pair", "অন্য জোড়া")
+    lightness = 116 * math.cbrt(page["Y"]) - 16
+    return {"a": ways[0], "b": page.parts["b"].saying(*wider), "c": lightness}
 
 
 @solves("luminous-flux-over-bands")

@@ -65,6 +65,16 @@ def thin_lens(page: Page) -> dict[str, Any]:
     return {"a": image, "b": image / page["z"], "c": image - page["f"]}
 
 
+@solves("magnification-and-object-distance")
+def close_up(page: Page) -> dict[str, Any]:
+    """Notes F42, X-A14: the lens equation before and after, with m = z'/z."""
+    f, z = page["f"], page["z"]
+    image = 1 / (1 / f - 1 / z)
+    (times,) = page.amounts("", "c")
+    larger = times * image / z
+    return {"a": image / z, "b": image, "c": (larger + 1) / larger * f}
+
+
 @solves("source-near-focus-in-float32")
 def near_focus(page: Page) -> dict[str, Any]:
     """Notes D17, F42, for an object just outside the focus."""
