@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -23,6 +24,9 @@ from quizgen.render.typ import (
     within,
     words,
 )
+
+SCALE = {"exam": 1.0, "solutions": 0.8}
+"""Size of figures: smaller where they have been seen before, so that less of a page stays empty."""
 
 
 class _Sheet:
@@ -129,18 +133,16 @@ class _Sheet:
             picture = self._picture(item, [q.figure for q in item.questions])
         else:
             picture = self._picture(item, [k.figure for k in item.keys])
-        head = f"{stem}\n{picture}"
-        count = len(item.questions[0].parts)
-        parts = [self._part(item, index) for index in range(count)]
+        parts = item.questions[0].parts
+        shown = [f"#whole[{stem}\n{picture}]"]
+        if picture and self.kind == "solutions":
+            shown = [f"#below[{stem}]", picture]
+        body = [*shown, *(self._part(item, index) for index in range(len(parts)))]
         if self.kind == "solutions":
-            body = "\n".join([f"#whole[{head}]", *parts]) + self._remarks(item)
-        else:
-            rooms = [_more_room(part) for part in item.questions[0].parts]
-            first = [f"#whole[{head}]"] if count > 1 else []
-            parts = parts if count > 1 else [f"#part[{head}\n{parts[0]}]"]
-            body = "\n".join([*first, *(p + r for p, r in zip(parts, rooms, strict=True))])
+            body.append(self._remarks(item))
+        text = "\n".join(body)
         worth = marks(item.points, self.main)
-        return f"#question({string(item.number)}, [{self._titles(item)}], {string(worth)})[{body}]"
+        return f"#question({string(item.number)}, [{self._titles(item)}], {string(worth)})[{text}]"
 
     def _picture(self, item: Item, figures: list[Any]) -> str:
         if figures[0] is None:
@@ -148,7 +150,7 @@ class _Sheet:
         name = f"figure-{item.number}.svg"
         self.pictures[name] = figures[0].svg
         alt = string(" / ".join(figure.alt for figure in figures))
-        width = f"{figures[0].width_pt:.2f}pt"
+        width = f"{figures[0].width_pt * SCALE[self.kind]:.2f}pt"
         return f"#v(0.4em)\n#image({string(name)}, width: {width}, alt: {alt})\n"
 
     def _part(self, item: Item, index: int) -> str:
@@ -158,36 +160,42 @@ class _Sheet:
         worth = f"#worth({string(label + marks(first.points, self.main))})" if label else ""
         texts = [blocks(q.parts[index].body, q.lang) for q in questions]
         body = f"{worth}\n{each(self.langs, texts)}"
-        if self.kind == "exam":
-            return f"#part[{body}\n{self._field(questions, index)}]"
-        options = self._options(questions, index)
-        return f"#whole[{body}\n{options}]\n{self._solution(item, index)}"
+        rows = self._options(questions, index)
+        if self.kind == "solutions":
+            return f"#whole[{body}]\n{rows}\n{self._solution(item, index)}"
+        field = self._field(questions, index)
+        asked = f"#asked[{body}]\n{rows}\n#below[{field}]" if rows else f"#part[{body}\n{field}]"
+        return f"{asked}{_left_over(questions[0].parts[index:])}"
 
     def _field(self, questions: tuple[Question, ...], index: int) -> str:
-        """What stands below a part: options to tick, hints, room to work in, lines to write on."""
+        """What stands below a part and its options: hints, room to work in, lines to write on."""
         part = questions[0].parts[index]
         control = part.field.control
         fields = [q.parts[index].field for q in questions]
         hints = [inline(f.hint, lang) for f, lang in zip(fields, self.langs, strict=True)]
-        shown = f"#hint[{each(self.langs, hints)}]" if any(hints) else ""
         if control.form == "truth":
             ways = [f"[{words(self.langs, f'ask.{way}')}]" for way in ("true", "false")]
             return f"#truth({', '.join(ways)})"
-        below = [self._options(questions, index), shown]
+        shown = [f"#hint[{each(self.langs, hints)}]"] if any(hints) else []
         if control.form == "pairs":
-            return "\n".join(below)
+            return "\n".join(shown)
         if control.sketch:
-            below.append(f"#sketch[{words(self.langs, 'paper.sketch')}]")
+            shown.append(f"#sketch[{words(self.langs, 'paper.sketch')}]")
         if control.reckoned:
-            below.append(f"#answer-line([{words(self.langs, 'paper.answer_here')}])")
-            below.append(f"#room({squares(part.points)})")
+            shown.append(f"#answer-line([{words(self.langs, 'paper.answer_here')}])")
+            shown.append(f"#room({squares(part.points)})")
         else:
-            below.append(f"#space({control.lines})")
-        return "\n".join(below)
+            shown.append(f"#space({control.lines})")
+        return "\n".join(shown)
 
     def _options(self, questions: tuple[Question, ...], index: int) -> str:
+        """Lettered options and right sides; the first and the last row stand by what is around."""
         fields = [q.parts[index].field for q in questions]
-        return "\n".join([*self._rows(fields, "options"), *self._rows(fields, "targets")])
+        rows = [*self._rows(fields, "options"), *self._rows(fields, "targets")]
+        ends = {0, len(rows) - 1}
+        return "\n".join(
+            f"#{row}, hold: {str(place in ends).lower()})" for place, row in enumerate(rows)
+        )
 
     def _rows(self, fields: list[Field], side: str) -> list[str]:
         rows = []
@@ -197,7 +205,7 @@ class _Sheet:
                 for f, lang in zip(fields, self.langs, strict=True)
             ]
             name = self._row(fields[0], side)
-            rows.append(f"#{name}({string(mark)}, [{joined(self.langs, texts)}])")
+            rows.append(f"{name}({string(mark)}, [{joined(self.langs, texts)}]")
         return rows
 
     def _row(self, field: Field, side: str) -> str:
@@ -262,9 +270,13 @@ def _points(points: Fraction) -> str:
     return f"{float(points):g}"
 
 
-def _more_room(part: Part) -> str:
-    """What of the page is left, shared out by points."""
-    return f"#more-room({_points(part.points)})" if part.field.control.reckoned else ""
+def _left_over(parts: Sequence[Part]) -> str:
+    """What of the page is left goes to calculations, by points; without any, behind other parts."""
+    part, *others = parts
+    if part.field.control.reckoned:
+        return f"\n#more-room({_points(part.points)})"
+    run_on = others and not others[0].field.control.reckoned
+    return "" if run_on else "\n#rest"
 
 
 def _reasons(part: PartSolution, lang: str) -> str:

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import io
 import re
 from collections import Counter
 from fractions import Fraction
 
+import numpy as np
 import pytest
+import typst
+from PIL import Image
 
 from quizgen.paper.blueprint import load_blueprint
 from quizgen.paper.paper import build
 from quizgen.render import html, pdf
 from quizgen.render.room import squares
+from quizgen.render.typ import _fonts
 
 
 @pytest.fixture(scope="module")
@@ -72,3 +77,30 @@ def test_the_page_says_how_to_type_and_printed_how_to_write(browser, mock, tmp_p
         seen[medium].append(page.locator(".squares").first.is_visible())
     page.close()
     assert seen == {"screen": [True, False, False], "print": [False, True, True]}
+
+
+def white_below(paper, kind):
+    """What share of each page is white at its end, the cover and the last page aside."""
+    text, pictures = pdf.source(paper, kind)
+    world = {"main.typ": text.encode(), **pictures}
+    pages = typst.compile(world, format="png", ppi=24, font_paths=_fonts())
+    for page in pages[kind == "exam" : -1]:
+        grey = np.asarray(Image.open(io.BytesIO(page)).convert("L"))
+        mm = len(grey) / 297
+        text = grey[round(20 * mm) : round((297 - 22) * mm)]
+        yield 1 - (np.flatnonzero((text < 245).any(axis=1))[-1] + 1) / len(text)
+
+
+@pytest.mark.parametrize(
+    ("kind", "seed", "lang", "most"),
+    [("exam", 1, "en", 0.2), ("exam", 2, "bn", 0.2), ("solutions", 0, "en", 0.25)],
+)
+def test_no_page_ends_far_from_its_foot(bank, kind, seed, lang, most):
+    paper = build(bank, load_blueprint("mock"), seed, lang)
+    assert max(white_below(paper, kind)) <= most
+
+
+def test_options_break_between_rows_and_none_stands_alone(body):
+    for rows in re.findall(r"(?:^#(?:tick|pair|option)\(.*\n)+", body, re.MULTILINE):
+        held = ["hold: true" in row for row in rows.splitlines()]
+        assert held == [place in {0, len(held) - 1} for place in range(len(held))]
