@@ -36,6 +36,22 @@ def joined(control: Control, values: Sequence[str], marks: Sequence[str] = ()) -
     return _BETWEEN.join(filled)
 
 
+def filled(control: Control, values: Sequence[str], marks: Sequence[str] = ()) -> bool:
+    """Whether something stands in every field of a part that wants something.
+
+    Parameters
+    ----------
+    control : Control
+    values : sequence of str
+        What stands in its fields.
+    marks : sequence of str
+        Marks of the options that pairs begin with.
+    """
+    there = [bool(value.strip()) for value in values]
+    wanted = len(marks) if control.form == "pairs" else len(control.boxes)
+    return all(there) and len(there) >= wanted if wanted else any(there)
+
+
 def _listed(filled: list[str], _marks: Sequence[str]) -> str:
     return ", ".join(filter(None, filled))
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import secrets
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import msgspec
@@ -18,10 +19,11 @@ from starlette.routing import Route
 from quizgen.errors import CodeError, QuizgenError
 from quizgen.paper.blueprint import EVERYTHING, named_blueprint
 from quizgen.paper.code import LARGEST_SEED, parse_code
+from quizgen.practice.boxes import filled
 from quizgen.web.agenda import count
 from quizgen.web.echo import read_back
 from quizgen.web.forms import every, one, posted
-from quizgen.web.made import MadePaper, MadePart, WantedPaper
+from quizgen.web.made import Made, MadePaper, MadePart, WantedPaper
 from quizgen.web.results import asked, marked, outcomes
 from quizgen.web.site import Site
 from quizgen.web.store import Sitting
@@ -171,6 +173,8 @@ async def save(request: Request) -> Response:
     sitting, kept = await run_in_threadpool(keep)
     if sitting is None:
         raise HTTPException(404)
+    if one(form, "do") == "end":
+        return to(f"/exam/{sitting.id}/hand-in")
     if one(form, "do") == "hand-in":
         await _hand_in(request, sitting)
     elif one(form, "do") in {"rest", "go-on"}:
@@ -178,6 +182,34 @@ async def save(request: Request) -> Response:
     elif request.headers.get("accept", "").startswith("application/json"):
         return JSONResponse({"kept": kept}, 200 if kept else 409)
     return to(f"/exam/{sitting.id}")
+
+
+async def end(request: Request) -> Response:
+    """Ask before a paper is handed in, naming what is not answered and what was flagged."""
+    sitting = await _sitting(request)
+    if sitting.resting is not None or sitting.over(time.time()):
+        return to(f"/exam/{sitting.id}")
+    paper = await _paper(request, sitting)
+    store = request.app.state.site.store.sittings
+    answers = await run_in_threadpool(store.answers, sitting)
+    flags = await run_in_threadpool(store.flags, sitting)
+    return page(request, "hand_in.html.j2", sitting=sitting, paper=paper, now=time.time(),
+                blank=_blank(paper, answers),
+                flagged=[one for one in paper.items if one.wanted.number in flags])  # fmt: skip
+
+
+def _blank(paper: MadePaper, answers: Mapping[str, list[str]]) -> list[tuple[Made, list[MadePart]]]:
+    """Questions with the parts at which a field is empty."""
+    found = [
+        (item, [part for part in item.parts if not _answered(part, answers)])
+        for item in paper.items
+    ]
+    return [(item, parts) for item, parts in found if parts]
+
+
+def _answered(part: MadePart, answers: Mapping[str, list[str]]) -> bool:
+    field = part.field
+    return filled(field.control, answers.get(field.id, ()), field.marks)
 
 
 async def _hand_in(request: Request, sitting: Sitting) -> None:
@@ -238,6 +270,7 @@ ROUTES = [
     Route("/exam", begin, methods=["POST"]),
     Route("/exam/{sitting}", sit),
     Route("/exam/{sitting}", save, methods=["POST"]),
+    Route("/exam/{sitting}/hand-in", end),
     Route("/exam/{sitting}/flag/{number}", flag, methods=["POST"]),
     Route("/exam/{sitting}/read/{part}", echo, methods=["POST"]),
     Route("/exam/{sitting}/judge/{part}", judge, methods=["POST"]),

@@ -6,6 +6,7 @@ import re
 import sqlite3
 
 import pytest
+from keys import Keys
 from playwright.sync_api import expect
 
 pytestmark = pytest.mark.browser
@@ -32,6 +33,13 @@ def exam(opened, served):
 def boxes(page):
     """The first field of each part that is typed."""
     return page.locator("#exam fieldset[data-part] input[id$='-0'][type=text]")
+
+
+def hand_in(page):
+    """Ask to hand in, and say so again where it is asked whether that is meant."""
+    page.get_by_role("button", name="Hand in").click()
+    expect(page.get_by_text("After that nothing can be changed any more.")).to_be_visible()
+    page.get_by_role("button", name="Hand in").click()
 
 
 def forgive(opened):
@@ -73,7 +81,7 @@ def test_a_page_that_was_open_before_loses_nothing_of_another(exam):
     two.goto(one.url)
     typed(one, 0, "111")
     typed(two, 1, "222")
-    two.get_by_role("button", name="Hand in").click()
+    hand_in(two)
     expect(two.locator("h1")).to_be_visible()
     expect(two.locator(".typed", has_text="111")).to_have_count(1)
     expect(two.locator(".typed", has_text="222")).to_have_count(1)
@@ -110,18 +118,36 @@ def test_a_browser_that_ends_while_the_server_is_dead_still_sends_it_later(exam,
     forgive(opened)
 
 
-def test_when_the_clock_has_run_out_the_paper_is_handed_in(exam, served):
-    page = exam(clock=True)
-    typed(page, 0, "42")
+def end_in(page, served, seconds: float):
+    """Let an exam end soon, and show it anew."""
     with sqlite3.connect(served.file) as connection:
         connection.execute(
             'UPDATE sitting SET "limit" = ? - begun WHERE id = ?',
-            (page.evaluate("Date.now() / 1000 + 2"), page.url.rsplit("/", 1)[1]),
+            (page.evaluate("Date.now() / 1000") + seconds, page.url.rsplit("/", 1)[1]),
         )
     connection.close()
     page.reload()
+
+
+def test_the_clock_counts_to_zero_and_hands_the_paper_in(exam, served):
+    page = exam(clock=True)
+    expect(page.locator(".clock")).to_have_text(re.compile(r"^\d+ min left$"))
+    typed(page, 0, "42")
+    page.context.add_init_script(
+        """addEventListener("DOMContentLoaded", () => {
+            const clock = document.querySelector(".clock");
+            if (clock) { new MutationObserver(() => {
+                sessionStorage.told = (sessionStorage.told || "") + clock.textContent + ";";
+            }).observe(clock, {childList: true}); }
+        })"""
+    )
+    end_in(page, served, 3.5)
     expect(page.get_by_text("Your answer: 42")).to_be_visible()
+    expect(page.get_by_text("The time was over")).to_be_visible()
     expect(page.locator("#exam")).to_have_count(0)
+    told = [one for one in page.evaluate("sessionStorage.told").split(";") if one]
+    assert told[-1] == "0 s left"
+    assert {"3 s left", "2 s left", "1 s left"} & set(told)
 
 
 def test_a_question_to_come_back_to_is_marked_without_leaving_the_place(exam):
@@ -134,6 +160,34 @@ def test_a_question_to_come_back_to_is_marked_without_leaving_the_place(exam):
     expect(page.locator("a.flagged")).to_have_text(re.compile("2"))
 
 
+def test_by_keys_alone_to_the_marks(opened):
+    page = opened()
+    keys = Keys(page)
+    keys.to("Mock exam")
+    page.keyboard.press("Enter")
+    keys.on(page.get_by_label("Paper", exact=True))
+    page.keyboard.type("Trial")
+    keys.to("Begin the exam")
+    page.keyboard.press("Enter")
+    expect(page.locator("#exam")).to_be_visible()
+    keys.on(boxes(page).first)
+    page.keyboard.type("12.5")
+    keys.on(page.locator("#exam input[type=radio]").first)
+    page.keyboard.press("Space")
+    expect(page.locator("#exam input[type=radio]").first).to_be_checked()
+    page.keyboard.press("ArrowDown")
+    expect(page.locator("#exam input[type=radio]").nth(1)).to_be_checked()
+    keys.to("Come back to this")
+    page.keyboard.press("Enter")
+    expect(page.locator("a.flagged")).to_have_count(1)
+    keys.to("Hand in")
+    page.keyboard.press("Enter")
+    expect(page.get_by_text("After that nothing can be changed any more.")).to_be_visible()
+    keys.to("Hand in")
+    page.keyboard.press("Enter")
+    expect(page.locator(".typed", has_text="12.5")).to_have_count(1)
+
+
 def test_without_scripts_an_exam_is_sat_by_forms(exam):
     page = exam(java_script_enabled=False)
     boxes(page).first.fill("9.75")
@@ -141,5 +195,5 @@ def test_without_scripts_an_exam_is_sat_by_forms(exam):
     expect(boxes(page).first).to_have_value("9.75")
     page.get_by_role("button", name="Come back to this").first.click()
     expect(page.locator("a.flagged")).to_have_count(1)
-    page.get_by_role("button", name="Hand in").click()
+    hand_in(page)
     expect(page.locator(".typed").first).to_contain_text("9.75")

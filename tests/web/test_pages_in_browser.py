@@ -51,7 +51,7 @@ def addresses(browser, served):
     handed = post(page, "/exam", blueprint="trial")
     post(page, handed.removeprefix(served.address), do="hand-in")
     context.close()
-    return [*found, asked, sitting, resting, handed]
+    return [*found, asked, sitting, f"{sitting}/hand-in", resting, handed]
 
 
 @pytest.mark.parametrize("lang", ["en", "bn"])

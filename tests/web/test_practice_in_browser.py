@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
+from keys import Keys
 from playwright.sync_api import expect
 
 pytestmark = pytest.mark.browser
@@ -143,15 +144,7 @@ def test_the_same_without_scripts(practised):
 
 def test_by_keys_alone(opened):
     page = opened()
-
-    def to(name: str) -> None:
-        for _ in range(60):
-            page.keyboard.press("Tab")
-            here = page.evaluate("document.activeElement.textContent.trim()")
-            if here == name:
-                return
-        pytest.fail(f"no way by Tab to {name}")
-
+    to = Keys(page).to
     page.keyboard.press("Tab")
     expect(page.locator(".skip")).to_be_focused()
     to("Begin")

@@ -189,6 +189,50 @@ def test_a_paper_that_cannot_be_made_is_said(client, token, sent, said):
     assert said in client.post("/exam", data={"token": token, **sent}).text
 
 
+def listed(page: str, heading: str) -> str:
+    """What stands in the list below a heading."""
+    return shown(re.search(f"<h2>{heading}</h2>(.*?)</ul>", page, re.DOTALL)[1])
+
+
+def test_before_it_is_handed_in_what_is_missing_is_named(client, token, exam, paper_of, app):
+    at, page = exam()
+    printed = typed(paper_of(page)).items()
+    answers = {name: values if any(values) else ["a sentence"] for name, values in printed}
+    half = next(name for name, values in answers.items() if len(values) > 1)
+    whole = [name for name in answers if name != half]
+    client.post(at, data=body(token, {name: answers[name] for name in whole}))
+    client.post(at, data=body(token, {half: [answers[half][0], *("" for _ in answers[half][1:])]}))
+    client.post(f"{at}/flag/2", data={"token": token})
+    asked = client.post(at, data={"token": token, "do": "end"})
+    assert asked.url.path == f"{at}/hand-in"
+    assert listed(asked.text, "Not answered, or not all of it").startswith(half[0])
+    assert f'href="{at}#part-{half}"' in asked.text
+    assert re.findall(f'href="{at}#part-([^"]*)"', asked.text) == [half]
+    assert listed(asked.text, "To come back to").startswith("2.")
+    store = app.state.site.store
+    name = at.rsplit("/", 1)[1]
+    assert store.sittings.find(store.learner().id, name).handed is None
+    client.post(at, data=body(token, {half: answers[half]}))
+    client.post(f"{at}/flag/2", data={"token": token})
+    assert "Every question is answered." in client.get(f"{at}/hand-in").text
+    done = client.post(at, data={"token": token, "do": "hand-in"})
+    assert "Results" in done.text
+    assert client.get(f"{at}/hand-in").url.path == at, "nothing is asked any more"
+
+
+def test_results_say_when_the_time_was_over(client, token, exam, app):
+    at, _ = exam()
+    name = at.rsplit("/", 1)[1]
+    with app.state.site.store.database.writing() as connection:
+        connection.execute(
+            update(SITTING).where(SITTING.c.id == name).values(begun=time.time() - 86400)
+        )
+    assert "The time was over" in client.get(f"{at}/hand-in").text
+    early, _ = exam()
+    done = client.post(early, data={"token": token, "do": "hand-in"})
+    assert "The time was over" not in done.text
+
+
 def test_two_hands_hand_in_once(client, token, exam, app):
     at, _ = exam()
     site = app.state.site

@@ -31,13 +31,17 @@ document.addEventListener("htmx:after:swap", () => {
   const fields = (part) => [...part.querySelectorAll("input:not([type=hidden]), select, textarea")];
   const ticks = (field) => field.type === "radio" || field.type === "checkbox";
   const values = (part) => fields(part).filter((f) => !ticks(f) || f.checked).map((f) => f.value);
+  // As ``practice/boxes.py`` says it: every box, but any place of an order.
+  const complete = (part) => {
+    const there = values(part).map((value) => value.trim() !== "");
+    return part.querySelector("[data-order]") ? there.some(Boolean) : there.length > 0 && there.every(Boolean);
+  };
   const fill = (part, kept) => fields(part).forEach((f, i) => {
     if (ticks(f)) { f.checked = kept.includes(f.value); } else { f.value = kept[i] ?? ""; }
   });
   const marks = () => form.querySelectorAll("a[data-question]").forEach((link) => {
     const question = document.getElementById("question-" + link.dataset.question);
-    const answered = [...question.querySelectorAll("fieldset[data-part]")]
-      .every((part) => values(part).some((value) => value.trim()));
+    const answered = [...question.querySelectorAll("fieldset[data-part]")].every(complete);
     link.classList.toggle("answered", answered);
   });
   const states = () => form.querySelectorAll("a[data-question]").forEach((link) => {
@@ -118,12 +122,15 @@ document.addEventListener("htmx:after:swap", () => {
   });
   const clock = form.querySelector("[data-left]");
   if (clock) {
-    const ends = performance.now() + 1000 * Number(clock.dataset.left);
+    // One of the two clocks stands still while a computer sleeps, the other may be set.
+    const given = 1000 * Number(clock.dataset.left), here = performance.now(), now = Date.now();
+    const gone = () => Math.max(performance.now() - here, Date.now() - now);
     const tick = () => {
-      const left = ends - performance.now();
-      clock.textContent = form.dataset.minutes.replace("{}", Math.max(0, Math.ceil(left / 60000)));
+      const left = Math.max(0, given - gone());
+      const last = left < 60000;
+      clock.textContent = form.dataset[last ? "seconds" : "minutes"].replace("{}", Math.ceil(left / (last ? 1000 : 60000)));
       clock.classList.toggle("late", left < 300000);
-      if (left > 0) { setTimeout(tick, Math.min(left, 15000) + 50); return; }
+      if (left > 0) { setTimeout(tick, last ? left % 1000 + 20 : Math.min(15000, left - 60000) + 50); return; }
       said.textContent = form.dataset.over;
       flush().then((kept) => { if (kept) { location.reload(); } else { setTimeout(tick, 3000); } });
     };

@@ -112,6 +112,11 @@ class Sitting(msgspec.Struct, frozen=True):
             return None
         return self.begun + self.limit + self.rested
 
+    @property
+    def ran_out(self) -> bool:
+        """Whether it was handed in because its time was over."""
+        return self.handed is not None and self.ends is not None and self.handed >= self.ends
+
     def over(self, now: float) -> bool:
         """Whether it was handed in, or its time is over."""
         return self.handed is not None or (self.ends is not None and now > self.ends)
