@@ -127,8 +127,8 @@ class Store:
         query = select(*names).where(SEEN.c.learner == learner)
         query = query.order_by(SEEN.c.at.desc(), SEEN.c.id.desc()).limit(most)
         with self.database.reading() as connection:
-            rows = connection.execute(query).mappings().all()
-        return [value(row, Seen) for row in reversed(rows)]
+            rows = connection.execute(query).all()
+        return [Seen(*row) for row in reversed(rows)]
 
     def known(self, attempt: Attempt) -> bool:
         """Whether a learner has finished the same question with the same numbers before."""
