@@ -21,6 +21,8 @@ from quizgen.web.store import Store
 
 PATIENCE = 5
 """Seconds that answers on their way have when the server ends."""
+IDLE = 75
+"""Seconds that a connection may rest: who thinks, or saves every few seconds, keeps it."""
 
 
 def run(settings: Settings, port: int, *, show: bool, tell: Callable[[str], object]) -> None:
@@ -54,7 +56,7 @@ def run(settings: Settings, port: int, *, show: bool, tell: Callable[[str], obje
 
     config = uvicorn.Config(
         app, log_level="warning", access_log=False, server_header=False,
-        timeout_graceful_shutdown=PATIENCE,
+        timeout_graceful_shutdown=PATIENCE, timeout_keep_alive=IDLE,
     )  # fmt: skip
     _end_like_ctrl_c()
     gc.freeze()  # what was loaded stays; looking through it each time would take 60 ms

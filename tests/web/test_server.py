@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import asyncio
 import socket
+import time
+from http.client import HTTPConnection
 
+import pytest
 from served import ran
 
 from quizgen.web.server import _as_before, _listening
@@ -59,3 +62,13 @@ def test_an_answer_is_sent_before_what_went_before_it_is_acknowledged():
 
     ran(ask())
     assert found[0]
+
+
+@pytest.mark.slow  # it waits
+def test_a_connection_outlives_some_seconds_of_thought(served):
+    kept = HTTPConnection("127.0.0.1", served.port)
+    for pause in (0, 7):
+        time.sleep(pause)
+        kept.request("GET", "/static/app.css")
+        assert kept.getresponse().read()
+    kept.close()
