@@ -16,6 +16,10 @@ class Options(BankOptions):
 
     port: int
     show: bool
+    host: str
+    names: tuple[str, ...]
+    behind_proxy: bool
+    invite: bool
     database: str | None
     author: bool
 
@@ -27,6 +31,25 @@ class Options(BankOptions):
     default=0,
     help="Port; if left out the one of the first time, or a free one.",
 )
+@click.option(
+    "--host",
+    metavar="ADDRESS",
+    default="127.0.0.1",
+    help="Where to listen: 0.0.0.0 for everybody in the network, who then sign in.",
+)
+@click.option(
+    "--name",
+    "names",
+    metavar="NAME",
+    multiple=True,
+    help="A further name under which the server is asked; may be repeated.",
+)
+@click.option(
+    "--behind-proxy",
+    is_flag=True,
+    help="A web server on this machine hands on the requests, with https; people sign in.",
+)
+@click.option("--invite", is_flag=True, help="Print an invitation for one more who manages.")
 @click.option("--open/--no-open", "show", default=True, help="Open the browser.")
 @click.option(
     "--database",
@@ -38,18 +61,25 @@ class Options(BankOptions):
 )
 @bank_options
 def serve(**options: Unpack[Options]) -> None:
-    """Practise and sit the exam in a browser on this machine."""
+    """Practise and sit the exam in a browser: alone, or with everybody in the network."""
     from quizgen.web.settings import Settings
 
     settings = Settings(
         options["database"] or f"sqlite:///{database_file()}",
         options["bank"].resolve() if options["bank"] else None,
         trusted=options["trust"],
+        host=options["host"],
+        names=tuple(name.lower() for name in options["names"]),
+        behind_proxy=options["behind_proxy"],
         examine=problems_of if options["author"] else None,
     )
+    if settings.accounts and options["author"]:
+        raise click.UsageError("--author shows every solution: on this machine alone")
+    if options["invite"] and not settings.accounts:
+        raise click.UsageError("--invite: nobody signs in; see --host")
     from quizgen.web.server import run
 
-    run(settings, options["port"], show=options["show"], tell=click.echo)
+    run(settings, options["port"], show=options["show"], tell=click.echo, invite=options["invite"])
 
 
 def database_file() -> Path:

@@ -6,26 +6,37 @@ import contextlib
 from collections.abc import AsyncIterator
 from importlib.resources import files
 
+from sqlalchemy.exc import SQLAlchemyError
 from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 from starlette.middleware import Middleware
 from starlette.middleware.gzip import GZipMiddleware
 from starlette.requests import Request
-from starlette.responses import Response
-from starlette.routing import Mount, Route
+from starlette.responses import PlainTextResponse, Response
+from starlette.routing import BaseRoute, Mount, Route
 from starlette.staticfiles import StaticFiles
-from starlette.types import ASGIApp, Receive, Scope, Send
 
 from quizgen.errors import QuizgenError
 from quizgen.locale import languages
 from quizgen.render.fonts import WEB
-from quizgen.web import anki, author, camera, exam, formulas, practice, progress, tradeoff
+from quizgen.web import (
+    accounts,
+    anki,
+    author,
+    camera,
+    exam,
+    formulas,
+    practice,
+    progress,
+    tradeoff,
+)
+from quizgen.web.door import Door
 from quizgen.web.forms import one, posted
 from quizgen.web.guard import Guard
 from quizgen.web.settings import Settings
 from quizgen.web.site import Site
-from quizgen.web.views import language_style, page, to
+from quizgen.web.views import inside, language_style, page, to
 
 PAGES = (*practice.ROUTES, *exam.ROUTES, *progress.ROUTES, *formulas.ROUTES, *camera.ROUTES,
          *anki.ROUTES, *tradeoff.ROUTES)  # fmt: skip
@@ -54,55 +65,43 @@ def application(settings: Settings) -> Starlette:
             site.close()
 
     app = Starlette(
-        routes=[
-            *(*PAGES, *(author.ROUTES if settings.examine else ())),
-            Route("/settings", settle, methods=["POST"]),
-            Route("/static/languages.css", language_sheet),
-            Mount("/static/fonts", StaticFiles(directory=WEB)),
-            Mount("/static", StaticFiles(directory=str(files("quizgen.web") / "static"))),
-        ],
+        routes=_routes(settings),
         middleware=[
             Middleware(Guard, settings=site.settings),
             Middleware(GZipMiddleware, minimum_size=2000, compresslevel=3),
-            Middleware(Known, site=site),
+            Middleware(Door, site=site),
         ],
-        exception_handlers={HTTPException: refused, QuizgenError: failed},
+        exception_handlers={
+            HTTPException: refused,
+            SQLAlchemyError: unreachable,
+            QuizgenError: failed,
+        },
         lifespan=lifespan,
     )
     app.state.site = site
     return app
 
 
-class Known:
-    """Says who asks.
-
-    Parameters
-    ----------
-    app : ASGI application
-    site : Site
-    """
-
-    def __init__(self, app: ASGIApp, site: Site) -> None:
-        self.app, self.site = app, site
-
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Put the learner beside the request."""
-        if scope["type"] == "http" and not scope["path"].startswith("/static/"):
-            store = self.site.store
-            learner = store.remembered() or await run_in_threadpool(store.learner)
-            scope.setdefault("state", {})["learner"] = learner
-        await self.app(scope, receive, send)
+def _routes(settings: Settings) -> list[BaseRoute]:
+    return [
+        *PAGES,
+        *(author.ROUTES if settings.examine else ()),
+        *(accounts.ROUTES if settings.accounts else ()),
+        Route("/settings", settle, methods=["POST"]),
+        Route("/static/languages.css", language_sheet),
+        Mount("/static/fonts", StaticFiles(directory=WEB)),
+        Mount("/static", StaticFiles(directory=str(files("quizgen.web") / "static"))),
+    ]
 
 
 async def settle(request: Request) -> Response:
     """Choose the language, and go back."""
     form = await posted(request)
-    lang, back = one(form, "lang"), one(form, "back")
+    lang = one(form, "lang")
     if lang in languages():
         site: Site = request.app.state.site
         await run_in_threadpool(site.store.settle, request.state.learner.id, {"lang": lang})
-    inside = back.startswith("/") and not back.startswith(("//", "/\\"))
-    return to(back if inside else "/")
+    return to(inside(one(form, "back")))
 
 
 async def language_sheet(_request: Request) -> Response:
@@ -113,8 +112,16 @@ async def language_sheet(_request: Request) -> Response:
 async def refused(request: Request, error: Exception) -> Response:
     """A page for what is not there or not allowed."""
     status = error.status_code if isinstance(error, HTTPException) else 500
-    name = f"error.{status}" if status in {400, 403, 404, 405, 413} else "error.400"
+    name = f"error.{status}" if status in {400, 403, 404, 405, 410, 413, 429} else "error.400"
+    if not hasattr(request.state, "learner"):  # a style or a picture that is not there
+        return PlainTextResponse(str(status), status)
     return page(request, "message.html.j2", status, title="error.title", text=name)
+
+
+async def unreachable(request: Request, error: Exception) -> Response:
+    """A page for a database that does not answer."""
+    del error
+    return page(request, "message.html.j2", 503, title="error.title", text="error.503")
 
 
 async def failed(request: Request, error: Exception) -> Response:

@@ -8,8 +8,7 @@ from starlette.datastructures import FormData, UploadFile
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
 
-from quizgen.web.guard import form_token
-from quizgen.web.site import Site
+from quizgen.web.door import form_token
 
 LONGEST = 10_000
 """Characters of one field."""
@@ -26,10 +25,7 @@ async def posted(request: Request) -> FormData:
         403 without the token, 400 where it is no form, or longer than any of ours.
     """
     form = await request.form(max_files=0, max_fields=MOST, max_part_size=LONGEST * 4)
-    site: Site = request.app.state.site
-    expected = form_token(site.settings.token)
-    if not secrets.compare_digest(one(form, "token").encode(), expected.encode()):
-        raise HTTPException(403, "This form is not one of these pages.")
+    _check(request, form)
     for name, value in form.multi_items():
         if not isinstance(value, str) or len(value) > LONGEST or "\0" in name + value:
             raise HTTPException(400, "A field is too long, or no text.")
@@ -44,13 +40,16 @@ async def posted_file(request: Request, name: str) -> bytes:
     HTTPException
         403 without the token.
     """
-    site: Site = request.app.state.site
-    expected = form_token(site.settings.token).encode()
     async with request.form(max_files=1, max_fields=5) as form:
-        if not secrets.compare_digest(one(form, "token").encode(), expected):
-            raise HTTPException(403, "This form is not one of these pages.")
+        _check(request, form)
         sent = form.get(name)
         return await sent.read() if isinstance(sent, UploadFile) else b""
+
+
+def _check(request: Request, form: FormData) -> None:
+    expected = form_token(request.state.token)
+    if not secrets.compare_digest(one(form, "token").encode(), expected.encode()):
+        raise HTTPException(403, "This form is not one of these pages.")
 
 
 def one(form: FormData, name: str) -> str:

@@ -1,4 +1,4 @@
-"""What every request passes before a route sees it: who asks, from where, and how much.
+"""What every request passes first: from which page it comes, under which name, and how much.
 
 Sources: OWASP cheat sheets "Cross-Site Request Forgery Prevention" (fetch metadata, tokens bound
 to the session) and "Content Security Policy".
@@ -6,27 +6,24 @@ to the session) and "Content Security Policy".
 
 from __future__ import annotations
 
-import hashlib
-import hmac
-import secrets
-from http.cookies import CookieError, SimpleCookie
+import re
 
-from starlette.datastructures import MutableHeaders, QueryParams
+from starlette.datastructures import Headers, MutableHeaders
 from starlette.exceptions import HTTPException
-from starlette.responses import PlainTextResponse, RedirectResponse, Response
+from starlette.responses import PlainTextResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from quizgen.web.settings import Settings
 
-COOKIE = "quizgen"
 MOST_BYTES = 1_000_000
 """Of a request's body."""
 LARGER = {"/progress/import": 17_000_000}
 """Where a body may be larger: a file of everything that somebody did."""
-ENTRANCE = "/enter"
-"""Where the address that is opened first leads: ``/enter?key=TOKEN``."""
-OPEN = ("/static/",)
+OPEN = "/static/"
 """What anybody may see."""
+
+_NAME = re.compile(r"(\[[0-9a-f:.]+\]|[^\[\]:@]+)(:[0-9]+)?")
+"""A name or a number, and a port."""
 
 HEADERS = {
     "content-security-policy": "default-src 'none'; script-src 'self'; "
@@ -40,18 +37,13 @@ HEADERS = {
 }
 
 
-def form_token(token: str) -> str:
-    """What every form holds, so that no other site can post one."""
-    return hmac.new(token.encode(), b"form", hashlib.sha256).hexdigest()
-
-
 def most_bytes(scope: Scope) -> int:
     """How large the body of a request may be."""
     return LARGER.get(scope["path"], MOST_BYTES)
 
 
 class Guard:
-    """Lets in whom the opened address let in, asked by one of its own pages.
+    """Lets in what is asked under a name of this server, and sent by its own pages.
 
     Parameters
     ----------
@@ -83,39 +75,23 @@ class Guard:
         await self.app(scope, _Measured(receive, most_bytes(scope)), guarded)
 
     def _refused(self, scope: Scope) -> Response | None:
-        headers = {name.decode("latin-1"): value.decode("latin-1")
-                   for name, value in scope["headers"]}  # fmt: skip
-        wrong = self._misplaced(headers, most_bytes(scope))
+        headers = Headers(scope=scope)
         if "\0" in scope["path"]:
             return PlainTextResponse("This address is no text.", 400)
-        if wrong is not None or scope["path"].startswith(OPEN):
-            return wrong
-        if scope["path"] == ENTRANCE:
-            return self._entered(scope)
-        if not secrets.compare_digest(_cookie(headers).encode(), self.settings.token.encode()):
-            said = "Open the address that quizgen serve printed: it lets this browser in."
-            return PlainTextResponse(said, 403)
-        if scope["method"] not in {"GET", "HEAD"} and not _own(headers):
+        wrong = self._misplaced(headers, most_bytes(scope))
+        if wrong is None and scope["method"] not in {"GET", "HEAD"} and not _own(headers):
             return PlainTextResponse("A page of another site may not send this.", 403)
-        return None
+        return wrong
 
-    def _misplaced(self, headers: dict[str, str], most: int) -> Response | None:
+    def _misplaced(self, headers: Headers, most: int) -> Response | None:
         """What is wrong with a request whoever sends it."""
-        name, _, port = headers.get("host", "").rpartition(":")
-        if (name or port).strip("[]") not in self.settings.hosts:
+        name = _NAME.fullmatch(headers.get("host", "").lower())
+        if name is None or not self.settings.serves(name[1].strip("[]")):
             return PlainTextResponse("This address is not served here.", 400)
         length = headers.get("content-length", "0")
         if not length.isdecimal():
             return PlainTextResponse("The length of the body is no number.", 400)
         return PlainTextResponse("Too much was sent.", 413) if int(length[:12]) > most else None
-
-    def _entered(self, scope: Scope) -> Response:
-        key = QueryParams(scope["query_string"]).get("key", "")
-        if not secrets.compare_digest(key.encode(), self.settings.token.encode()):
-            return PlainTextResponse("This is not the address that was printed.", 403)
-        response = RedirectResponse("/", 303)
-        response.set_cookie(COOKIE, key, httponly=True, samesite="strict", path="/")
-        return response
 
 
 def _kept(path: str) -> str:
@@ -125,15 +101,7 @@ def _kept(path: str) -> str:
     return "no-cache" if path.startswith(OPEN) else "no-store"
 
 
-def _cookie(headers: dict[str, str]) -> str:
-    try:
-        found = SimpleCookie(headers.get("cookie", "")).get(COOKIE)
-    except CookieError:
-        return ""
-    return found.value if found else ""
-
-
-def _own(headers: dict[str, str]) -> bool:
+def _own(headers: Headers) -> bool:
     """Whether one of our own pages sends this, as far as browsers say."""
     site = headers.get("sec-fetch-site")
     if site is not None:

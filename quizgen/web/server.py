@@ -1,4 +1,4 @@
-"""Listening, on this machine alone."""
+"""Listening, on this machine alone or where others reach it."""
 
 from __future__ import annotations
 
@@ -11,10 +11,11 @@ import webbrowser
 from collections.abc import Callable
 
 import uvicorn
+from starlette.applications import Starlette
 
 from quizgen.errors import StoreError
 from quizgen.web.app import application
-from quizgen.web.guard import ENTRANCE
+from quizgen.web.door import ENTRANCE, INVITED
 from quizgen.web.settings import LOCAL, Settings
 from quizgen.web.site import Site
 from quizgen.web.store import Store
@@ -25,7 +26,14 @@ IDLE = 75
 """Seconds that a connection may rest: who thinks, or saves every few seconds, keeps it."""
 
 
-def run(settings: Settings, port: int, *, show: bool, tell: Callable[[str], object]) -> None:
+def run(
+    settings: Settings,
+    port: int,
+    *,
+    show: bool,
+    tell: Callable[[str], object],
+    invite: bool = False,
+) -> None:
     """Serve until interrupted.
 
     Parameters
@@ -37,6 +45,8 @@ def run(settings: Settings, port: int, *, show: bool, tell: Callable[[str], obje
         Whether to open the browser.
     tell : callable
         Told the address.
+    invite : bool
+        Whether to invite somebody else who manages; the first one always is.
 
     Raises
     ------
@@ -45,20 +55,27 @@ def run(settings: Settings, port: int, *, show: bool, tell: Callable[[str], obje
     """
     app = application(settings)
     site: Site = app.state.site
-    listening = _listening(port) if port else _as_before(site.store)
-    place = f"http://{LOCAL[0]}:{listening.getsockname()[1]}"
-    address = f"{place}{ENTRANCE}?key={site.settings.token}"
+    listening = _listening(settings.host, port) if port else _as_before(settings.host, site.store)
+    address = _address(site, listening.getsockname()[1], invite=invite)
 
     def ready() -> None:
         tell(f"quizgen is at {address}\nCtrl-C ends it; nothing that was answered is lost.")
         if show:
             webbrowser.open(address)
 
+    _end_like_ctrl_c()
+    _serve(app, settings, listening, ready)
+
+
+def _serve(
+    app: Starlette, settings: Settings, listening: socket.socket, ready: Callable[[], None]
+) -> None:
+    """What is asked is written nowhere; only a proxy of ours is believed who asked."""
     config = uvicorn.Config(
         app, log_level="warning", access_log=False, server_header=False,
+        proxy_headers=settings.behind_proxy, forwarded_allow_ips=[LOCAL[0], "::1"],
         timeout_graceful_shutdown=PATIENCE, timeout_keep_alive=IDLE,
     )  # fmt: skip
-    _end_like_ctrl_c()
     gc.freeze()  # what was loaded stays; looking through it each time would take 60 ms
     with contextlib.suppress(KeyboardInterrupt):  # the way in which it ends
         asyncio.run(_Server(config, ready).serve(sockets=[listening]))
@@ -84,27 +101,43 @@ class _Server(uvicorn.Server):
         self.ready()
 
 
-def _as_before(store: Store) -> socket.socket:
+def _address(site: Site, port: int, *, invite: bool) -> str:
+    """What is opened first; where people sign in, an invitation for the first one who manages."""
+    settings = site.settings
+    place = settings.place(port)
+    if not settings.accounts:
+        return f"{place}{ENTRANCE}?key={settings.token}"
+    accounts = site.store.accounts
+    if invite or not accounts.managed():
+        return f"{place}{INVITED}?key={accounts.invite(manages=True)}"
+    return place
+
+
+def _as_before(host: str, store: Store) -> socket.socket:
     """Listen where a page that was left open asks, and finds what its browser kept."""
-    anywhere = _listening(0)
+    anywhere = _listening(host, 0)
     port = anywhere.getsockname()[1]
     before = int(store.lasting("port", str(port)))
     if before == port:
         return anywhere
     try:
-        found = _listening(before)
+        found = _listening(host, before)
     except StoreError:
         return anywhere
     anywhere.close()
     return found
 
 
-def _listening(port: int) -> socket.socket:
-    listening = socket.socket(proto=socket.IPPROTO_TCP)  # so that asyncio sets TCP_NODELAY
+def _listening(host: str, port: int) -> socket.socket:
+    try:
+        family, kind, _, _, place = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
+    except OSError as error:
+        raise StoreError(f"{host}: {error.strerror or error}") from error
+    listening = socket.socket(family, kind, socket.IPPROTO_TCP)  # so that asyncio sets TCP_NODELAY
     listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
-        listening.bind((LOCAL[0], port))
+        listening.bind(place)
     except OSError as error:
         listening.close()
-        raise StoreError(f"port {port}: {error.strerror or error}") from error
+        raise StoreError(f"{host}, port {port}: {error.strerror or error}") from error
     return listening

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
+import ipaddress
 import secrets
+import socket
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 
 from quizgen.bank.folder import Bank
@@ -25,8 +29,12 @@ class Settings:
         Folder of another bank.
     trusted : bool
         Whether that bank's own solvers may run.
-    hosts : tuple of str
-        Names under which the server may be asked.
+    host : str
+        Where it listens. Anywhere but on this machine alone, people sign in.
+    names : tuple of str
+        Further names under which it may be asked.
+    behind_proxy : bool
+        Whether a server of this machine takes the requests, with https, and hands them on.
     token : str
         What the opened address holds: only who has it is let in. A database that was served
         before keeps its own.
@@ -37,7 +45,58 @@ class Settings:
     database: str
     bank: Path | None = None
     trusted: bool = False
-    hosts: tuple[str, ...] = LOCAL
+    host: str = LOCAL[0]
+    names: tuple[str, ...] = ()
+    behind_proxy: bool = False
     token: str = field(default_factory=lambda: secrets.token_urlsafe(24), repr=False)
     workers: int = 2
     examine: Callable[[Bank, str], list[str]] | None = None
+
+    @property
+    def accounts(self) -> bool:
+        """Whether people sign in: wherever others can reach the server."""
+        return self.behind_proxy or not (self.host in LOCAL or _loopback(self.host))
+
+    def serves(self, name: str) -> bool:
+        """Whether the server may be asked under a name.
+
+        Another site can make its own name lead here, but no number: where people sign in, any
+        number does.
+        """
+        if name in {*LOCAL, self.host, *self.names}:
+            return True
+        return self.accounts and (name in _own_names() or _is_number(name))
+
+    def place(self, port: int) -> str:
+        """Where a browser finds the server."""
+        if self.behind_proxy and self.names:
+            return f"https://{self.names[0]}"
+        everywhere = _is_number(self.host) and ipaddress.ip_address(self.host).is_unspecified
+        name = self.names[0] if self.names else _reached() if everywhere else self.host
+        return f"http://[{name}]:{port}" if ":" in name else f"http://{name}:{port}"
+
+
+@cache
+def _own_names() -> frozenset[str]:
+    own = socket.gethostname().lower()
+    return frozenset({own, f"{own}.local"})
+
+
+def _reached() -> str:
+    """The number of this machine in its network; nothing is sent to find it out."""
+    with contextlib.suppress(OSError), socket.socket(type=socket.SOCK_DGRAM) as out:
+        out.connect(("192.0.2.1", 9))  # an address that nobody has (RFC 5737)
+        return str(out.getsockname()[0])
+    return LOCAL[0]
+
+
+def _is_number(name: str) -> bool:
+    try:
+        ipaddress.ip_address(name)
+    except ValueError:
+        return False
+    return True
+
+
+def _loopback(host: str) -> bool:
+    return _is_number(host) and ipaddress.ip_address(host).is_loopback

@@ -7,6 +7,7 @@ from dataclasses import replace
 from weakref import WeakValueDictionary
 
 from quizgen.bank.folder import Bank, builtin
+from quizgen.web.passwords import Patience
 from quizgen.web.settings import Settings
 from quizgen.web.store import Store
 from quizgen.web.workers import Workers
@@ -31,6 +32,8 @@ class Site:
         token = self.store.lasting("token", settings.token)  # open pages outlive the server
         self.settings = replace(settings, token=token)
         self.workers = Workers(settings)
+        self.patience = Patience()
+        """With those who sign in with wrong passwords."""
         self._turns: WeakValueDictionary[str, asyncio.Lock] = WeakValueDictionary()
 
     def turn_of(self, attempt: str) -> asyncio.Lock:

@@ -13,8 +13,9 @@ from starlette.responses import HTMLResponse, RedirectResponse, Response
 
 from quizgen.locale import FIRST, in_script, known, language, languages, line_heights, marks, table
 from quizgen.render.layouts import environment
-from quizgen.web.guard import form_token
+from quizgen.web.door import form_token
 from quizgen.web.site import Site
+from quizgen.web.store import Learner
 
 HX = "hx-request"
 """The header that htmx sends."""
@@ -46,6 +47,19 @@ def lang_of(request: Request) -> str:
     return known(str(request.state.learner.settings.get("lang", FIRST)))
 
 
+def _menu(site: Site, learner: Learner) -> list[tuple[str, str]]:
+    """Addresses of pages that a learner may see, and what they are called."""
+    here = site.settings
+    if here.accounts and not learner.id:
+        return []
+    shown = [("/", "practice"), ("/exam", "exam"), ("/progress", "progress")]
+    shown += [("/formulas", "formulas")] if "formulas" in site.bank.cards else []
+    shown += [("/camera", "camera"), ("/tradeoff", "tradeoff")]
+    shown += [("/author", "author")] if here.examine else []
+    shown += [("/people", "people")] if learner.manages else []
+    return shown + ([("/account", "account")] if here.accounts else [])
+
+
 def page(request: Request, layout: str, status: int = 200, **content: Any) -> Response:
     """A page.
 
@@ -64,6 +78,7 @@ def page(request: Request, layout: str, status: int = 200, **content: Any) -> Re
     def words(key: str, **values: object) -> str:
         return said(lang, key, **values)
 
+    content.setdefault("kept", {})
     html = (
         _layouts()
         .get_template(layout)
@@ -73,7 +88,9 @@ def page(request: Request, layout: str, status: int = 200, **content: Any) -> Re
             points=lambda count: marks(Fraction(str(count)), lang),
             site=site,
             here=request.url.path,
-            token=form_token(site.settings.token),
+            token=form_token(request.state.token),
+            learner=request.state.learner,
+            menu=_menu(site, request.state.learner),
             bangla=bool(in_script("Beng")),
             **content,
         )
@@ -84,3 +101,9 @@ def page(request: Request, layout: str, status: int = 200, **content: Any) -> Re
 def to(address: str) -> Response:
     """Go on to another page."""
     return RedirectResponse(address, 303)
+
+
+def inside(address: str) -> str:
+    """An address of these pages; the first page instead of any other."""
+    own = address.startswith("/") and not address.startswith(("//", "/\\"))
+    return address if own else "/"

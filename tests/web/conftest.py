@@ -10,7 +10,7 @@ from sqlalchemy import delete
 from starlette.testclient import TestClient
 
 from quizgen.web.app import application
-from quizgen.web.guard import form_token
+from quizgen.web.door import form_token
 from quizgen.web.settings import Settings
 from quizgen.web.store import Which
 from quizgen.web.store.tables import LEARNER

@@ -7,7 +7,7 @@ from starlette.testclient import TestClient
 
 from quizgen.errors import BankError
 from quizgen.web.app import application
-from quizgen.web.guard import form_token
+from quizgen.web.door import form_token
 from quizgen.web.made import Wanted
 from quizgen.web.settings import Settings
 from quizgen.web.workers import Kept

@@ -31,14 +31,14 @@ def test_a_server_lets_in_whom_the_one_before_it_let_in(tmp_path):
 
 def test_it_listens_on_the_port_of_the_first_time_while_that_is_free(tmp_path):
     store = Store(f"sqlite:///{tmp_path / 'learning.sqlite3'}")
-    first = _as_before(store)
+    first = _as_before("127.0.0.1", store)
     port = first.getsockname()[1]
     first.listen()
-    beside = _as_before(store)
+    beside = _as_before("127.0.0.1", store)
     assert beside.getsockname()[1] != port
     beside.close()
     first.close()
-    again = _as_before(store)
+    again = _as_before("127.0.0.1", store)
     assert again.getsockname()[1] == port
     again.close()
     store.close()
@@ -53,7 +53,7 @@ def test_an_answer_is_sent_before_what_went_before_it_is_acknowledged():
         there.close()
 
     async def ask() -> None:
-        listening = _listening(0)
+        listening = _listening("127.0.0.1", 0)
         async with await asyncio.start_server(answer, sock=listening):
             reader, writer = await asyncio.open_connection(*listening.getsockname())
             await reader.read()

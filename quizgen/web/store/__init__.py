@@ -4,6 +4,6 @@ In: plain values. Out: plain values. Must never know: requests, pages, questions
 """
 
 from quizgen.web.store.base import Store
-from quizgen.web.store.rows import Attempt, Learner, Seen, Sitting, Which
+from quizgen.web.store.rows import Attempt, Invitation, Learner, Person, Seen, Sitting, Which
 
-__all__ = ["Attempt", "Learner", "Seen", "Sitting", "Store", "Which"]
+__all__ = ["Attempt", "Invitation", "Learner", "Person", "Seen", "Sitting", "Store", "Which"]

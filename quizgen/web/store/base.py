@@ -11,6 +11,7 @@ from typing import Any
 import msgspec
 from sqlalchemy import Connection, func, insert, select, update
 
+from quizgen.web.store.accounts import ALONE, Accounts
 from quizgen.web.store.archive import Archives
 from quizgen.web.store.cards import Cards
 from quizgen.web.store.database import Database, put
@@ -18,9 +19,6 @@ from quizgen.web.store.rows import Attempt, Learner, Seen, Which
 from quizgen.web.store.sittings import Sittings
 from quizgen.web.store.tables import ATTEMPT, LEARNER, SEEN, SERVER
 from quizgen.web.store.values import value
-
-ALONE = "me"
-"""Name of the learner of a server for one person."""
 
 
 class Store:
@@ -45,6 +43,8 @@ class Store:
         """Exams that are sat."""
         self.cards = Cards(self.database)
         """What is asked again, and when."""
+        self.accounts = Accounts(self.database)
+        """People who sign in."""
         self.archives = Archives(self.database)
         """Everything of a learner, as a file."""
 

@@ -20,7 +20,7 @@ from sqlalchemy import (
 from quizgen.errors import StoreError
 from quizgen.web.store.tables import METADATA
 
-NEWEST = "0004"
+NEWEST = "0005"
 """The last step in ``migrations/versions``."""
 _VERSIONS = Table(
     "alembic_version",

@@ -13,6 +13,36 @@ class Learner(msgspec.Struct, frozen=True):
     id: int
     name: str
     settings: dict[str, Any]
+    manages: bool = False
+
+
+class Person(msgspec.Struct, frozen=True):
+    """Who can sign in, as those who manage see it."""
+
+    id: int
+    name: str
+    manages: bool
+    since: float
+
+
+class Invitation(msgspec.Struct, frozen=True):
+    """A link that is good once.
+
+    Parameters
+    ----------
+    hash : str
+        Of its token.
+    learner : int or None
+        Who may choose a new password; None for somebody new.
+    manages : bool
+        Whether somebody new is to manage.
+    until : float
+    """
+
+    hash: str
+    learner: int | None
+    manages: bool
+    until: float
 
 
 class Which(msgspec.Struct, frozen=True):

@@ -112,3 +112,33 @@ CARD = Table(
     Column("due", Float, nullable=False),
 )
 """What is asked again, and when: see ``practice.schedule.Card``, which ``data`` is all of."""
+
+ACCOUNT = Table(
+    "account",
+    METADATA,
+    Column("learner", ForeignKey("learner.id", ondelete="CASCADE"), primary_key=True),
+    Column("key", String(200), nullable=False, unique=True),
+    Column("password", String(200), nullable=False),
+    Column("manages", Boolean, nullable=False),
+)
+"""Who signs in: ``key`` is the name as it is compared, ``password`` what Argon2 made of it."""
+
+SESSION = Table(
+    "session",
+    METADATA,
+    Column("hash", String(64), primary_key=True),
+    Column("learner", ForeignKey("learner.id", ondelete="CASCADE"), nullable=False),
+    Column("until", Float, nullable=False),
+    Index("session_of", "learner"),
+)
+"""A browser in which somebody has signed in; the hash is that of the token in its cookie."""
+
+INVITATION = Table(
+    "invitation",
+    METADATA,
+    Column("hash", String(64), primary_key=True),
+    Column("learner", ForeignKey("learner.id", ondelete="CASCADE")),
+    Column("manages", Boolean, nullable=False),
+    Column("until", Float, nullable=False),
+)
+"""A link for somebody new, or for a learner to choose a new password; gone once it is used."""

@@ -1,0 +1,140 @@
+"""Who asks: whoever has the address that was printed, or who has signed in."""
+
+from __future__ import annotations
+
+import hashlib
+import hmac
+import secrets
+from http.cookies import CookieError, SimpleCookie
+from urllib.parse import urlencode
+
+from sqlalchemy.exc import SQLAlchemyError
+from starlette.concurrency import run_in_threadpool
+from starlette.datastructures import Headers, MutableHeaders, QueryParams
+from starlette.responses import PlainTextResponse, RedirectResponse, Response
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from quizgen.locale import FIRST, languages
+from quizgen.web.guard import OPEN
+from quizgen.web.site import Site
+from quizgen.web.store import Learner
+
+COOKIE = "quizgen"
+ENTRANCE = "/enter"
+"""Where the address that is opened first leads: ``/enter?key=TOKEN``."""
+SIGN_IN, INVITED = "/sign-in", "/invited"
+"""What somebody may see who has not signed in."""
+
+
+def form_token(token: str) -> str:
+    """What every form of a browser holds, so that no other site can post one."""
+    return hmac.new(token.encode(), b"form", hashlib.sha256).hexdigest()
+
+
+class Door:
+    """Lets in who may, and puts beside the request who that is.
+
+    Parameters
+    ----------
+    app : ASGI application
+    site : Site
+    """
+
+    def __init__(self, app: ASGIApp, site: Site) -> None:
+        self.app, self.site = app, site
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer at once, or hand on."""
+        if scope["type"] != "http" or scope["path"].startswith(OPEN):
+            await self.app(scope, receive, send)
+            return
+        try:
+            sign = self._signed_in if self.site.settings.accounts else self._alone
+            answer = await sign(scope)
+        except SQLAlchemyError:
+            answer = PlainTextResponse("The database does not answer. Try again in a moment.", 503)
+        if answer is not None:
+            await answer(scope, receive, send)
+            return
+        await self.app(scope, receive, _with_cookie(scope, send))
+
+    async def _alone(self, scope: Scope) -> Response | None:
+        """Who has the printed address is the one learner there is."""
+        token = self.site.settings.token
+        if scope["path"] == ENTRANCE:
+            return _entered(scope, token)
+        if not _same(_cookie(scope), token):
+            said = "Open the address that quizgen serve printed: it lets this browser in."
+            return PlainTextResponse(said, 403)
+        store = self.site.store
+        learner = store.remembered() or await run_in_threadpool(store.learner)
+        scope.setdefault("state", {}).update(learner=learner, token=token)
+        return None
+
+    async def _signed_in(self, scope: Scope) -> Response | None:
+        """Who has a session; anybody else is sent to where one signs in."""
+        token = _cookie(scope)
+        accounts = self.site.store.accounts
+        learner = await run_in_threadpool(accounts.signed_in, token) if token else None
+        state = scope.setdefault("state", {})
+        state.update(learner=learner or _visitor(scope), token=token)
+        if learner is not None or scope["path"] in {SIGN_IN, INVITED}:
+            if not token:
+                state["token"] = state["new_token"] = secrets.token_urlsafe(24)
+            return None
+        if scope["method"] not in {"GET", "HEAD"}:
+            return PlainTextResponse("Sign in again, then send this once more.", 403)
+        return RedirectResponse(f"{SIGN_IN}?{urlencode({'to': scope['path']})}", 303)
+
+
+def let_in(scope: Scope, response: Response, token: str) -> Response:
+    """Give a browser another token, instead of the one that it had."""
+    scope["state"].pop("new_token", None)
+    response.set_cookie(
+        COOKIE, token, httponly=True, samesite="lax", secure=scope["scheme"] == "https"
+    )
+    return response
+
+
+def _with_cookie(scope: Scope, send: Send) -> Send:
+    """Give a browser that has no token one for its forms, which lets nobody in."""
+
+    async def sending(message: Message) -> None:
+        token = scope.get("state", {}).get("new_token")
+        if token and message["type"] == "http.response.start":
+            given = let_in(scope, Response(), token).headers["set-cookie"]
+            MutableHeaders(scope=message).append("set-cookie", given)
+        await send(message)
+
+    return sending
+
+
+def _visitor(scope: Scope) -> Learner:
+    """Somebody unknown, who has said in which language to be spoken to, or whose browser has."""
+    asked = [QueryParams(scope["query_string"]).get("lang", "")]
+    asked += [
+        one.partition(";")[0].strip()[:2].lower()
+        for one in Headers(scope=scope).get("accept-language", "").split(",")[:10]
+    ]
+    lang = next((one for one in asked if one in languages()), FIRST)
+    return Learner(0, "", {"lang": lang})
+
+
+def _entered(scope: Scope, token: str) -> Response:
+    if not _same(QueryParams(scope["query_string"]).get("key", ""), token):
+        return PlainTextResponse("This is not the address that was printed.", 403)
+    response = RedirectResponse("/", 303)
+    response.set_cookie(COOKIE, token, httponly=True, samesite="strict", path="/")
+    return response
+
+
+def _same(given: str, token: str) -> bool:
+    return secrets.compare_digest(given.encode(), token.encode())
+
+
+def _cookie(scope: Scope) -> str:
+    try:
+        found = SimpleCookie(Headers(scope=scope).get("cookie", "")).get(COOKIE)
+    except CookieError:
+        return ""
+    return found.value if found else ""

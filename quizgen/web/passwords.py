@@ -1,0 +1,119 @@
+"""Names and passwords as they are typed, and what is kept of passwords: an Argon2 hash."""
+
+from __future__ import annotations
+
+import asyncio
+import math
+import re
+import time
+import unicodedata
+from collections import OrderedDict
+from collections.abc import Callable, Hashable
+from concurrent.futures import ThreadPoolExecutor
+from functools import cache
+
+import argon2
+
+LONGEST_NAME = 60
+SHORTEST, LONGEST = 8, 200
+"""Characters of a password."""
+AT_ONCE = 2
+"""Passwords that are hashed at the same time: each takes 64 MB and much of a second."""
+FREE = 5
+"""Wrong passwords after which one has to wait."""
+LONGEST_WAIT = 300.0
+REMEMBERED = 10_000
+
+_JOINERS = "\u200c\u200d"  # Bangla writes with them
+_HIDDEN = {"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"}
+
+
+def as_name(typed: str) -> str | None:
+    """A name as it is kept; None if it cannot be one.
+
+    Nothing in it may turn the text around it, or not be seen.
+    """
+    name = " ".join(unicodedata.normalize("NFC", typed).split())
+    hidden = any(unicodedata.category(c) in _HIDDEN for c in name if c not in _JOINERS)
+    readable = re.search(r"\w", name) is not None
+    return name if readable and not hidden and len(name) <= LONGEST_NAME else None
+
+
+def acceptable(password: str) -> bool:
+    """Whether a password is neither too short nor too long."""
+    return SHORTEST <= len(password) <= LONGEST
+
+
+async def hashed(password: str) -> str:
+    """What is kept of a password."""
+    return await asyncio.get_running_loop().run_in_executor(_few(), _hash, password)
+
+
+async def fits(kept: str | None, password: str) -> bool:
+    """Whether a password is the one that was kept; takes as long where none was."""
+    return await asyncio.get_running_loop().run_in_executor(_few(), _fits, kept, password)
+
+
+def _hash(password: str) -> str:
+    return _hasher().hash(_bytes(password))
+
+
+def _fits(kept: str | None, password: str) -> bool:
+    try:
+        right = _hasher().verify(kept or _other(), _bytes(password))
+    except argon2.exceptions.VerifyMismatchError:
+        return False
+    return right and kept is not None
+
+
+def _bytes(password: str) -> bytes:
+    return unicodedata.normalize("NFKC", password[:LONGEST]).encode()
+
+
+@cache
+def _hasher() -> argon2.PasswordHasher:
+    return argon2.PasswordHasher()
+
+
+@cache
+def _other() -> str:
+    return _hasher().hash(b"nobody's")
+
+
+@cache
+def _few() -> ThreadPoolExecutor:
+    return ThreadPoolExecutor(AT_ONCE, "passwords")
+
+
+class Patience:
+    """Lets what keeps failing be tried again only later and later.
+
+    Parameters
+    ----------
+    clock : callable
+    """
+
+    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+        self._clock = clock
+        self._tries: OrderedDict[Hashable, tuple[int, float]] = OrderedDict()
+
+    def begin(self, who: Hashable) -> int:
+        """Seconds to wait before a try; 0 if it may be made now, and then it counts as failed."""
+        count, since = self._tries.pop(who, (0, 0.0))
+        now = self._clock()
+        left = since + _wait(count) - now if count >= FREE else 0.0
+        if left > 0:
+            self._tries[who] = count, since
+            return math.ceil(left)
+        self._tries[who] = count + 1, now
+        if len(self._tries) > REMEMBERED:
+            self._tries.popitem(last=False)
+        return 0
+
+    def succeeded(self, who: Hashable) -> None:
+        """Forget what failed before."""
+        self._tries.pop(who, None)
+
+
+def _wait(count: int) -> float:
+    return min(LONGEST_WAIT, 2.0 ** min(count - FREE, 20))
