@@ -13,17 +13,18 @@ from fractions import Fraction
 import msgspec
 
 from quizgen.bank.draw import Draw
-from quizgen.bank.plan import pick, shuffled
+from quizgen.bank.plan import pick
 from quizgen.bank.prose import Block, Inline, Paragraph, Styled
 from quizgen.bank.traps import answer_names
 from quizgen.maths.chain import ChainStep
-from quizgen.maths.tree import names
+from quizgen.maths.tree import Sym, names
 from quizgen.question.contract import Built
 from quizgen.question.filling import Filler
 from quizgen.question.kinds import KINDS
 from quizgen.question.levels import exam
 from quizgen.question.levels.asking import Asked, Asking, quiet, shared_out
 from quizgen.question.levels.options import Option, choice
+from quizgen.question.levels.slips import offered
 from quizgen.question.levels.steps import (
     Way,
     branch,
@@ -44,8 +45,6 @@ from quizgen.question.specs import answer_of, mistaken
 from quizgen.question.worked import thing
 
 NUMERIC = frozenset({"number", "quantity", "angle", "point", "table", "set", "interval"})
-WAYS = 4
-"""Formulas to choose from."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,11 +128,17 @@ def _to_choose(
     told = defined(drawn)
     found = [
         step for step in steps
-        if step.name not in told
+        if step.name not in told and not _other_unit(drawn, step)
         and has_name(drawn, step.name) and not gives_away(drawn, step, known)
         and len(wrong_ways(drawn, step, known)) > 1
     ]  # fmt: skip
     return found[pick(f"{key_of(drawn)}/{index}/formula", len(found))] if found else None
+
+
+def _other_unit(drawn: Draw, step: ChainStep) -> bool:
+    """Whether a step is the same quantity in another unit: bits as bytes are no formula."""
+    right, units = branch(drawn, step.expr), drawn.template.units
+    return isinstance(right, Sym) and units.get(right.name, "") != step.unit
 
 
 def fits(drawn: Draw) -> bool:
@@ -249,18 +254,14 @@ class _Guide:
         """Which formula? The right one among those of the step's mistakes."""
         key = "guided.formula" if place else "guided.formula_first"
         body = self._strong(key, thing=thing(self.drawn, step.name, self.lang))
-        ways = _offered(self.drawn, stage, step)
+        ways = offered(self.drawn, step, stage.known)
         return choice(self.drawn, self.lang, body, [self._way(step, way) for way in ways])
 
     def _way(self, step: ChainStep, way: Way) -> Option:
         def because(lang: str) -> tuple[Inline, ...]:
+            if way.slip:
+                return said(lang, f"guided.slip_{way.slip}")
             section, name = ("traps", way.trap) if way.trap else ("steps", step.name)
             return Filler(self.drawn, lang).sentence(section, name)
 
-        return Option(lambda _lang: (way.shown,), not way.trap, because, way.trap)
-
-
-def _offered(drawn: Draw, stage: Stage, step: ChainStep) -> list[Way]:
-    """The formulas to choose from, in a drawn order."""
-    ways = [right_way(drawn, step, stage.known), *wrong_ways(drawn, step, stage.known)[: WAYS - 1]]
-    return shuffled(f"{key_of(drawn)}/{step.name}/order", ways)
+        return Option(lambda _lang: (way.shown,), way.right, because, way.trap or way.slip)

@@ -54,11 +54,17 @@ _DEGREES = Call("div", (Num(Fraction(180)), Call("pi", ())))
 
 
 class Way(NamedTuple):
-    """A formula that may be taken for a step: the right one, or that of a mistake."""
+    """A formula that may be taken for a step: the right one, that of a mistake, or of a slip."""
 
     trap: str
     shown: Maths
     value: Value
+    slip: str = ""
+
+    @property
+    def right(self) -> bool:
+        """Whether it is the right one."""
+        return not self.trap and not self.slip
 
 
 def has_name(drawn: Draw, name: str) -> bool:
