@@ -16,6 +16,7 @@ from quizgen.bank.traps import answer_names
 from quizgen.errors import MathError
 from quizgen.locale import word
 from quizgen.maths.chain import ChainStep
+from quizgen.maths.notation import people
 from quizgen.maths.numbers import fraction, rational, written
 from quizgen.maths.precision import working_precision
 from quizgen.maths.scaling import power_of
@@ -28,6 +29,8 @@ from quizgen.question.worked import thing
 
 SCALES = tuple(map(Fraction, ("2", "3", "4", "1/2", "1/3", "1/4")))
 """Factors that have a word of their own."""
+SLIGHT = (Fraction(11, 10), Fraction(9, 10))
+"""Factors for quantities that stand beside others in a sum, and have less room."""
 _ROUNDING = frozenset({"mod", "floor", "ceil", "round", "eq", "ne"})
 """Operators of conditions that only keep numbers handy."""
 _ROOTS = {(2, Fraction(4)): Fraction(2), (2, Fraction(1, 4)): Fraction(1, 2)}
@@ -82,15 +85,19 @@ class Change:
     @cached_property
     def factor(self) -> Fraction | None:
         """The factor of the result, where it follows from a proved power and is a plain number."""
-        if self.power is None:
+        if self.power is None or self.scale not in SCALES:
             return None
         base = {(1, self.scale): self.scale, **_ROOTS}.get((self.power.denominator, self.scale))
         return None if base is None else base**self.power.numerator
 
     def said(self, lang: str) -> tuple[Inline, ...]:
         """The change in words."""
-        name = f"times_{self.scale}" if self.scale > 1 else f"by_{1 / self.scale}"
-        how = (Words(word(lang, f"transfer.{name}")),)
+        if self.scale in SLIGHT:
+            number = (Words(people.number(f"{float(self.scale):g}")),)
+            how = said(lang, "transfer.times", number=number)
+        else:
+            name = f"times_{self.scale}" if self.scale > 1 else f"by_{1 / self.scale}"
+            how = (Words(word(lang, f"transfer.{name}")),)
         return said(lang, "transfer.change", given=thing(self.drawn, self.given, lang), change=how)
 
 
@@ -125,8 +132,8 @@ class Changes:
         self._solved: dict[tuple[str, Fraction], Draw | None] = {}
         self._known = introduced(drawn)
 
-    def of(self, index: int, target: str) -> Iterator[Change]:
-        """The changes that may move one result, in a drawn order."""
+    def of(self, index: int, target: str, *, idle: bool = False) -> Iterator[Change]:
+        """The changes of what one result rests on, or (idle) of what it does not, as drawn."""
         if self.drawn.values[target] == 0:
             return
         steps = needed(self.drawn, target)
@@ -134,10 +141,10 @@ class Changes:
         pairs = [
             (given, scale)
             for given in self.drawn.template.chain.given
-            if given in used
+            if (given in used) is not idle
             and _can_change(self.drawn, given, self._known)
             and not used & _following(self.drawn, given)
-            for scale in SCALES
+            for scale in (*SCALES, *SLIGHT)
         ]
         for given, scale in shuffled(f"{key_of(self.drawn)}/{target}/changes", pairs):
             changed = self._after(given, scale)

@@ -8,7 +8,7 @@ from quizgen.bank.plan import pick, shuffled
 from quizgen.bank.prose import Inline, Items, Paragraph, Styled
 from quizgen.maths.precision import working_precision
 from quizgen.question.levels.asking import Asked
-from quizgen.question.levels.changes import Change, Changes, clearly_more, distance, targets
+from quizgen.question.levels.changes import SCALES, Change, Changes, clearly_more, distance, targets
 from quizgen.question.levels.effects import Effect, shown_value
 from quizgen.question.levels.options import Option, choice
 from quizgen.question.levels.steps import key_of
@@ -62,7 +62,11 @@ def compared(changes: Changes, asked: Effect | None) -> Pair | None:
     wanted = ANSWERS[pick(f"{key_of(drawn)}/compare", len(ANSWERS))]
     spare: Pair | None = None
     for index, target in shuffled(f"{key_of(drawn)}/compare", list(targets(drawn))):
-        usable = [change for change in changes.of(index, target) if not _same(change, asked)]
+        usable = [
+            change
+            for change in changes.of(index, target)
+            if change.scale in SCALES and not _same(change, asked)
+        ]
         for place, first in enumerate(usable):
             for second in usable[place + 1 :]:
                 pair = _judged(first, second)

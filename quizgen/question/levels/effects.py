@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import islice
 
 from quizgen import typeset
 from quizgen.bank.draw import Draw
@@ -58,10 +59,19 @@ def effect(changes: Changes) -> Effect | None:
                 other.append(change)
     if not other:
         return None
-    way = ("value", "direction")[pick(f"{key_of(drawn)}/effect/way", 2)]
-    wanted = DIRECTIONS[pick(f"{key_of(drawn)}/effect/direction", len(DIRECTIONS))]
-    fitting = [change for change in other if way == "value" or _way_of(change) == wanted]
-    return Effect((fitting or other)[0], way)
+    if pick(f"{key_of(drawn)}/effect/way", 2):
+        return Effect(_one_way(changes, other), "direction")
+    return Effect(other[0], "value")
+
+
+def _one_way(changes: Changes, moving: list[Change]) -> Change:
+    """A change in a drawn direction, if one is left: also of what the result does not rest on."""
+    idle = changes.of(moving[0].index, moving[0].target, idle=True)
+    first: dict[str, Change] = {}
+    for change in (*moving, *islice(idle, 1)):
+        first.setdefault(_way_of(change), change)
+    ways = [way for way in DIRECTIONS if way in first]
+    return first[ways[pick(f"{key_of(changes.drawn)}/effect/direction", len(ways))]]
 
 
 def _way_of(change: Change) -> str:
