@@ -22,6 +22,8 @@ from quizgen.question.compose import Part
 from quizgen.question.sheet import cited
 from quizgen.question.solution import PartSolution
 from quizgen.render.text import blocks, inline
+from quizgen.web.learning import Learning
+from quizgen.web.store import Which
 
 COLOURS = {"correct": "green", "partial": "yellow", "wrong": "red"}
 
@@ -73,10 +75,12 @@ class Conversation:
     session : Session
     shelf : Shelf
         Where it is kept after every answer.
+    learning : Learning
+        Where every question is kept that is finished.
     """
 
-    def __init__(self, session: Session, shelf: Shelf) -> None:
-        self.session, self.shelf = session, shelf
+    def __init__(self, session: Session, shelf: Shelf, learning: Learning) -> None:
+        self.session, self.shelf, self.learning = session, shelf, learning
         self.words = practice_words(session.state.wish.lang)
 
     def hold(self) -> None:
@@ -95,6 +99,8 @@ class Conversation:
                     self._ask(task)
             self.session.finish(turn)
             self._keep()
+            which = Which(turn.question.template, turn.seed, turn.level)
+            self.learning.practised(which, turn.question.topic, turn.parts)
 
     def _keep(self) -> None:
         self.shelf.keep(self.session.state)

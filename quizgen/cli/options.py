@@ -61,6 +61,23 @@ def language_option(command: Callable[P, T]) -> Callable[P, T]:
     )
 
 
+def own_database() -> str:
+    """Address of a learner's own database."""
+    from platformdirs import user_data_path
+
+    return f"sqlite:///{user_data_path('quizgen', ensure_exists=True) / 'learning.sqlite3'}"
+
+
+def database_option(command: Callable[P, T]) -> Callable[P, T]:
+    """Add ``--database``, where what is learnt is kept, in the browser as in the terminal."""
+    return click.option(
+        "--database",
+        metavar="ADDRESS",
+        default=own_database,
+        help="Where to keep what is done: sqlite:///FILE, postgresql+psycopg://...",
+    )(command)
+
+
 def level_option(command: Callable[P, T]) -> Callable[P, T]:
     """Add ``--level``, one of the levels there are."""
     kind = click.Choice(CHOICES, case_sensitive=False)

@@ -12,6 +12,7 @@ from quizgen.cli.options import (
     Whole,
     bank_options,
     checked,
+    database_option,
     language_option,
     level_option,
     open_bank,
@@ -19,13 +20,14 @@ from quizgen.cli.options import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     from quizgen.bank.folder import Bank
     from quizgen.practice.results import TopicResult
     from quizgen.practice.session import Session
     from quizgen.practice.shelf import Shelf
     from quizgen.practice.state import Wish
+    from quizgen.web.learning import Learning
 
 INTERRUPTED = 130
 TIERS = tuple("ABCD")
@@ -40,6 +42,7 @@ class Options(BankOptions):
     count: int
     seed: str | None
     level: str
+    database: str
     fresh: bool
 
 
@@ -51,6 +54,7 @@ class Options(BankOptions):
 @click.option("--count", type=Whole(1, 200), default=10, show_default=True,
               help="How many questions.")  # fmt: skip
 @click.option("--seed", help="Any text: the same text gives the same questions.")
+@database_option
 @bank_options
 @click.option("--fresh", is_flag=True, help="Begin anew, not where these options were left.")
 def practice(**options: Unpack[Options]) -> None:
@@ -58,14 +62,17 @@ def practice(**options: Unpack[Options]) -> None:
 
     Type ? for a hint, ! for the solution, skip to leave a part out, quit (or Ctrl-C) to stop. The
     session is kept part by part, and the same command goes on with it; sessions with other options
-    are kept beside it.
+    are kept beside it. Without --seed it asks what is due, here or in the browser.
     """
     from quizgen.cli.conversation import Conversation, Quit, say
     from quizgen.practice.shelf import Shelf
 
     shelf = Shelf(state_folder())
-    session = _session(options, shelf)
-    conversation = Conversation(session, shelf)
+    bank = open_bank(options)
+    wish = _wish(options, bank)
+    learning = _learning(bank, options["database"])
+    session = _session(learning, wish, shelf, fresh=options["fresh"])
+    conversation = Conversation(session, shelf, learning)
     try:
         conversation.hold()
     except (Quit, KeyboardInterrupt) as stop:
@@ -73,8 +80,8 @@ def practice(**options: Unpack[Options]) -> None:
         click.echo()
         say(conversation.words["saved"])
         raise click.exceptions.Exit(0 if isinstance(stop, Quit) else INTERRUPTED) from None
-    shelf.end(session.state)
-    _summary(session, shelf, conversation.words)
+    shelf.forget(wish)
+    _summary(session, learning, conversation.words)
 
 
 def state_folder() -> Path:
@@ -82,20 +89,31 @@ def state_folder() -> Path:
     return Path(click.get_app_dir("quizgen")) / "practice"
 
 
-def _session(options: Options, shelf: Shelf) -> Session:
-    """The session that these options have begun, or a new one."""
+def _learning(bank: Bank, database: str) -> Learning:
+    """What has been learnt, here and in the browser."""
+    from quizgen.web.learning import Learning
+    from quizgen.web.store import Store
+
+    store = Store(database)
+    return Learning(store, bank, store.learner())
+
+
+def _session(learning: Learning, wish: Wish, shelf: Shelf, *, fresh: bool) -> Session:
+    """The session that a wish has begun, or a new one."""
     from quizgen.marking.messages import practice_words
     from quizgen.practice.session import Session
     from quizgen.practice.state import new
 
-    bank = open_bank(options)
-    wish = _wish(options, bank)
-    if options["fresh"]:
+    def due(names: Sequence[str]) -> tuple[str, str]:
+        which = learning.following(names)
+        return which.template, which.seed
+
+    if fresh:
         shelf.forget(wish)
     state = shelf.kept(wish)
     if state is not None:
         click.echo(practice_words(wish.lang)["resumed"].format(seed=state.seed))
-    return Session(bank, state or new(wish))
+    return Session(learning.bank, state or new(wish), None if wish.seed else due)
 
 
 def _wish(options: Options, bank: Bank) -> Wish:
@@ -122,17 +140,18 @@ def _wish(options: Options, bank: Bank) -> Wish:
     return wish
 
 
-def _summary(session: Session, shelf: Shelf, words: dict[str, str]) -> None:
+def _summary(session: Session, learning: Learning, words: dict[str, str]) -> None:
     """Say how the session went, how the last ones did, and what to practise."""
     from quizgen.cli.conversation import head, say
     from quizgen.practice.results import RECENT, by_topic, to_practise
 
     head(words["summary"])
     _print(session, session.summary(), words)
-    past = shelf.finished(session.state.wish.bank)
-    results = by_topic([outcome for state in past for outcome in state.outcomes], RECENT)
-    if len(past) > 1:
-        head(words["so-far"].format(count=len(past)))
+    there = session.bank.topics
+    past = [outcome for outcome in learning.outcomes() if outcome.topic in there]
+    results = by_topic(past, RECENT)
+    if len(past) > len(session.state.outcomes):
+        head(words["so-far"])
         _print(session, results, words)
     weak = to_practise(results)
     named = ", ".join(f"{_title(session, topic)} (--topic {topic})" for topic in weak)

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Unpack
 
 import click
 
 from quizgen.cli.lint import problems_of
-from quizgen.cli.options import BankOptions, Whole, bank_options
+from quizgen.cli.options import BankOptions, Whole, bank_options, database_option
 
 
 class Options(BankOptions):
@@ -20,7 +19,7 @@ class Options(BankOptions):
     names: tuple[str, ...]
     behind_proxy: bool
     invite: bool
-    database: str | None
+    database: str
     author: bool
 
 
@@ -51,11 +50,7 @@ class Options(BankOptions):
 )
 @click.option("--invite", is_flag=True, help="Print an invitation for one more who manages.")
 @click.option("--open/--no-open", "show", default=True, help="Open the browser.")
-@click.option(
-    "--database",
-    metavar="ADDRESS",
-    help="Where to keep what is done: sqlite:///FILE, postgresql+psycopg://...",
-)
+@database_option
 @click.option(
     "--author", is_flag=True, help="Show every template with its solution, as it is saved."
 )
@@ -65,7 +60,7 @@ def serve(**options: Unpack[Options]) -> None:
     from quizgen.web.settings import Settings
 
     settings = Settings(
-        options["database"] or f"sqlite:///{database_file()}",
+        options["database"],
         options["bank"].resolve() if options["bank"] else None,
         trusted=options["trust"],
         host=options["host"],
@@ -80,11 +75,3 @@ def serve(**options: Unpack[Options]) -> None:
     from quizgen.web.server import run
 
     run(settings, options["port"], show=options["show"], tell=click.echo, invite=options["invite"])
-
-
-def database_file() -> Path:
-    """Where a learner's own database stands."""
-    from platformdirs import user_data_path
-
-    folder = user_data_path("quizgen", ensure_exists=True)
-    return folder / "learning.sqlite3"

@@ -1,4 +1,4 @@
-"""What to ask next: every fitting template once, in an order of the seed, before one returns."""
+"""Which questions fit, and those of a seed: every template once, before one returns."""
 
 from __future__ import annotations
 
@@ -27,3 +27,8 @@ def nth(bank: Bank, names: Sequence[str], seed: str, number: int) -> str:
         return hashlib.sha256(f"practice/{seed}/{turn}/{bank.origin(name)}".encode()).digest()
 
     return sorted(names, key=rank)[place]
+
+
+def seed_of(seed: str, number: int) -> str:
+    """Seed of a session's question, counted from 1."""
+    return hashlib.sha256(f"{seed}/{number}".encode()).hexdigest()[:8]

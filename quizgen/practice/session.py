@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from quizgen.bank.folder import Bank
 from quizgen.errors import one_of
@@ -11,12 +13,14 @@ from quizgen.marking.options import Options
 from quizgen.paper.key import key_question
 from quizgen.paper.marking import Marker
 from quizgen.paper.paper import Item
-from quizgen.practice.choosing import fitting, nth
+from quizgen.practice.choosing import fitting, nth, seed_of
 from quizgen.practice.results import TopicResult, by_topic
 from quizgen.practice.state import Outcome, PartState, State
 from quizgen.practice.task import Task
 from quizgen.question.compose import Key, Part, Question, instance, put_into_words
 from quizgen.question.solution import PartSolution
+
+Choose: TypeAlias = Callable[[Sequence[str]], tuple[str, str]]
 
 
 @dataclass(frozen=True)
@@ -24,6 +28,8 @@ class Turn:
     """One question of a session and its tasks, in order."""
 
     number: int
+    seed: str
+    level: str
     question: Question
     tasks: tuple[Task[Part, PartSolution], ...]
 
@@ -33,19 +39,26 @@ class Turn:
         return tuple(task.outcome for task in self.tasks if task.outcome is not None)
 
     @property
+    def parts(self) -> dict[str, PartState]:
+        """Label of each part and how far it has got."""
+        return {task.part.label: task.state for task in self.tasks}
+
+    @property
     def finished(self) -> bool:
         """Whether every task is done."""
         return len(self.outcomes) == len(self.tasks)
 
 
 class Session:
-    """Questions one after another, as a wish and a seed fix them.
+    """Questions one after another, as a wish and a seed fix them or as somebody else chooses.
 
     Parameters
     ----------
     bank : Bank
     state : State
         A new one, or one that was kept.
+    choose : callable, optional
+        Gives template and seed of the question to be asked next, from the templates that fit.
 
     Raises
     ------
@@ -53,9 +66,9 @@ class Session:
         If there is no such language.
     """
 
-    def __init__(self, bank: Bank, state: State) -> None:
+    def __init__(self, bank: Bank, state: State, choose: Choose | None = None) -> None:
         one_of("language", state.wish.lang, languages())
-        self.bank, self.state = bank, state
+        self.bank, self.state, self._choose = bank, state, choose or self._by_seed
         self.templates = fitting(bank, state.wish)
         """Names of the templates that fit the wish; without any the session is finished."""
 
@@ -73,15 +86,22 @@ class Session:
             If its template is wrong.
         """
         number = self.state.done + 1
-        name = nth(self.bank, self.templates, self.state.seed, number)
-        drawn = instance(self.bank.template(name), self.state.seed, number)
+        if self.state.due is None or self.state.due[0] not in self.templates:
+            self.state.due = self._choose(self.templates)
+        name, seed = self.state.due
+        drawn = instance(self.bank.template(name), seed)
         wish = self.state.wish
         question, key = put_into_words(drawn, wish.lang, number=str(number), level=wish.level)
         keyed = key_question(Item(str(number), (question,), (key,)))
         marker = Marker(keyed, Options(wish.lang))
         parts = zip(question.parts, key.solution.parts, keyed.parts, self._parts(key), strict=True)
         tasks = (Task(question.topic, *one, marker=marker) for one in parts)
-        return Turn(number, question, tuple(tasks))
+        return Turn(number, seed, key.level, question, tuple(tasks))
+
+    def _by_seed(self, names: Sequence[str]) -> tuple[str, str]:
+        """Every template once, in an order of the session's seed, before one returns."""
+        seed, number = self.state.seed, self.state.done + 1
+        return nth(self.bank, names, seed, number), seed_of(seed, number)
 
     def _parts(self, key: Key) -> list[PartState]:
         """How far the parts have got; nowhere, if they are not those that were kept."""
@@ -95,7 +115,7 @@ class Session:
         """Write down how a question went, and go on to the next."""
         self.state.outcomes = [*self.state.outcomes, *turn.outcomes]
         self.state.done = turn.number
-        self.state.question, self.state.parts = "", []
+        self.state.due, self.state.question, self.state.parts = None, "", []
 
     def summary(self) -> tuple[TopicResult, ...]:
         """Results by topic, in alphabetical order."""

@@ -1,20 +1,15 @@
-"""Where sessions are kept: a file per wish, and one for each session that was finished."""
+"""Where sessions are kept that are not finished: a file per wish."""
 
 from __future__ import annotations
 
-import contextlib
 import hashlib
 from pathlib import Path
 
 import msgspec
 
 from quizgen.bank.levels import EXAM
-from quizgen.errors import RenderError
 from quizgen.files import write_all
 from quizgen.practice.state import State, Wish
-
-REMEMBERED = 200
-"""Finished sessions that are looked at, the latest ones."""
 
 
 class Shelf:
@@ -28,7 +23,6 @@ class Shelf:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self.ended = folder / "ended"
 
     def path(self, wish: Wish) -> Path:
         """File of the session that a wish has begun."""
@@ -59,33 +53,6 @@ class Shelf:
         """Give up the session that a wish has begun."""
         self.path(wish).unlink(missing_ok=True)
         self.figure(wish).unlink(missing_ok=True)
-
-    def end(self, state: State) -> None:
-        """Put a session that came to its end with the others; held again, it counts once.
-
-        Raises
-        ------
-        RenderError
-            If the file cannot be moved.
-        """
-        self.keep(state)
-        target = (
-            self.ended / f"{_digest(msgspec.structs.replace(state.wish, seed=state.seed))}.json"
-        )
-        try:
-            self.ended.mkdir(parents=True, exist_ok=True)
-            self.path(state.wish).replace(target)
-        except OSError as error:
-            raise RenderError(f"{target}: {error.strerror or error}") from error
-        self.forget(state.wish)
-
-    def finished(self, bank: str) -> tuple[State, ...]:
-        """Sessions of a bank that came to their end, the latest last."""
-        with contextlib.suppress(OSError):
-            paths = sorted(self.ended.glob("*.json"), key=lambda path: path.stat().st_mtime_ns)
-            states = map(_read, paths[-REMEMBERED:])
-            return tuple(state for state in states if state and state.wish.bank == bank)
-        return ()
 
 
 def _digest(wish: Wish) -> str:

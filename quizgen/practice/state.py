@@ -71,14 +71,15 @@ class PartState(msgspec.Struct):
 class State(msgspec.Struct):
     """A session as it is kept between runs.
 
-    ``question`` is the identity of the question that is due and ``parts`` how far it has got; both
-    are empty before it is shown.
+    ``due`` is the template and the seed of the question that is due, ``question`` its identity and
+    ``parts`` how far it has got; all are empty before it is shown.
     """
 
     wish: Wish
     seed: str
     done: int = 0
     outcomes: list[Outcome] = []
+    due: tuple[str, str] | None = None
     question: str = ""
     parts: list[PartState] = []
 

@@ -20,7 +20,7 @@ from quizgen.errors import CodeError, QuizgenError
 from quizgen.paper.blueprint import EVERYTHING, named_blueprint
 from quizgen.paper.code import LARGEST_SEED, parse_code
 from quizgen.practice.boxes import filled
-from quizgen.web.agenda import count
+from quizgen.web.agenda import learning_of
 from quizgen.web.echo import read_back
 from quizgen.web.forms import every, one, posted
 from quizgen.web.made import Made, MadePaper, MadePart, WantedPaper
@@ -218,7 +218,8 @@ async def _hand_in(request: Request, sitting: Sitting) -> None:
     answers = await run_in_threadpool(store.answers, sitting)
     if await run_in_threadpool(store.hand_in, sitting, outcomes(paper, answers)):
         results = marked(paper, answers, {})
-        await run_in_threadpool(count, request, asked(request.app.state.site.bank, results))
+        learning = learning_of(request)
+        await run_in_threadpool(learning.count, asked(learning.bank, results))
 
 
 async def flag(request: Request) -> Response:

@@ -14,7 +14,7 @@ from starlette.routing import Route
 from quizgen.bank.levels import GUIDED
 from quizgen.practice.choosing import fitting
 from quizgen.practice.state import Wish
-from quizgen.web.agenda import count_turn, following_of, seed_of_next, today
+from quizgen.web.agenda import learning_of, today
 from quizgen.web.echo import read_back
 from quizgen.web.forms import every, one, posted
 from quizgen.web.made import Made, Wanted
@@ -44,7 +44,7 @@ async def begin(request: Request) -> Response:
     template = one(form, "template")
     site: Site = request.app.state.site
     if template in site.bank.paths:
-        seed = await run_in_threadpool(seed_of_next, request)
+        seed = await run_in_threadpool(learning_of(request).seed_of_next)
         return await _begun(request, Which(template, seed), wish)
     return await _asked(request, wish)
 
@@ -63,7 +63,7 @@ async def _following(request: Request, wish: dict[str, str]) -> Which | None:
         site.bank,
         Wish(lang_of(request), topic=wish.get("topic") or None, tier=wish.get("tier") or None),
     )
-    return await run_in_threadpool(following_of, request, names) if names else None
+    return await run_in_threadpool(learning_of(request).following, names) if names else None
 
 
 async def _begun(request: Request, which: Which, wish: dict[str, Any]) -> Response:
@@ -126,7 +126,7 @@ async def _kept(request: Request, turn: Turn, place: Place) -> Response:
     ended, seen = turn.attempt.ended, turn.keep()
     await run_in_threadpool(site.store.keep, turn.attempt, seen)
     if ended is None and turn.attempt.ended is not None:
-        await run_in_threadpool(count_turn, request, turn)
+        await run_in_threadpool(learning_of(request).finished, turn.attempt, turn.states)
     return to(f"/q/{turn.attempt.id}?said={place.name}#part-{place.name}")
 
 
@@ -170,7 +170,7 @@ async def variant(request: Request) -> Response:
     """The same question with other numbers."""
     await posted(request)
     attempt = await _attempt(request)
-    seed = await run_in_threadpool(seed_of_next, request)
+    seed = await run_in_threadpool(learning_of(request).seed_of_next)
     return await _begun(request, Which(attempt.template, seed, attempt.level), attempt.wish)
 
 

@@ -19,7 +19,7 @@ from quizgen.practice.agenda import Agenda, Standing
 from quizgen.practice.schedule import NAMED, Card, day_of
 from quizgen.question.authored import printed, sentence
 from quizgen.question.markup import inline
-from quizgen.web.agenda import agenda_of, exam_day, today
+from quizgen.web.agenda import learning_of, today
 from quizgen.web.forms import one, posted, posted_file
 from quizgen.web.made import Html
 from quizgen.web.site import Site
@@ -58,13 +58,14 @@ async def progress(request: Request) -> Response:
 
 
 def _shown(request: Request, status: int = 200, problem: str = "") -> Response:
-    agenda, lang = agenda_of(request), lang_of(request)
+    learning, lang = learning_of(request), lang_of(request)
+    agenda = learning.agenda()
     came = request.query_params.get("came", "")[:9]
     return page(
         request, "progress.html.j2", status,
         plan=today(request),
         begun=bool(agenda.cards),
-        exam=exam_day(request) or "",
+        exam=learning.exam or "",
         problem=problem,
         came=came if came.isdecimal() else "",
         topics=_topics(agenda, lang),

@@ -11,9 +11,9 @@ from quizgen.marking.options import Options
 from quizgen.marking.verdict import Verdict
 from quizgen.paper.marking import Marker
 from quizgen.practice.boxes import joined
-from quizgen.practice.schedule import Asked, asked_of
 from quizgen.practice.state import PartState
 from quizgen.practice.task import TRIES, Feedback, Next, Task
+from quizgen.web.learning import seen_of
 from quizgen.web.made import Made, MadePart
 from quizgen.web.store import Attempt, Seen
 
@@ -114,15 +114,10 @@ class Turn:
             self.attempt.ended = time.time()
         return tuple(self._seen(place) for place in ended if place.name not in before)
 
-    def asked(self, origin: str) -> Asked | None:
-        """What the question says of its template, once it is finished."""
-        parts = [place.task.state for place in self.places]
-        return asked_of(origin, parts, self.attempt.level)
+    @property
+    def states(self) -> list[PartState]:
+        """How far each part has got."""
+        return [place.task.state for place in self.places]
 
     def _seen(self, place: Place) -> Seen:
-        outcome = place.task.outcome
-        right, first = (outcome.right, outcome.first) if outcome else (False, False)
-        return Seen(
-            self.made.wanted.template, self.made.topic, place.part.label, place.task.state.note,
-            right, first, time.time(),
-        )  # fmt: skip
+        return seen_of(self.attempt.which, self.made.topic, place.part.label, place.task.state)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import time
 from functools import cache
 
 import pytest
@@ -11,19 +12,24 @@ from rich.cells import cell_len
 
 from quizgen.bank.folder import builtin
 from quizgen.cli import practice
+from quizgen.cli.options import own_database
 from quizgen.locale import languages
 from quizgen.marking.mark import show
 from quizgen.marking.messages import practice_words
-from quizgen.practice.choosing import fitting, nth
+from quizgen.practice.choosing import fitting, nth, seed_of
+from quizgen.practice.schedule import Asked, Grade
 from quizgen.practice.shelf import Shelf
 from quizgen.practice.state import Wish
 from quizgen.question.compose import compose
+from quizgen.web.store import Seen, Which
+from quizgen.web.store.archive import read_archive
 
 
 @pytest.fixture(autouse=True)
 def shelf(tmp_path, monkeypatch):
     folder = tmp_path / "state"
     monkeypatch.setattr(practice, "state_folder", lambda: folder)
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "data"))
     return Shelf(folder)
 
 
@@ -38,7 +44,7 @@ def run(lines, *arguments):
 def first_question(seed="s", lang="en", number=1):
     name = nth(builtin(), fitting(builtin(), Wish(lang, 1, "projection", "A")), seed, number)
     template = builtin().template(name)
-    return compose(template, seed, lang, slot=str(number), figures=False)[1]
+    return compose(template, seed_of(seed, number), lang, figures=False)[1]
 
 
 def test_right_answers_end_in_a_summary():
@@ -79,11 +85,12 @@ def test_the_same_command_goes_on_where_it_was_left(shelf, stop, seeded):
     assert done.exit_code == 0
     assert "Session kept" in done.output
     (path,) = shelf.folder.glob("*.json")
-    seed = json.loads(path.read_text())["seed"]
-    first, second = (first_question(seed, number=n) for n in (1, 2))
-    rest = [show(spec) for spec in (*first.specs[1:], *second.specs)]
-    done = run(rest, *options, "--count", "2")
-    assert f"Continuing the session with seed {seed}." in done.output
+    state = json.loads(path.read_text())
+    template, numbers = state["due"]
+    first = compose(builtin().template(template), numbers, figures=False)[1]
+    rest = [show(spec) for spec in first.specs[1:]]
+    done = run([*rest, *["!"] * 9], *options, "--count", "2")
+    assert f"Continuing the session with seed {state['seed']}." in done.output
     assert done.output.count("Correct.") == len(rest)
     assert "Done before: (a)." in done.output or len(first.specs) == 1
     assert "Question 2 of 2" in done.output
@@ -156,10 +163,79 @@ def test_a_broken_session_file_is_ignored(shelf):
     assert run(["!"] * 9, "--count", "1").exit_code == 0
 
 
+POINT = "point-to-image-plane"
+
+
+@pytest.fixture
+def browser_side():
+    """What a server of the same database has of the learner."""
+    from quizgen.web.learning import Learning
+    from quizgen.web.store import Store
+
+    store = Store(own_database())
+    yield Learning(store, builtin(), store.learner())
+    store.close()
+
+
+def test_what_is_practised_here_shows_in_the_browser(browser_side):
+    key = first_question("s")
+    lines = [show(spec) for spec in key.specs]
+    assert run(lines, "--seed", "s", "--count", "1").exit_code == 0
+    card = browser_side.agenda().card(key.template)
+    assert card.stability == 2.3065, "FSRS: right at once"
+    assert browser_side.store.times(browser_side.learner.id) == {key.template: 1}
+    (attempt,) = browser_side.store.latest(browser_side.learner.id)
+    assert attempt.ended is not None
+    question, _ = compose(builtin().template(attempt.template), attempt.seed, figures=False)
+    names = {part.field.id for part in question.parts}
+    assert set(attempt.state["parts"]) == names, "as the pages of the browser call them"
+    seen = browser_side.store.seen(browser_side.learner.id)
+    assert [(one.topic, one.right, one.first) for one in seen] == [
+        ("projection", True, True)
+    ] * len(names)
+    run(lines, "--seed", "s", "--count", "1")
+    assert browser_side.agenda().card(key.template) == card, "the same numbers say nothing new"
+
+
+def test_a_skipped_part_says_nothing(browser_side):
+    run(["skip"] * 9, "--seed", several(), "--count", "1")
+    assert browser_side.store.seen(browser_side.learner.id) == []
+    assert browser_side.agenda().cards == {}
+    browser_side.store.archives.take_in(
+        browser_side.learner.id,
+        read_archive(browser_side.store.archives.write(browser_side.learner.id)),
+    )
+
+
+def test_what_went_wrong_in_the_browser_is_asked_here_first(browser_side):
+    browser_side.store.cards.review(
+        browser_side.learner.id, [Asked("A3", Grade.AGAIN)], time.time() - 30 * 86400
+    )
+    done = run(["quit"], "--count", "1")
+    title = compose(builtin().template(POINT), figures=False)[0].title
+    assert f"Question 1 of 1: {title}" in done.output
+    seen = Seen("rgb-to-hsv", "colour", "a", "", right=False, first=False, at=time.time())
+    attempt = browser_side.store.begin(browser_side.learner.id, Which("rgb-to-hsv", "1"), {})
+    browser_side.store.keep(attempt, (seen,))
+    done = run(["!"] * 9, "--count", "1", "--seed", "s")
+    assert "So far, here and in the browser" in done.output
+    assert "Colour: 0 of 1 parts right at once" in done.output
+
+
+def test_a_database_of_ones_own(tmp_path):
+    from quizgen.web.store import Store
+
+    file = tmp_path / "mine.sqlite3"
+    run(["!"] * 9, "--count", "1", "--seed", "s", "--database", f"sqlite:///{file}")
+    store = Store(f"sqlite:///{file}")
+    assert len(store.latest(store.learner().id)) == 1
+    store.close()
+
+
 def test_sessions_before_are_remembered():
     run(["!"] * 9, "--seed", "s", "--count", "1")
     done = run(["!"] * 9, "--seed", "t", "--count", "1")
-    assert "The last 2 sessions together" in done.output
+    assert "So far, here and in the browser" in done.output
 
 
 @pytest.mark.parametrize("lang", languages())

@@ -12,7 +12,7 @@ import pytest
 from quizgen.bank.folder import builtin
 from quizgen.errors import ChoiceError
 from quizgen.marking.mark import show
-from quizgen.practice.choosing import fitting, nth
+from quizgen.practice.choosing import fitting, nth, seed_of
 from quizgen.practice.results import TopicResult, by_topic, to_practise
 from quizgen.practice.session import Session
 from quizgen.practice.shelf import Shelf
@@ -27,8 +27,7 @@ WISH = Wish(count=2, topic="projection", tier="A")
 
 def key_of(turn, state):
     template = builtin().template(turn.question.template)
-    number = str(turn.number)
-    return compose(template, state.seed, state.wish.lang, slot=number)[1]
+    return compose(template, seed_of(state.seed, turn.number), state.wish.lang)[1]
 
 
 def session(wish=WISH, seed="s"):
@@ -103,18 +102,18 @@ def test_hints_climb_each_step_of_the_solution_in_turn_and_then_there_are_none()
 
 
 def test_what_the_rungs_of_a_thin_lens_say():
-    """By hand, for f = 80 mm and z = 100 mm: 1/80 - 1/100 = 0.0025, of which the inverse is 400."""
-    task = lens().turn().tasks[0]
+    """By hand, for f = 60 mm and z = 150 mm: 1/60 - 1/150 = 0.01, of which the inverse is 100."""
+    task = lens(new(Wish(topic="optics", seed="h"))).turn().tasks[0]
     hints = [task.hint() for _ in range(8)]
     assert [inline(hint.shown).replace("\u00a0", " ") for hint in hints] == [
         "the reciprocal of the image distance (q)",
         "q = 1/f − 1/z",
-        "q = 1/(80 mm) − 1/(100 mm)",
-        "q = 0.0025 mm⁻¹",
+        "q = 1/(60 mm) − 1/(150 mm)",
+        "q = 0.01 mm⁻¹",
         "the image distance (z′)",
         "z′ = 1/q",
-        "z′ = 1/(0.0025 mm⁻¹)",
-        "z′ = 400 mm",
+        "z′ = 1/(0.01 mm⁻¹)",
+        "z′ = 100 mm",
     ]
     assert [hint.formula for hint in hints[:4]] == ["", "F42", "", ""]
     sheet = inline(cited(builtin(), "F42", "en"))
@@ -230,8 +229,7 @@ def test_every_wish_has_a_session_of_its_own(tmp_path):
         shelf.keep(state)
     assert [shelf.kept(wish) for wish in WISHES] == states
     shelf.forget(WISHES[0])
-    shelf.end(states[1])
-    assert [shelf.kept(wish) for wish in WISHES] == [None, None, *states[2:]]
+    assert [shelf.kept(wish) for wish in WISHES] == [None, *states[1:]]
 
 
 def test_a_session_of_another_wish_or_a_broken_one_is_not_taken_up(tmp_path):
@@ -243,17 +241,6 @@ def test_a_session_of_another_wish_or_a_broken_one_is_not_taken_up(tmp_path):
     for text in ("{not json", "[]", '{"wish": {}, "seed": 3}', "[" * 5000):
         shelf.path(WISH).write_text(text)
         assert shelf.kept(WISH) is None
-
-
-def test_finished_sessions_are_remembered_by_bank_and_counted_once(tmp_path):
-    shelf = Shelf(tmp_path)
-    for seed, bank in (("a", ""), ("b", ""), ("a", ""), ("c", "other")):
-        shelf.end(State(Wish(bank=bank), seed, 10))
-    assert [state.seed for state in shelf.finished("")] == ["b", "a"]
-    assert [state.seed for state in shelf.finished("other")] == ["c"]
-    (shelf.ended / "broken.json").write_text("{")
-    assert len(shelf.finished("")) == 2
-    assert Shelf(tmp_path / "none").finished("") == ()
 
 
 def outcomes(topic, *, right, wrong):
@@ -280,6 +267,28 @@ def test_only_the_latest_parts_of_a_topic_say_how_well_it_is_known():
 def test_new_sessions_differ_and_a_seed_is_kept():
     assert new(WISH).seed != new(WISH).seed
     assert new(Wish(seed="abc")).seed == "abc"
+
+
+def test_somebody_else_may_choose_and_what_is_due_stays_due(tmp_path):
+    asked = []
+
+    def choose(names):
+        asked.append(len(names))
+        return "thin-lens-image-distance", "0a1b2c3d"
+
+    wish = Wish(topic="optics")
+    held = Session(builtin(), new(wish), choose)
+    turn = held.turn()
+    assert (turn.question.template, turn.seed) == ("thin-lens-image-distance", "0a1b2c3d")
+    Shelf(tmp_path).keep(held.state)
+    again = Session(builtin(), Shelf(tmp_path).kept(wish), choose)
+    assert again.turn().question == turn.question
+    assert len(asked) == 1
+    for task in turn.tasks:
+        task.give_up()
+    held.finish(turn)
+    held.turn()
+    assert len(asked) == 2
 
 
 def test_the_summary_counts_by_topic():

@@ -1,0 +1,110 @@
+"""What somebody has done and is to do next, in a terminal as in a browser."""
+
+from __future__ import annotations
+
+import hashlib
+import secrets
+import time
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from datetime import date
+
+import msgspec
+
+from quizgen.bank.folder import Bank
+from quizgen.practice.agenda import Agenda
+from quizgen.practice.schedule import Asked, asked_of, day_of, days_left
+from quizgen.practice.state import Outcome, PartState
+from quizgen.web.store import Attempt, Learner, Seen, Store, Which
+
+
+@dataclass(frozen=True)
+class Learning:
+    """What a learner does with a bank, kept in a database."""
+
+    store: Store
+    bank: Bank
+    learner: Learner
+
+    @property
+    def exam(self) -> date | None:
+        """The day of the exam that was set."""
+        try:
+            return date.fromisoformat(str(self.learner.settings.get("exam", "")))
+        except ValueError:
+            return None
+
+    def agenda(self) -> Agenda:
+        """What there is to do."""
+        return Agenda(self.bank, self.store.cards.all(self.learner.id), time.time(), self.exam)
+
+    def outcomes(self) -> list[Outcome]:
+        """How the latest parts went, the latest last."""
+        return [
+            Outcome(one.topic, one.right, one.first) for one in self.store.seen(self.learner.id)
+        ]
+
+    def following(self, names: Sequence[str]) -> Which:
+        """The question of these templates that is to be done next."""
+        latest = self.store.latest(self.learner.id, 1)
+        seed = _seed_after(latest)
+        template = self.agenda().next(
+            names,
+            self.outcomes(),
+            self.store.times(self.learner.id),
+            latest[0].template if latest else "",
+            seed,
+        )
+        return Which(template, seed)
+
+    def seed_of_next(self) -> str:
+        """Seed of the question that is begun next."""
+        return _seed_after(self.store.latest(self.learner.id, 1))
+
+    def practised(self, which: Which, topic: str, parts: Mapping[str, PartState]) -> None:
+        """Keep a whole question that is finished.
+
+        Parameters
+        ----------
+        which : Which
+        topic : str
+        parts : mapping
+            Label of each part and how it went; one that was skipped went neither well nor badly.
+        """
+        attempt = self.store.begin(self.learner.id, which, {})
+        attempt.ended = time.time()
+        names = {f"1{label}": {"state": msgspec.to_builtins(one)} for label, one in parts.items()}
+        attempt.state = {"parts": names, "ended": list(names)}
+        seen = (seen_of(which, topic, *one) for one in parts.items() if not _skipped(one[1]))
+        self.store.keep(attempt, tuple(seen))
+        self.finished(attempt, list(parts.values()))
+
+    def finished(self, attempt: Attempt, parts: Sequence[PartState]) -> None:
+        """Take a question into the schedule; the same numbers again say nothing new."""
+        asked = asked_of(self.bank.origin(attempt.template), parts, attempt.level)
+        if asked is not None and not self.store.known(attempt):
+            self.count([asked])
+
+    def count(self, asked: Iterable[Asked]) -> None:
+        """Take finished questions into the schedule."""
+        now = time.time()
+        left = days_left(self.exam, day_of(now))
+        self.store.cards.review(self.learner.id, asked, now, left)
+
+
+def seen_of(which: Which, topic: str, label: str, part: PartState) -> Seen:
+    """How a part went."""
+    outcome = part.outcome
+    right, first = (outcome.right, outcome.first) if outcome else (False, False)
+    return Seen(which.template, topic, label, part.note, right, first, time.time())
+
+
+def _skipped(part: PartState) -> bool:
+    return part.outcome is not None and part.outcome.skipped
+
+
+def _seed_after(latest: Sequence[Attempt]) -> str:
+    """By chance; the same until another is begun, so that it can be made before it is asked."""
+    if not latest:
+        return secrets.token_hex(4)
+    return hashlib.sha256(latest[0].id.encode()).hexdigest()[:8]
