@@ -11,8 +11,10 @@ from collections import OrderedDict
 from collections.abc import Callable, Hashable
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
+from typing import TYPE_CHECKING
 
-import argon2
+if TYPE_CHECKING:
+    from argon2 import PasswordHasher
 
 LONGEST_NAME = 60
 SHORTEST, LONGEST = 8, 200
@@ -59,9 +61,11 @@ def _hash(password: str) -> str:
 
 
 def _fits(kept: str | None, password: str) -> bool:
+    from argon2.exceptions import VerifyMismatchError
+
     try:
         right = _hasher().verify(kept or _other(), _bytes(password))
-    except argon2.exceptions.VerifyMismatchError:
+    except VerifyMismatchError:
         return False
     return right and kept is not None
 
@@ -71,8 +75,10 @@ def _bytes(password: str) -> bytes:
 
 
 @cache
-def _hasher() -> argon2.PasswordHasher:
-    return argon2.PasswordHasher()
+def _hasher() -> PasswordHasher:
+    from argon2 import PasswordHasher  # which only servers need where people sign in
+
+    return PasswordHasher()
 
 
 @cache

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import os
+import re
 import signal
 import socket
 import subprocess
@@ -28,7 +30,7 @@ class Served:
     """A server of one database and one port, to be killed and started again."""
 
     def __init__(self, database: Path, *more: str) -> None:
-        self.port, self.entrance = free_port(), ""
+        self.port, self.printed = free_port(), ""
         self.file, self._more = database, more
         self._process: subprocess.Popen[str] | None = None
         self.start()
@@ -44,11 +46,23 @@ class Served:
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True,
         )  # fmt: skip
         said = self._process.stdout.readline()
-        assert "/enter?key=" in said, said + self._process.stdout.read()
-        self.entrance = said.split()[-1]
+        assert said.startswith("quizgen is at "), said + self._process.stdout.read()
+        assert self._process.stdout.readline().startswith("Ctrl-C ends it")
+        self.printed = said.split()[-1]
+
+    @property
+    def entrance(self) -> str:
+        """The address that was printed, on this machine."""
+        return re.sub("https?://[^/]*", self.address, self.printed)
+
+    def end(self) -> str:
+        """End it as Ctrl-C does; what it has written meanwhile."""
+        os.killpg(self._process.pid, signal.SIGINT)
+        return self._process.communicate(timeout=60)[0]
 
     def kill(self) -> None:
         """End it and its workers as a power cut does."""
-        os.killpg(self._process.pid, signal.SIGKILL)
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(self._process.pid, signal.SIGKILL)
         self._process.wait()
         self._process.stdout.close()

@@ -11,6 +11,7 @@ import argon2
 import pytest
 from people import ADDRESS, PASSWORD, Somebody
 from sqlalchemy import delete, func, select, update
+from sqlalchemy.exc import OperationalError
 from starlette.testclient import TestClient
 
 from quizgen.web import passwords
@@ -391,6 +392,20 @@ def test_those_who_manage_rename_renew_and_remove(app, site, manager, learner):
     assert count(site, ACCOUNT) == 1
     for nobody in ("0", "999999", "x", "1%00"):
         assert manager.get(f"/people/{nobody}").status_code in {400, 404}
+
+
+def test_a_database_that_does_not_answer_is_said(manager, site, monkeypatch):
+    def away(*_):
+        raise OperationalError("SELECT 1", {"typed": PASSWORD}, OSError("gone"))
+
+    monkeypatch.setattr(site.store.accounts, "people", away)
+    answer = manager.get("/people")
+    assert answer.status_code == 503
+    assert "The database does not answer" in answer.text
+    monkeypatch.setattr(site.store.accounts, "signed_in", away)
+    answer = manager.browser.get("/")
+    assert answer.status_code == 503
+    assert "The database does not answer" in answer.text
 
 
 def test_pages_before_signing_in_speak_both_languages(app, site):

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import os
 import re
-import signal
-import subprocess
-import sys
 
 import httpx2
 import pytest
 from click.testing import CliRunner
-from served import free_port
+from served import Served
 
 from quizgen.cli.main import group
 
@@ -21,35 +17,16 @@ TYPED = ("98765.4321", "abweichend")
 
 @pytest.fixture
 def started(tmp_path):
-    """Starts servers of one database; ended again, they give what they wrote."""
+    """Starts servers of one database."""
     running = []
 
-    def start(*more: str):
-        server = subprocess.Popen(
-            [sys.executable, "-m", "quizgen", "serve", "--no-open", "--port", str(free_port()),
-             "--database", f"sqlite:///{tmp_path / 'x.sqlite3'}", *more],
-            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True,
-        )  # fmt: skip
-        running.append(server)
-        said = server.stdout.readline()
-        assert "quizgen is at " in said, said + server.stdout.read()
-        assert server.stdout.readline().startswith("Ctrl-C ends it")
-        return server, said.split()[-1]
+    def start(*more: str) -> Served:
+        running.append(Served(tmp_path / "x.sqlite3", *more))
+        return running[-1]
 
     yield start
     for server in running:
-        if server.poll() is None:
-            os.killpg(server.pid, signal.SIGKILL)
-        server.communicate()
-
-
-def ended(server) -> str:
-    os.killpg(server.pid, signal.SIGINT)
-    return server.communicate(timeout=60)[0]
-
-
-def local(address: str) -> str:
-    return re.sub(r"//[^/]*:(\d+)", r"//127.0.0.1:\1", address)
+        server.kill()
 
 
 def token(page) -> str:
@@ -57,11 +34,12 @@ def token(page) -> str:
 
 
 def test_the_first_who_comes_manages_and_the_log_holds_no_secret(started):
-    server, link = started("--host", "0.0.0.0")
-    assert re.fullmatch(r"http://[\d.]+:\d+/invited\?key=[\w-]{32}", link)
+    server = started("--host", "0.0.0.0")
+    link = server.entrance
+    assert re.fullmatch(r"http://[\d.]+:\d+/invited\?key=[\w-]{32}", server.printed)
     secrets = {*PASSWORDS, *TYPED}
     with httpx2.Client(follow_redirects=True, timeout=60) as browser:
-        page = browser.get(local(link))
+        page = browser.get(link)
         secrets.add(token(page))
         sent = {
             "token": token(page),
@@ -69,7 +47,7 @@ def test_the_first_who_comes_manages_and_the_log_holds_no_secret(started):
             "password": PASSWORDS[0],
             "again": PASSWORDS[0],
         }
-        page = browser.post(local(link), data=sent)
+        page = browser.post(link, data=sent)
         assert page.url.path == "/"
         start = str(page.url)
         secrets |= {token(page), *browser.cookies.values()}
@@ -85,32 +63,32 @@ def test_the_first_who_comes_manages_and_the_log_holds_no_secret(started):
         page = browser.get(start)
         sent = {"token": token(page), "name": "Farida", "password": PASSWORDS[1]}
         assert browser.post(f"{start}sign-in", data=sent).status_code == 403
-    log = ended(server)
+    log = server.end()
     assert [one for one in secrets if one in log] == []
     assert log == ""
 
 
 def test_a_server_that_has_a_manager_invites_when_it_is_told_to(started):
-    server, link = started("--host", "0.0.0.0")
+    server = started("--host", "0.0.0.0")
+    link = server.entrance
     with httpx2.Client(follow_redirects=True, timeout=60) as browser:
-        page = browser.get(local(link))
+        page = browser.get(link)
         sent = {
             "token": token(page),
             "name": "Farida",
             "password": PASSWORDS[0],
             "again": PASSWORDS[0],
         }
-        assert browser.post(local(link), data=sent).url.path == "/"
-    ended(server)
-    server, address = started("--behind-proxy", "--name", "quiz.school.example")
-    assert address == "https://quiz.school.example"
-    here = f"http://127.0.0.1:{server.args[server.args.index('--port') + 1]}/sign-in"
+        assert browser.post(link, data=sent).url.path == "/"
+    server.end()
+    server = started("--behind-proxy", "--name", "quiz.school.example")
+    assert server.printed == "https://quiz.school.example"
+    here = f"{server.address}/sign-in"
     asked = {"host": "quiz.school.example", "x-forwarded-proto": "https"}
     assert "secure" in httpx2.get(here, headers=asked).headers["set-cookie"].lower()
     assert httpx2.get(here, headers={"host": "x.example"}).status_code == 400
-    ended(server)
-    _, link = started("--behind-proxy", "--invite")
-    assert "/invited?key=" in link
+    server.end()
+    assert "/invited?key=" in started("--behind-proxy", "--invite").printed
 
 
 @pytest.mark.parametrize(

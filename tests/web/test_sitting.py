@@ -12,8 +12,10 @@ from sqlalchemy import update
 from typed import typed as typed_in
 
 from quizgen.bank.folder import builtin
+from quizgen.locale import BOTH
+from quizgen.paper.blueprint import named_blueprint
 from quizgen.paper.key import key_of
-from quizgen.paper.paper import rebuild
+from quizgen.paper.paper import build, rebuild
 from quizgen.web.store.tables import SITTING
 
 pytestmark = pytest.mark.both_databases
@@ -34,12 +36,18 @@ def paper_of():
     return of
 
 
+@pytest.fixture(scope="module")
+def code(bank):
+    """A paper that is the same on every day."""
+    return build(bank, named_blueprint("trial", bank), 7, BOTH, figures=False).code
+
+
 @pytest.fixture
-def exam(client, token):
+def exam(client, token, code):
     """A short exam that has begun: its address and page."""
 
     def begun(**how: str):
-        sent = {"token": token, "blueprint": "trial", "clock": "1", **how}
+        sent = {"token": token, "code": code, "clock": "1", **how}
         page = client.post("/exam", data=sent)
         assert page.status_code == 200, page.text
         return page.url.path, page.text
