@@ -59,7 +59,10 @@ def _entry(request: Request, status: int = 200, problem: str = "", name: str = "
 
 async def entry(request: Request) -> Response:
     """Where one signs in."""
-    return to("/") if request.state.learner.id else _entry(request)
+    if request.state.learner.id:
+        return to("/")
+    ended = said(lang_of(request), "account.ended") if "ended" in request.query_params else ""
+    return _entry(request, problem=ended)
 
 
 async def sign_in(request: Request) -> Response:

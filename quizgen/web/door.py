@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import hmac
+import re
 import secrets
 from http.cookies import CookieError, SimpleCookie
 from urllib.parse import urlencode
@@ -14,7 +15,7 @@ from starlette.datastructures import Headers, MutableHeaders, QueryParams
 from starlette.responses import PlainTextResponse, RedirectResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from quizgen.locale import FIRST, languages
+from quizgen.locale import FIRST, languages, table
 from quizgen.web.guard import OPEN
 from quizgen.web.site import Site
 from quizgen.web.store import Learner
@@ -52,7 +53,7 @@ class Door:
             sign = self._signed_in if self.site.settings.accounts else self._alone
             answer = await sign(scope)
         except SQLAlchemyError:
-            answer = PlainTextResponse("The database does not answer. Try again in a moment.", 503)
+            answer = _told("503", 503)
         if answer is not None:
             await answer(scope, receive, send)
             return
@@ -64,8 +65,7 @@ class Door:
         if scope["path"] == ENTRANCE:
             return _entered(scope, token)
         if not _same(_cookie(scope), token):
-            said = "Open the address that quizgen serve printed: it lets this browser in."
-            return PlainTextResponse(said, 403)
+            return _told("entrance", 403)
         store = self.site.store
         learner = store.remembered() or await run_in_threadpool(store.learner)
         scope.setdefault("state", {}).update(learner=learner, token=token)
@@ -82,9 +82,7 @@ class Door:
             if not token:
                 state["token"] = state["new_token"] = secrets.token_urlsafe(24)
             return None
-        if scope["method"] not in {"GET", "HEAD"}:
-            return PlainTextResponse("Sign in again, then send this once more.", 403)
-        return RedirectResponse(f"{SIGN_IN}?{urlencode({'to': scope['path']})}", 303)
+        return _to_sign_in(scope)
 
 
 def let_in(scope: Scope, response: Response, token: str) -> Response:
@@ -120,9 +118,31 @@ def _visitor(scope: Scope) -> Learner:
     return Learner(0, "", {"lang": lang})
 
 
+def _to_sign_in(scope: Scope) -> Response:
+    """Ask somebody to sign in, and lead back to the page where they were."""
+    headers = Headers(scope=scope)
+    by_script = "hx-request" in headers
+    if scope["method"] in {"GET", "HEAD"} and not by_script:
+        return RedirectResponse(f"{SIGN_IN}?{urlencode({'to': scope['path']})}", 303)
+    page = headers.get("hx-current-url") or headers.get("referer", "")
+    back = re.sub("^[a-z]+://[^/]*", "", page).partition("?")[0] or "/"
+    where = f"{SIGN_IN}?{urlencode({'to': back, 'ended': 1})}"
+    if by_script:
+        return Response(status_code=403, headers={"hx-redirect": where})
+    if "text/html" in headers.get("accept", ""):
+        return RedirectResponse(where, 303)
+    return _told("sign_in", 403)
+
+
+def _told(name: str, status: int) -> Response:
+    """Say something to whoever it is, in every language."""
+    said = [table(lang, "web")["error"][name] for lang in languages()]
+    return PlainTextResponse("\n".join(said), status)
+
+
 def _entered(scope: Scope, token: str) -> Response:
     if not _same(QueryParams(scope["query_string"]).get("key", ""), token):
-        return PlainTextResponse("This is not the address that was printed.", 403)
+        return _told("entrance", 403)
     response = RedirectResponse("/", 303)
     response.set_cookie(COOKIE, token, httponly=True, samesite="strict", path="/")
     return response

@@ -14,7 +14,7 @@ from sqlalchemy import delete, func, select, update
 from sqlalchemy.exc import OperationalError
 from starlette.testclient import TestClient
 
-from quizgen.web import passwords
+from quizgen.web import accounts, passwords
 from quizgen.web.passwords import Patience
 from quizgen.web.settings import Settings
 from quizgen.web.store.tables import ACCOUNT, ANSWER, ATTEMPT, INVITATION, LEARNER, SESSION
@@ -220,6 +220,43 @@ def test_an_invitation_can_be_withdrawn_and_grows_old(app, site, manager):
     with site.store.database.writing() as connection:
         connection.execute(update(INVITATION).values(until=time.time() - 1))
     assert {Somebody(app).get(one).status_code for one in (link, old)} == {410}
+
+
+def test_where_a_session_has_ended_one_signs_in_and_is_back(app, manager, learner):
+    at = learner.post("/practice", template="point-to-image-plane").url.path
+    learner.get("/")
+    sent = {"token": learner.token, "a": ["1", "2"]}
+    learner.browser.cookies.clear()
+    for headers, status, said in (
+        ({"accept": "text/html", "referer": ADDRESS + at}, 303, "location"),
+        ({"hx-request": "true", "hx-current-url": f"{ADDRESS}{at}?said=1"}, 403, "hx-redirect"),
+    ):
+        answer = learner.browser.post(f"{at}/1", data=sent, headers=headers, follow_redirects=False)
+        assert answer.status_code == status
+        assert answer.headers[said] == "/sign-in?to=" + at.replace("/", "%2F") + "&ended=1"
+    assert "Your session has ended" in learner.get(answer.headers[said]).text
+    saved = learner.browser.post(at, data=sent, headers={"accept": "application/json"})
+    assert saved.status_code == 403, "what the script keeps is not taken for kept"
+    strange = {"accept": "text/html", "referer": "http://[evil//x"}
+    assert learner.browser.post(at, data=sent, headers=strange).status_code == 200
+
+
+def test_no_form_of_an_account_is_taken_without_its_token(app, site, manager):
+    person = site.store.accounts.people()[0].id
+    link = manager.link()
+    before = [count(site, table) for table in (ACCOUNT, INVITATION, SESSION)]
+    posts = [
+        route.path.replace("{person}", str(person))
+        for route in accounts.ROUTES
+        if "POST" in route.methods
+    ]
+    assert len(posts) == 9
+    for address in [*posts, link]:
+        for sent in ({}, {"token": ""}, {"token": "0" * 64}):
+            form = {"name": "Bela", "password": PASSWORD, "again": PASSWORD, "sure": "1", **sent}
+            assert manager.browser.post(address, data=form).status_code == 403, address
+    assert [count(site, table) for table in (ACCOUNT, INVITATION, SESSION)] == before
+    assert manager.get("/").url.path == "/"
 
 
 def test_names_that_cannot_be(app, manager, site):

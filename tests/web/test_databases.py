@@ -6,6 +6,7 @@ import json
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
+from hashlib import sha256
 from pathlib import Path
 
 import pytest
@@ -40,6 +41,11 @@ ROWS = {
     "0004": {"card": {"learner": 7, "kind": "template", "name": "C1", "due": 9.5, "data": json.dumps(
         {"kind": "template", "name": "C1", "state": 2, "step": None, "stability": 2.5,
          "difficulty": 5.5, "last": 3.5, "due": 9.5})}},
+    "0005": {
+        "account": {"learner": 7, "key": "me7", "password": "$argon2id$x", "manages": True},
+        "session": {"hash": sha256(b"token").hexdigest(), "learner": 7, "until": 4e9},
+        "invitation": {"hash": sha256(b"link").hexdigest(), "learner": None, "manages": False, "until": 4e9},
+    },
 }  # fmt: skip
 """What each release keeps, in the tables that it has added."""
 
@@ -106,6 +112,10 @@ def test_every_release_comes_up_with_what_it_keeps(database, release):
         assert store.lasting("token", "other") == "secret"
     if release >= "0004":
         assert store.cards.all(7)["template", "C1"].stability == 2.5
+    if release >= "0005":
+        assert store.accounts.known("ME7") == (7, "$argon2id$x")
+        assert store.accounts.signed_in("token").manages
+        assert store.accounts.invited("link").learner is None
     store.keep(store.begin(7, Which("rgb-to-hsv", "4"), {}))
     store.close()
 
