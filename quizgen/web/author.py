@@ -9,6 +9,7 @@ from pathlib import Path
 
 import msgspec
 from starlette.concurrency import run_in_threadpool
+from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
@@ -62,7 +63,11 @@ class Examined:
 def stamp_of(root: Path) -> str:
     """What changes when a file of a bank is saved."""
     files = sorted(path for name in ("templates", "solvers") for path in (root / name).rglob("*"))
-    seen = [(str(path), path.stat().st_mtime_ns) for path in files if path.is_file()]
+    seen = [
+        (str(path), path.stat().st_mtime_ns)
+        for path in files
+        if path.is_file() and path.suffix != ".pyc"  # written by whoever reads a solver
+    ]
     return hashlib.sha256(repr(seen).encode()).hexdigest()[:16]
 
 
@@ -78,10 +83,19 @@ async def templates(request: Request) -> Response:
     return page(request, "templates.html.j2", groups=groups)
 
 
+def _name(request: Request) -> str:
+    """The template that is asked for; the bank may have got it just now."""
+    site: Site = request.app.state.site
+    name: str = request.path_params["name"]
+    if name not in Bank(site.bank.root).paths:
+        raise HTTPException(404)
+    return name
+
+
 async def template(request: Request) -> Response:
     """A template: its question and solution in all languages."""
     site: Site = request.app.state.site
-    name, asked = request.path_params["name"], request.query_params
+    name, asked = _name(request), request.query_params
     seed = asked.get("seed", "")
     seed = str(int(seed)) if seed.isascii() and seed.isdecimal() and len(seed) <= DIGITS else "0"
     level = asked.get("level", "") if asked.get("level") in LEVELS else EXAM
@@ -110,7 +124,7 @@ async def template(request: Request) -> Response:
 async def lint(request: Request) -> Response:
     """What is wrong with a template."""
     site: Site = request.app.state.site
-    name, examine = request.path_params["name"], site.settings.examine
+    name, examine = _name(request), site.settings.examine
     stamp = await run_in_threadpool(stamp_of, site.bank.root)
     assert examine is not None  # noqa: S101 - without it there is no such page
     problems: list[str] = msgspec.json.decode(

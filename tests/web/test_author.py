@@ -74,9 +74,34 @@ def test_the_page_of_a_template_in_a_browser(browser, tmp_path_factory, root, ba
         prose.write_text(told.replace("# ", "# Anew: ", 1), "utf-8")
         expect(page.locator("#title-en")).to_contain_text("Anew: ")
         prose.write_text(told, "utf-8")
+        expect(page.locator("#title-en")).not_to_contain_text("Anew: ")
+        page.evaluate("window.same = true")
+        stem = page.locator(".stem").first
+        before = stem.inner_text()
+        page.locator("#slide").focus()
+        page.keyboard.press("ArrowRight")
+        expect(page.locator("#seed")).to_have_value("1")
+        expect(stem).not_to_have_text(before)
+        expect(page.locator("#slide")).to_be_focused()
+        page.locator("#seed").fill("7")
+        page.locator("#seed").press("Tab")
+        expect(page.locator("#slide")).to_have_value("7")
+        page.set_viewport_size({"width": 1600, "height": 900})
+        sides = [side.bounding_box() for side in page.locator(".side").all()[:2]]
+        assert sides[0]["width"] == sides[1]["width"]
+        assert (
+            sum(side["width"] for side in sides)
+            > 0.9 * page.locator(".pair").first.bounding_box()["width"]
+        )
+        assert page.evaluate("window.same"), "without another page"
     finally:
         context.close()
         server.kill()
+
+
+def test_a_template_that_is_not_there_has_no_page(author):
+    assert author.get("/author/nowhere").status_code == 404
+    assert author.get("/author/nowhere/lint").status_code == 404
 
 
 def test_what_is_saved_is_shown_and_nothing_else_is_sent(author, root):
