@@ -48,8 +48,9 @@ def filled(control: Control, values: Sequence[str], marks: Sequence[str] = ()) -
         Marks of the options that pairs begin with.
     """
     there = [bool(value.strip()) for value in values]
-    wanted = len(marks) if control.form == "pairs" else len(control.boxes)
-    return all(there) and len(there) >= wanted if wanted else any(there)
+    if control.several:
+        return all(there) and len(there) >= max(len(control.boxes), len(marks), 1)
+    return any(there)
 
 
 def _listed(filled: list[str], _marks: Sequence[str]) -> str:

@@ -70,6 +70,11 @@ class Field:
         """What to type, as one run of sentences."""
         return listed(self.asks, " ")
 
+    @property
+    def hint_in_fields(self) -> tuple[Inline, ...]:
+        """What to type where every value has a field of its own."""
+        return listed(self.asks[1:] if self.control.several else self.asks, " ")
+
 
 @dataclass(frozen=True)
 class Part:

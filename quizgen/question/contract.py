@@ -62,6 +62,11 @@ class Control:
         return self.form == "line" or bool(self.boxes and self.form == "lines")
 
     @property
+    def several(self) -> bool:
+        """Whether a page has a field for each of several values."""
+        return bool(self.boxes) or self.form == "pairs"
+
+    @property
     def ticked(self) -> bool:
         """Whether options are ticked, with no further place for the answer."""
         return self.lines == 0
@@ -119,7 +124,11 @@ class QuestionKind(Protocol[S]):
         """
 
     def hints(self, spec: S, lang: str) -> tuple[Shown, ...]:
-        """Sentences that tell the learner how to type the answer, from how it is marked."""
+        """Sentences that tell the learner how to type the answer, from how it is marked.
+
+        Where the answer has several values, the first says how they are typed in one line; a page
+        with a field for each leaves it out.
+        """
 
     def printed(self, spec: S, lang: str) -> Shown:
         """The key as the solution states it; empty where sentences tell it."""

@@ -37,13 +37,20 @@ def read_back(field: MadeField, key: KeyQuestion, values: Sequence[str]) -> Mark
     if part.spec["kind"] not in READ or not typed or any(map(_HALF.search, values)):
         return Markup()
     verdict = mark(part.in_order(), typed)
-    return _typeset(verdict.read_as) if verdict.graded else Markup()
+    boxes = bool(field.control.boxes)
+    return _typeset(verdict.read_as, boxes=boxes) if verdict.graded else Markup()
 
 
-def _typeset(text: str) -> Markup:
-    """Several values one by one, with what stands around and between them."""
+def _typeset(text: str, *, boxes: bool = False) -> Markup:
+    """Several values one by one, with what stands around and between them.
+
+    From boxes they come without the brackets that nobody typed, and each with its unit.
+    """
     several = _SEVERAL.fullmatch(text)
     before, inner, after = several.groups() if several else ("", text, "")
+    if boxes:
+        unit = after.lstrip(")}]")
+        before, inner, after = "", inner.replace("; ", f"{unit}; ") + unit, ""
     pieces = [escape(p) if _BETWEEN.fullmatch(p) else _piece(p) for p in _BETWEEN.split(inner)]
     return escape(before) + Markup().join(pieces) + escape(after)
 

@@ -270,7 +270,7 @@ def _field(field: Field, lang: str) -> MadeField:
         [(mark, _inline(text, lang)) for mark, text in field.options],
         [(mark, _inline(text, lang)) for mark, text in field.targets],
         [plain(text) for _, text in field.targets],
-        _inline(field.hint, lang),
+        _inline(field.hint_in_fields, lang),
     )
 
 

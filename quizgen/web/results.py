@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -11,7 +11,7 @@ from quizgen.bank.folder import Bank
 from quizgen.marking.options import Options
 from quizgen.marking.verdict import Verdict
 from quizgen.paper.marking import Marker, PartResult, in_quarters
-from quizgen.practice.boxes import joined
+from quizgen.practice.boxes import filled, joined
 from quizgen.practice.schedule import Asked, Grade
 from quizgen.web.made import Made, MadePaper, MadePart
 from quizgen.web.store import Seen
@@ -24,6 +24,8 @@ class Marked:
     """One part of a paper that was handed in."""
 
     part: MadePart
+    values: Sequence[str]
+    """What stands in its fields."""
     result: PartResult
     own: float | None
     """The share of its points that the learner gave it, where a person has to decide."""
@@ -32,6 +34,12 @@ class Marked:
     def verdict(self) -> Verdict:
         """What the checker says."""
         return self.result.verdict
+
+    @property
+    def half(self) -> bool:
+        """Whether it could not be read because a field is empty."""
+        field = self.part.field
+        return not self.verdict.graded and not filled(field.control, self.values, field.marks)
 
     @property
     def marks(self) -> Fraction | None:
@@ -124,8 +132,9 @@ def _question(item: Made, answers: Mapping[str, list[str]], own: Mapping[str, fl
     parts = []
     for part, keyed in zip(item.parts, item.key.parts, strict=True):
         field = part.field
-        typed = joined(field.control, answers.get(field.id, ()), field.marks)
-        parts.append(Marked(part, marker.mark(keyed, typed), own.get(field.id)))
+        values = answers.get(field.id, ())
+        typed = joined(field.control, values, field.marks)
+        parts.append(Marked(part, values, marker.mark(keyed, typed), own.get(field.id)))
     return Question(item, tuple(parts))
 
 

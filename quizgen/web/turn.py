@@ -10,7 +10,7 @@ import msgspec
 from quizgen.marking.options import Options
 from quizgen.marking.verdict import Verdict
 from quizgen.paper.marking import Marker
-from quizgen.practice.boxes import joined
+from quizgen.practice.boxes import filled, joined
 from quizgen.practice.state import PartState
 from quizgen.practice.task import TRIES, Feedback, Next, Task
 from quizgen.web.learning import seen_of
@@ -45,6 +45,13 @@ class Place:
     def done(self) -> bool:
         """Whether it is answered, given up or skipped."""
         return self.task.outcome is not None
+
+    @property
+    def half(self) -> bool:
+        """Whether it could not be read because a field is empty."""
+        field = self.part.field
+        whole = filled(field.control, self.progress.values, field.marks)
+        return bool(self.progress.asked_back) and not whole
 
     @property
     def left(self) -> int:

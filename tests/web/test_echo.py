@@ -9,6 +9,12 @@ import pytest
 from quizgen.web.echo import _typeset
 
 
+def plain(page: str) -> str:
+    """What a page shows, a fraction as [a|b]."""
+    page = re.sub("<mfrac><mn>([^<]*)</mn><mn>([^<]*)</mn></mfrac>", r"[\1|\2]", page)
+    return re.sub("<[^>]*>", "", page)
+
+
 @pytest.mark.parametrize(
     ("read", "shown"),
     [
@@ -30,5 +36,17 @@ from quizgen.web.echo import _typeset
 def test_values_are_typeset_with_their_units(read, shown):
     page = str(_typeset(read))
     if shown is not None:
-        page = re.sub("<mfrac><mn>([^<]*)</mn><mn>([^<]*)</mn></mfrac>", r"[\1|\2]", page)
-        assert re.sub("<[^>]*>", "", page) == shown
+        assert plain(page) == shown
+
+
+@pytest.mark.parametrize(
+    ("read", "shown"),
+    [
+        ("(2/3; 0.5)", "[2|3] ≈ 0.6667; 0.5"),
+        ("(12; 13) px", "12 px; 13 px"),
+        ("(1; 2; 3) um", "1 µm; 2 µm; 3 µm"),
+        ("V = 1/2; S = 3", "V = [1|2] = 0.5; S = 3"),
+    ],
+)
+def test_values_of_boxes_are_read_back_one_by_one(read, shown):
+    assert plain(str(_typeset(read, boxes=True))) == shown

@@ -136,3 +136,23 @@ def test_what_is_typed_is_text(client, token, begin):
         f"{at}/1", data={"token": token, "a": ['"><script>alert(1)</script>', "1"]}
     ).text
     assert "<script>alert" not in page
+
+
+@pytest.mark.parametrize(("lang", "said"), [("en", "Write it as"), ("bn", "আকারে লিখুন")])
+def test_what_to_type_speaks_of_fields_where_there_are_fields(client, token, begin, lang, said):
+    client.post("/settings", data={"token": token, "lang": lang, "back": "/"})
+    for template in (
+        "point-to-image-plane", "mixing-kind-and-primaries", "lens-aberrations-causes-remedies",
+        "rgb-to-hsv",
+    ):  # fmt: skip
+        page = text(client.get(begin(template)).text)
+        assert said not in page
+        assert not re.search("semicolon|সেমিকোলন|A2 B1", page), template
+    client.post("/settings", data={"token": token, "lang": "en", "back": "/"})
+
+
+def test_an_empty_field_is_said_as_such(client, token, begin):
+    page = client.post(f"{begin('point-to-image-plane')}/1", data={"token": token, "a": ["7", ""]})
+    assert verdicts(page.text) == ["asked"]
+    assert "Fill in every field." in text(page.text)
+    assert "Separate them" not in page.text

@@ -228,6 +228,18 @@ def test_before_it_is_handed_in_what_is_missing_is_named(client, token, exam, pa
     assert client.get(f"{at}/hand-in").url.path == at, "nothing is asked any more"
 
 
+def test_half_filled_fields_are_shown_as_fields(client, token, exam, paper_of):
+    at, page = exam()
+    answers = typed(paper_of(page))
+    half = next(name for name, values in answers.items() if len(values) == 2)
+    client.post(at, data=body(token, {half: ["9.75", ""]}))
+    done = client.post(at, data={"token": token, "do": "hand-in"}).text
+    part = shown(re.search(f'id="part-{half}">(.*?)<ol class="steps">', done, re.DOTALL)[1])
+    assert "Your answer: 9.75 ; –" in part
+    assert "Fill in every field." in part
+    assert "9.75; " not in part
+
+
 def test_results_say_when_the_time_was_over(client, token, exam, app):
     at, _ = exam()
     name = at.rsplit("/", 1)[1]
