@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from decimal import Decimal
@@ -261,11 +262,12 @@ def single(
     template: Template, seed: str | int, lang: str, *, level: str = EXAM, figures: bool = True
 ) -> Paper:
     """A paper of one question, for looking at a template."""
-    title = {"en": template.id}
-    blueprint = Blueprint(title, (SlotRule(templates=(template.id,)),), name=template.id)
     drawn = instance(template, seed)
     wanted = _Wanted(drawn, level_of(drawn, level))
     item = _item(wanted, (lang,), "1", figures=figures)
+    title, slot = {"en": template.id}, SlotRule(templates=(template.id,))
+    minutes = math.ceil(item.questions[0].minutes)
+    blueprint = Blueprint(title, (slot,), name=template.id, minutes=minutes)
     return Paper(f"{template.id}-{seed}", blueprint, (lang,), (item,))
 
 

@@ -19,7 +19,7 @@ from quizgen.paper.blueprint import Blueprint, SlotRule, load_blueprint
 from quizgen.paper.code import parse_code
 from quizgen.paper.form import form_bytes
 from quizgen.paper.key import key_bytes
-from quizgen.paper.paper import build, rebuild, reference_paper
+from quizgen.paper.paper import build, rebuild, reference_paper, single
 from quizgen.render import KINDS, RENDERERS, render_paper
 
 ROOT = Path(__file__).parents[2]
@@ -224,3 +224,9 @@ def test_a_slot_that_nothing_fits_is_named(bank):
     blueprint = Blueprint({"en": "x"}, (SlotRule(topic="cooking"),), name="x")
     with pytest.raises(BlueprintError, match="cooking"):
         build(bank, blueprint, 0)
+
+
+@pytest.mark.parametrize("name", ["thin-lens-image-distance", "uint8-sum"])
+def test_a_template_looked_at_alone_takes_the_minutes_that_it_says(bank, name):
+    said = bank.template(name).minutes
+    assert single(bank.template(name), 1, "en", figures=False).minutes == said
