@@ -163,12 +163,11 @@ def _pool_findings(template: Template, different: int, seeds: int) -> Said:
     twice = sorted(listed & set(rules.claims))
     if twice:
         yield "error", f"claims and options share names, and so their reason: {', '.join(twice)}"
+    if not rules.pool:
+        yield "error", "pool is missing: how many different questions there are"
     counted = pool_size(template)
     if counted and counted != rules.pool:
-        yield (
-            "error",
-            f"pool = {rules.pool or 'nothing'}, but there are {counted} different questions",
-        )
+        yield "error", f"there are {counted} different questions, not {rules.pool or 0}"
 
 
 def pool_size(template: Template) -> int:

@@ -101,7 +101,7 @@ def test_few_claims_and_shared_names(tmp_path):
         "6 different questions in 200 draws",
         "2 claims for 1 parts, 8 are wanted",
         "claims and options share names, and so their reason: a",
-        "pool = 4, but there are 6 different questions",
+        "there are 6 different questions, not 4",
     ]
 
 
@@ -133,6 +133,13 @@ def test_pools_are_counted(tmp_path):
     assert pool_size(template(tmp_path / "a", DRAWN + GOOD)) == 36
     large = DRAWN.replace("[0, 1, 2, 3]", str([*range(300)]))
     assert pool_size(template(tmp_path / "b", large + GOOD)) == 0, "not counted"
+
+
+def test_a_template_without_a_pool_is_found(tmp_path):
+    unpooled = DRAWN.removeprefix("pool = 36\n")
+    for number, rules in enumerate((unpooled, unpooled.replace("[1, 9, 1]", "[1, 900, 1]"))):
+        said = [what for _, _, what in found(tmp_path / str(number), rules + GOOD)]
+        assert "pool is missing: how many different questions there are" in said
 
 
 def test_the_command_prints_a_table_and_fails_on_errors(tmp_path):
