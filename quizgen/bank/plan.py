@@ -209,14 +209,19 @@ def _terminates(value: Value, decimals: int) -> bool:
 
 
 _PLANS: dict[str, Plan] = {}
+MOST_PLANS = 1000
+"""Plans that are kept: a process that reads templates as they are edited meets ever new ones."""
 
 
 def plan_of(template: Template) -> Plan:
     """The drawing plan of a template, built once per content."""
     key = f"{template.id}/{template.digest}"
-    if key not in _PLANS:
-        _PLANS[key] = Plan(template)
-    return _PLANS[key]
+    found = _PLANS.get(key)
+    if found is None:
+        found = _PLANS[key] = Plan(template)
+        for oldest in [*_PLANS][:-MOST_PLANS]:
+            _PLANS.pop(oldest, None)
+    return found
 
 
 @working_precision()

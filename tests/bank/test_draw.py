@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from flint import fmpq
 
+from quizgen.bank import plan as plans
 from quizgen.bank.draw import draw, reference
 from quizgen.bank.folder import Bank, builtin_root
 from quizgen.bank.plan import candidates, pick, plan_of, shuffled
@@ -284,3 +285,16 @@ def test_a_number_that_the_solver_does_not_know_is_no_answer(tmp_path):
     toml = BASE.replace("[[part]]", "side = { pick = [0, 1] }\n[[part]]").replace("p'_x", "side")
     with pytest.raises(BankError, match=r"part 1: answer: of: unknown to the solver: \['side'\]"):
         draw(make_bank(tmp_path, toml).template("mine"), 0)
+
+
+def test_plans_of_templates_that_were_edited_are_dropped(tmp_path, monkeypatch):
+    monkeypatch.setattr(plans, "_PLANS", {})
+    monkeypatch.setattr(plans, "MOST_PLANS", 2)
+    first, *others = (
+        make_bank(tmp_path / str(low), BASE.replace("[2, 6, 1]", f"[{low}, 6, 1]")).template("mine")
+        for low in (2, 3, 4)
+    )
+    kept = plan_of(first)
+    assert plan_of(first) is kept
+    assert [len(plan_of(one).variables[0].choices) for one in others] == [4, 3]
+    assert [plan.template for plan in plans._PLANS.values()] == others
