@@ -10,11 +10,9 @@ import sys
 import cv2
 import numpy as np
 import pytest
-from figure_cases import REFERENCE
 
 from quizgen.camera import pictures, simulate
 from quizgen.figures import (
-    PHOTOGRAPHS,
     artefacts,
     bayer,
     depth_of_field,
@@ -50,12 +48,6 @@ def test_grey_pictures_are_stored_with_one_channel():
     codes = np.repeat(np.arange(20, dtype=np.uint8).reshape(4, 5, 1), 3, axis=2)
     read = cv2.imdecode(np.frombuffer(encode(codes), np.uint8), cv2.IMREAD_UNCHANGED)
     assert np.array_equal(read, codes[..., 0])
-
-
-def test_every_photograph_is_known_as_one():
-    """Pixels are a photograph, but for drawn scenes and the band of a spectrum."""
-    pixels = {name for name, values in REFERENCE.items() if _pictures(name, values, quiz=True)}
-    assert pixels - {"hsv_edits", "luminosity"} == PHOTOGRAPHS
 
 
 @pytest.mark.parametrize("order", range(6))
