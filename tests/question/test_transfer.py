@@ -20,7 +20,7 @@ from quizgen.maths.units import factor
 from quizgen.question.compose import put_into_words
 from quizgen.question.filling import plain
 from quizgen.question.levels import LEVELS
-from quizgen.question.levels.changes import Changes
+from quizgen.question.levels.changes import Changes, targets
 from quizgen.question.levels.comparing import compared
 from quizgen.question.levels.effects import effect
 from quizgen.question.levels.mistaken import found_mistake
@@ -156,6 +156,29 @@ def test_what_nobody_can_change_stays():
     drawn = draw(builtin().template("two-lasers-flux-ratio"), 0)
     changed = {change.given for change in Changes(drawn).of(0, "r")}
     assert changed == {"P_1", "P_2"}
+
+
+@pytest.mark.parametrize("name", ["opencv-stored-hue", "opencv-hue-shift", "uint8-sum"])
+def test_a_program_prints_a_whole_number_after_a_change_too(name):
+    for seed in range(12):
+        changes = Changes(draw(builtin().template(name), seed))
+        after = [change.after for change in changes.of(0, "c")]
+        assert all(value.q == 1 for value in after)
+
+
+@pytest.mark.parametrize("name", CALCULATING)
+def test_every_letter_that_a_question_names_has_a_name(name):
+    drawn = draw(builtin().template(name), 0)
+    known = drawn.template.quantities
+    changed = {
+        change.given for _, target in targets(drawn) for change in Changes(drawn).of(0, target)
+    }
+    steps = {
+        step.name for place in range(len(drawn.template.labels)) for step in drawn.steps(place)
+    }
+    assert not [
+        one for one in changed | steps for lang in ("en", "bn") if not known.name(one, lang)
+    ]
 
 
 def test_what_follows_from_a_quantity_cannot_stay_when_it_changes():

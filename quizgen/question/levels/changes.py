@@ -23,8 +23,9 @@ from quizgen.maths.scaling import power_of
 from quizgen.maths.tree import Call, names, walk
 from quizgen.maths.values import Value
 from quizgen.question.levels.guided import NUMERIC
-from quizgen.question.levels.steps import branch, has_name, introduced, key_of, stated
+from quizgen.question.levels.steps import branch, has_name, key_of, stated
 from quizgen.question.shown import said
+from quizgen.question.specs import answer_of
 from quizgen.question.worked import thing
 
 SCALES = tuple(map(Fraction, ("2", "3", "4", "1/2", "1/3", "1/4")))
@@ -130,7 +131,6 @@ class Changes:
     def __init__(self, drawn: Draw) -> None:
         self.drawn = drawn
         self._solved: dict[tuple[str, Fraction], Draw | None] = {}
-        self._known = introduced(drawn)
 
     def of(self, index: int, target: str, *, idle: bool = False) -> Iterator[Change]:
         """The changes of what one result rests on, or (idle) of what it does not, as drawn."""
@@ -142,19 +142,31 @@ class Changes:
             (given, scale)
             for given in self.drawn.template.chain.given
             if (given in used) is not idle
-            and _can_change(self.drawn, given, self._known)
+            and _can_change(self.drawn, given)
             and not used & _following(self.drawn, given)
             for scale in (*SCALES, *SLIGHT)
         ]
         for given, scale in shuffled(f"{key_of(self.drawn)}/{target}/changes", pairs):
             changed = self._after(given, scale)
-            if changed is not None and _alike(self.drawn, changed, steps):
+            if changed is None or not _alike(self.drawn, changed, steps):
+                continue
+            if not _printed(self.drawn, index, target) or _is_whole(changed.values[target]):
                 yield Change(self.drawn, index, target, given, scale, changed)
 
     def _after(self, given: str, scale: Fraction) -> Draw | None:
         if (given, scale) not in self._solved:
             self._solved[given, scale] = _scaled(self.drawn, given, scale)
         return self._solved[given, scale]
+
+
+def _printed(drawn: Draw, index: int, target: str) -> bool:
+    """Whether a result is a whole number that a program prints, or that is counted."""
+    exact = answer_of(drawn, index).get("exact") and not drawn.template.units[target]
+    return bool(exact) and _is_whole(drawn.values[target])
+
+
+def _is_whole(value: Value) -> bool:
+    return isinstance(value, fmpq) and value.q == 1
 
 
 def targets(drawn: Draw) -> Iterator[tuple[int, str]]:
@@ -176,8 +188,8 @@ def _following(drawn: Draw, given: str) -> frozenset[str]:
     return frozenset(found - {given})
 
 
-def _can_change(drawn: Draw, given: str, known: frozenset[str]) -> bool:
-    named = (given in known or has_name(drawn, given)) and given in stated(drawn)
+def _can_change(drawn: Draw, given: str) -> bool:
+    named = has_name(drawn, given) and given in stated(drawn)
     return named and given not in drawn.template.quantities.fixed and drawn.shown[given] != 0
 
 
