@@ -19,6 +19,7 @@ from quizgen.marking.kinds import (
     point,
     quantity,
     sets,
+    sketch,
     table,
     text,
     witness,
@@ -43,5 +44,6 @@ KINDS: dict[str, type[Worded | Measured]] = {
     "witness": witness.Spec,
     "code": code.Spec,
     "text": text.Spec,
+    "sketch": sketch.Spec,
 }
 """Every kind and the shape of its specification."""

@@ -1,0 +1,226 @@
+"""What a drawn line is like: which wanted line it is, how far it bends, where it leads.
+
+All lengths are shares of the width of the field. Lines are told apart by where they lie and which
+way they run, sample by sample, so that it does not matter in how many strokes they were drawn,
+from which end, or how often.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from quizgen.marking.reading.strokes import Point, Stroke
+
+STEP, MOST_SAMPLES = 0.02, 1000
+"""Distance of samples, and how many there are at most."""
+WINDOW = 5
+"""Samples on each side that the direction of a line is taken from: a hand trembles."""
+REACH = 0.25
+"""How far from its place a line is still known."""
+BEYOND = 0.5
+"""How much less it counts to lie beyond the end of a line than to lie beside it."""
+TURNED = 0.77
+"""Sine of the angle beyond which a line is another one."""
+TURN_COSTS = 0.2
+FEWEST = 4
+"""Points that a curve of second degree does not pass through anyway."""
+STRAY = 3.0
+"""How much farther off than the others a point is that belongs elsewhere."""
+TINY = 1e-9
+"""What is left of a number but rounding."""
+
+
+@dataclass(frozen=True, slots=True)
+class Fit:
+    """A drawn line in the frame of the wanted one, as a curve of second degree.
+
+    Parameters
+    ----------
+    middle, half : float
+        Where along the wanted line it lies, and half its length.
+    level, slope, curve : float
+        Its distance from the chord of the wanted line: ``level + slope t + curve t²`` for ``t``
+        from -1 to 1.
+    rough : float
+        How far it is from that curve, as a share of its length.
+    ends : (Point, Point)
+        In the field.
+    """
+
+    middle: float
+    half: float
+    level: float
+    slope: float
+    curve: float
+    rough: float
+    ends: tuple[Point, Point]
+
+    @property
+    def bow(self) -> float:
+        """Its rise over its length; positive to the left of the wanted line's direction."""
+        return -self.curve / (2 * self.half)
+
+    def off(self, along: float) -> float:
+        """Distance from the chord at a place along it."""
+        t = (along - self.middle) / self.half
+        return self.level + self.slope * t + self.curve * t * t
+
+    def off_by(self, placed: Point) -> float:
+        """How far from it a point of the frame is, as a share of its length."""
+        along, off = placed
+        return abs(off - self.off(along)) / (2 * self.half)
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """Coordinates along a wanted line's chord and across it, from its first point."""
+
+    origin: Point
+    way: Point
+    length: float
+
+    @classmethod
+    def of(cls, line: Stroke) -> Frame:
+        """The frame of a line that does not end where it begins."""
+        (x, y), (to_x, to_y) = line[0], line[-1]
+        length = math.hypot(to_x - x, to_y - y)
+        return cls((x, y), ((to_x - x) / length, (to_y - y) / length), length)
+
+    def __call__(self, point: Point) -> Point:
+        """A point along the chord, and to the left of it."""
+        x, y = point[0] - self.origin[0], point[1] - self.origin[1]
+        return x * self.way[0] + y * self.way[1], y * self.way[0] - x * self.way[1]
+
+
+Sample = tuple[Point, Point]
+"""A point of a stroke and the direction there."""
+
+
+def fitted(strokes: Sequence[Stroke], wanted: Mapping[str, Stroke]) -> dict[str, Fit]:
+    """The drawn lines by the names of the wanted ones that they are taken for."""
+    lines = {name: _Line(line) for name, line in wanted.items()}
+    found: dict[str, list[Point]] = {}
+    for point, way in _samples(strokes):
+        costs = {name: line.cost(point, way) for name, line in lines.items()}
+        name = min(costs, key=lambda one: costs[one])
+        if costs[name] < math.inf:
+            found.setdefault(name, []).append(point)
+    fits = {name: fit(points, Frame.of(wanted[name])) for name, points in found.items()}
+    return {name: one for name, one in fits.items() if one is not None}
+
+
+def _samples(strokes: Sequence[Stroke]) -> Iterator[Sample]:
+    length = sum(math.dist(a, b) for stroke in strokes for a, b in pairwise(stroke))
+    step = max(STEP, length / MOST_SAMPLES)
+    for stroke in strokes:
+        points = resampled(stroke, step)
+        last = len(points) - 1
+        for place, point in enumerate(points):
+            before = _mean(points[max(0, place - WINDOW) : max(1, place)])
+            after = _mean(points[min(last, place + 1) : place + WINDOW + 1])
+            run = math.dist(before, after)
+            if run:
+                yield point, ((after[0] - before[0]) / run, (after[1] - before[1]) / run)
+
+
+def _mean(points: Sequence[Point]) -> Point:
+    return sum(x for x, _ in points) / len(points), sum(y for _, y in points) / len(points)
+
+
+def resampled(stroke: Stroke, step: float) -> list[Point]:
+    """Points along a stroke, no farther apart than a step."""
+    points = [stroke[0]]
+    for (x, y), (to_x, to_y) in pairwise(stroke):
+        count = max(1, math.ceil(math.dist((x, y), (to_x, to_y)) / step))
+        points += [(x + (to_x - x) * i / count, y + (to_y - y) * i / count)
+                   for i in range(1, count + 1)]  # fmt: skip
+    return points
+
+
+class _Line:
+    """A wanted line as what drawn points are compared with."""
+
+    def __init__(self, line: Stroke) -> None:
+        self.pieces = [
+            (a[0], a[1], (b[0] - a[0]) / run, (b[1] - a[1]) / run, run)
+            for a, b in pairwise(line)
+            if (run := math.dist(a, b))
+        ]
+        xs, ys = zip(*line, strict=True)
+        far = REACH / BEYOND
+        self.left, self.right = min(xs) - far, max(xs) + far
+        self.low, self.high = min(ys) - far, max(ys) + far
+
+    def cost(self, point: Point, way: Point) -> float:
+        """How unlike the line a point is that is drawn in a direction; infinite if it is not it."""
+        x, y = point
+        if not (self.left < x < self.right and self.low < y < self.high):
+            return math.inf
+        square, turned = REACH**2, 1.0
+        for from_x, from_y, w_x, w_y, run in self.pieces:
+            d_x, d_y = x - from_x, y - from_y
+            along, across = d_x * w_x + d_y * w_y, d_y * w_x - d_x * w_y
+            over = BEYOND * (along if along < 0 else max(0.0, along - run))
+            if across * across + over * over < square:
+                square = across * across + over * over
+                turned = abs(way[0] * w_y - way[1] * w_x)
+        return math.sqrt(square) + TURN_COSTS * turned if turned < TURNED else math.inf
+
+
+def fit(points: Sequence[Point], frame: Frame) -> Fit | None:
+    """The curve of second degree that is nearest to points, none where they make no line.
+
+    Single points far from it are of another line that begins or ends there.
+    """
+    own = _fit(points, frame)
+    if own is None:
+        return None
+    kept = [point for point in points if own.off_by(frame(point)) <= STRAY * own.rough]
+    return own if len(kept) == len(points) else _fit(kept, frame)
+
+
+def _fit(points: Sequence[Point], frame: Frame) -> Fit | None:
+    placed = [frame(point) for point in points]
+    first, last = min(s for s, _ in placed), max(s for s, _ in placed)
+    middle, half = (first + last) / 2, (last - first) / 2
+    if len(placed) < FEWEST or half < STEP:
+        return None
+    pairs = [((s - middle) / half, off) for s, off in placed]
+    level, slope, curve = _parabola(pairs)
+    squares = sum((off - level - slope * t - curve * t * t) ** 2 for t, off in pairs)
+    ends = min(zip(placed, points, strict=True))[1], max(zip(placed, points, strict=True))[1]
+    rough = math.sqrt(squares / len(pairs)) / (2 * half)
+    return Fit(middle, half, level, slope, curve, rough, ends)
+
+
+def _parabola(pairs: Sequence[Point]) -> tuple[float, float, float]:
+    """Least squares: the normal equations in the first three Legendre polynomials."""
+    basis = [(1.0, t, (3 * t * t - 1) / 2) for t, _ in pairs]
+    rows = [
+        [sum(b[i] * b[j] for b in basis) for j in range(3)]
+        + [sum(b[i] * off for b, (_, off) in zip(basis, pairs, strict=True))]
+        for i in range(3)
+    ]
+    low, slope, bent = _solved(rows)
+    return low - bent / 2, slope, 1.5 * bent
+
+
+def _solved(rows: list[list[float]]) -> list[float]:
+    """Three equations; what they do not decide is 0."""
+    for place in range(3):
+        largest = max(range(place, 3), key=[abs(row[place]) for row in rows].__getitem__)
+        pivot = rows[largest]
+        rest = [row for row in rows[place:] if row is not pivot]
+        rows = [*rows[:place], pivot, *rest]
+        if abs(pivot[place]) >= TINY:
+            rows = [row if row is pivot else _without(row, pivot, place) for row in rows]
+    return [row[3] / row[i] if abs(row[i]) >= TINY else 0.0 for i, row in enumerate(rows)]
+
+
+def _without(row: list[float], pivot: list[float], place: int) -> list[float]:
+    """A row less as much of another as takes its number at a place away."""
+    share = row[place] / pivot[place]
+    return [a - share * b for a, b in zip(row, pivot, strict=True)]
