@@ -10,10 +10,11 @@ or matplotlib before the first figure is drawn.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import lru_cache
 
 from quizgen.errors import BankError
+from quizgen.figures._board import Board, Drawing, Line
+from quizgen.figures._figure import Figure
 from quizgen.figures._parameters import Parameter, complete
 from quizgen.locale import languages
 from quizgen.maths.notation import people
@@ -22,37 +23,6 @@ PHOTOGRAPHS = frozenset(
     {"artefacts", "depth_of_field", "fall_off", "focus_photos", "grey_edits", "noise"}
 )
 """Figures that are pictures of the camera."""
-
-
-@dataclass(frozen=True, slots=True)
-class Figure:
-    """A finished figure.
-
-    Attributes
-    ----------
-    svg : bytes
-        One ``<svg>`` element in UTF-8, ready to stand inside an HTML page: no prolog, no ids,
-        no style sheet, ``role="img"`` and the alt text as its ``<title>``.
-    alt : str
-        The same picture in words.
-    width_pt, height_pt : float
-        Natural size in points (1/72 inch).
-    dark : str
-        ``"invert"`` (a dark page inverts the picture) or ``"keep"``.
-    """
-
-    svg: bytes
-    alt: str
-    width_pt: float
-    height_pt: float
-    dark: str
-
-    def __repr__(self) -> str:
-        return f"<Figure {self.width_pt:g} x {self.height_pt:g} pt, {len(self.svg)} bytes of SVG>"
-
-    def _repr_html_(self) -> str:
-        """The figure as a notebook shows it."""
-        return self.svg.decode()
 
 
 def parameters(name: str) -> Mapping[str, Parameter]:
@@ -128,4 +98,4 @@ def _body(name: str, items: tuple[tuple[str, float], ...], quiz: bool) -> tuple[
     return canvas.inside(), round(canvas.width, 2), round(canvas.height, 2)
 
 
-__all__ = ["Figure", "Parameter", "in_words", "parameters", "render"]
+__all__ = ["Board", "Drawing", "Figure", "Line", "Parameter", "in_words", "parameters", "render"]

@@ -28,7 +28,6 @@ PARAMETERS = {
     "extent": Parameter(
         "1", "the grid covers [-extent, extent]²; shrunk in tenths until nothing folds", 1.0, 0.1
     ),
-    "sketch": Parameter("1", "k1 of a second grid beside it, in the solution only", ABSENT),
     "c_x": Parameter("1", "principal point, to the right of the centre", 0.0, -0.8, 0.8),
     "c_y": Parameter("1", "principal point, above the centre", 0.0, -0.8, 0.8),
 }
@@ -47,34 +46,20 @@ def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     BankError
         If the map folds over even on a tenth of the plane, or the principal point lies outside.
     """
-    from quizgen.figures._pen import Pen
+    from quizgen.figures._pen import GREY, LINE, RED, Pen
 
     foot = 0.0 if quiz else _FOOT
-    grids = [values, *([] if quiz else _sketched(values))]
-    pen = Pen((_SIDE + 20) * len(grids), _SIDE + 20 + foot)
-    for column, grid in enumerate(grids):
-        middle = (_SIDE + 20) * (column + 0.5)
-        _grid(pen, grid, (middle, 10 + foot + _SIDE / 2))
-        if not quiz:
-            _caption(pen, grid, middle)
-    pen.onto(canvas)
-
-
-def _sketched(values: Values) -> list[Values]:
-    """What the second grid is drawn from, if there is one."""
-    return [{**values, "k1": values["sketch"], "k2": 0.0}] if "sketch" in values else []
-
-
-def _grid(pen: Pen, values: Values, centre: tuple[float, float]) -> None:
-    from quizgen.figures._pen import GREY, LINE, RED
-
+    pen = Pen(_SIDE + 20, _SIDE + 20 + foot)
     lines = _lines(values, shown_extent(values))
     moved = _distorted(lines, values)
     scale, middle = _frame([*lines, *moved])
-    place = (centre[0] - scale * middle[0], centre[1] - scale * middle[1], scale)
+    place = (10 + _SIDE / 2 - scale * middle[0], 10 + foot + _SIDE / 2 - scale * middle[1], scale)
     _paint(pen, "undistorted", lines, place, GREY)
     _paint(pen, "distorted", moved, place, LINE)
     _cross(pen, values, place, RED)
+    if not quiz:
+        _caption(pen, values)
+    pen.onto(canvas)
 
 
 def shown_extent(values: Values) -> float:
@@ -171,11 +156,11 @@ def _cross(pen: Pen, values: Values, place: Place, style: Style) -> None:
     pen.line("principal-point", [(x - 6, y + 6), (x + 6, y - 6)], style)
 
 
-def _caption(pen: Pen, values: Values, middle: float) -> None:
+def _caption(pen: Pen, values: Values) -> None:
     text = f"k_1 = {given(values['k1'])}"
     if values["k2"]:
         text += f",  k_2 = {given(values['k2'])}"
-    pen.label((middle, 13), text)
+    pen.label((pen.width / 2, 13), text)
 
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
@@ -188,10 +173,7 @@ def alt(values: Values, lang: str, *, quiz: bool) -> str:
     if quiz:
         return text
     numbers = words["answer"].format(k1=given(values["k1"]), k2=given(values["k2"]))
-    told = text + numbers + words[_kind(values)]
-    for other in _sketched(values):
-        told += words["sketch"].format(k1=given(other["k1"])) + words[_kind(other)]
-    return told
+    return text + numbers + words[_kind(values)]
 
 
 def _kind(values: Values) -> str:
