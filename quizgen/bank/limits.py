@@ -61,7 +61,6 @@ class Answer(msgspec.Struct, frozen=True):
     output: str = ""
     unit: str = ""
     percent: bool = False
-    sketch: bool = False
     symbols: tuple[str, ...] | dict[str, Any] = ()
 
 

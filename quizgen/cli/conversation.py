@@ -180,6 +180,8 @@ class Conversation:
         label = f"({part.label}) " if part.label else ""
         click.echo()
         prose(blocks(part.body), label, " " * len(label))
+        if part.field.drawing:
+            say(part.field.drawing.alt, "   ", "   ")
         for mark, text in (*part.field.options, *part.field.targets):
             say(inline(text), f"   {mark}  ", " " * (len(mark) + 5))
         for hint in part.field.hints:

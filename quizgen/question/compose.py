@@ -19,7 +19,7 @@ from quizgen.bank.prose import Block, Inline
 from quizgen.bank.rules import Scalar
 from quizgen.bank.template import Template
 from quizgen.errors import BankError
-from quizgen.figures import Figure
+from quizgen.figures import Drawing, Figure
 from quizgen.figures import render as render_figure
 from quizgen.marking.specs import AnySpec
 from quizgen.maths.notation import to_text
@@ -52,6 +52,8 @@ class Field:
         Lettered choices, or the left side of a matching.
     targets : tuple of (str, inlines)
         The right side of a matching.
+    drawing : Drawing, optional
+        The empty field, if the answer is drawn.
     """
 
     id: str
@@ -59,6 +61,7 @@ class Field:
     asks: tuple[tuple[Inline, ...], ...]
     options: tuple[Choice, ...] = ()
     targets: tuple[Choice, ...] = ()
+    drawing: Drawing | None = None
 
     @property
     def hints(self) -> tuple[str, ...]:
@@ -257,6 +260,7 @@ def _part(asked: Asked, lang: str, number: str) -> Part:
         asks=tuple(map(pieces, KINDS[asked.spec.kind].hints(asked.spec, lang))),
         options=asked.options,
         targets=asked.targets,
+        drawing=Drawing(asked.control.board, lang) if asked.control.board else None,
     )
     return Part(asked.label, asked.points, asked.body, field)
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from typing import Generic, Literal, NamedTuple, Protocol, TypeVar
 
 from quizgen.bank.draw import Draw
+from quizgen.figures import Board, Line
 from quizgen.marking.specs import AnySpec
 from quizgen.question.shown import Shown
 
@@ -46,15 +47,15 @@ class Control:
         learner may type all of them in one line just as well.
     named : bool
         Whether a value needs its name before it, as cells of a table do.
-    sketch : bool
-        Whether a drawing belongs to the answer.
+    board : Board, optional
+        The field that is drawn in, if the answer is a drawing.
     """
 
     form: Form
     lines: int = 1
     boxes: tuple[Box, ...] = ()
     named: bool = False
-    sketch: bool = False
+    board: Board | None = None
 
     @property
     def reckoned(self) -> bool:
@@ -96,6 +97,8 @@ class Built(Generic[S]):
         Section and name of the sentences that are asked: a claim, or sentences with a gap each.
     source : str
         Where the reason that tells the right answer is to be found.
+    drawn : tuple of lines
+        What the solution draws in the field of the control.
     mistakes : mapping of str to Spec
         Each known mistake and the spec of which its answer would be the key.
     """
@@ -108,6 +111,7 @@ class Built(Generic[S]):
     reasons: tuple[Named, ...] = ()
     statements: tuple[Named, ...] = ()
     source: str = ""
+    drawn: tuple[Line, ...] = ()
     mistakes: Mapping[str, S] = field(default_factory=dict)
 
 

@@ -12,6 +12,7 @@ from typing import Any
 
 from quizgen.bank.draw import Draw
 from quizgen.bank.prose import Block, Inline, Words
+from quizgen.figures import Drawing
 from quizgen.marking.mark import show
 from quizgen.marking.specs import AnySpec, Numbers, OneNumber
 from quizgen.maths.chain import ChainStep
@@ -88,7 +89,7 @@ class PartSolution:
     """The worked solution of one part.
 
     ``options`` tells the right answer in words, ``reasons`` why each other choice is wrong,
-    ``why`` what else explains the answer.
+    ``why`` what else explains the answer, ``drawing`` the answer if it is drawn.
     """
 
     label: str
@@ -98,6 +99,7 @@ class PartSolution:
     options: tuple[tuple[Inline, ...], ...] = ()
     reasons: tuple[Mistake, ...] = ()
     why: tuple[Inline, ...] = ()
+    drawing: Drawing | None = None
 
     @property
     def answer(self) -> str:
@@ -142,7 +144,7 @@ def solved_part(filler: Filler, index: int, built: Built[Any]) -> PartSolution:
     built : Built
         The part as its kind makes it.
     """
-    drawn, spec = filler.drawn, built.spec
+    drawn, spec, board = filler.drawn, built.spec, built.control.board
     label = drawn.template.labels[index]
     explained = filler.text.sentence("why", label or "a") is not None
     return PartSolution(
@@ -155,6 +157,7 @@ def solved_part(filler: Filler, index: int, built: Built[Any]) -> PartSolution:
         ),
         reasons=tuple(_reasons(filler, built)),
         why=filler.sentence("why", label or "a") if explained else (),
+        drawing=Drawing(board, filler.lang, built.drawn) if board else None,
     )
 
 

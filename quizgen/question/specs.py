@@ -24,7 +24,7 @@ from quizgen.question.filling import Filler, as_typed, plain
 LETTERS = "ABCDEFGHIJKL"
 OWN_KEYS = frozenset(
     {"of", "options", "pairs", "steps", "before", "distractors", "gaps", "true", "claim"}
-    | {"from", "take", "right", "extra", "in_order", "sketch"}
+    | {"from", "take", "right", "extra", "in_order", "given", "grid", "marks"}
 )
 """Keys of an authored answer that a builder replaces; all others are handed on as they are."""
 ROUNDED_MISTAKE = 4

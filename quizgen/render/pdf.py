@@ -27,6 +27,8 @@ from quizgen.render.typ import (
 
 SCALE = {"exam": 1.0, "solutions": 0.8}
 """Size of figures: smaller where they have been seen before, so that less of a page stays empty."""
+FIELD = {"exam": 1.0, "solutions": 0.6}
+"""Size of a field to draw in: nobody draws in that of the solution."""
 
 
 class _Sheet:
@@ -130,9 +132,9 @@ class _Sheet:
     def _item(self, item: Item) -> str:
         stem = each(self.langs, [blocks(q.stem, q.lang) for q in item.questions])
         if self.kind == "exam":
-            picture = self._picture(item, [q.figure for q in item.questions])
+            picture = self._picture(item.number, [q.figure for q in item.questions])
         else:
-            picture = self._picture(item, [k.figure for k in item.keys])
+            picture = self._picture(item.number, [k.figure for k in item.keys])
         parts = item.questions[0].parts
         shown = [f"#whole[{stem}\n{picture}]"]
         if picture and self.kind == "solutions":
@@ -144,13 +146,18 @@ class _Sheet:
         worth = marks(item.points, self.main)
         return f"#question({string(item.number)}, [{self._titles(item)}], {string(worth)})[{text}]"
 
-    def _picture(self, item: Item, figures: list[Any]) -> str:
-        if figures[0] is None:
+    def _board(self, name: str, drawn: list[Field] | list[PartSolution]) -> str:
+        """The field of a drawing, empty or solved."""
+        figures = [one.drawing.figure for one in drawn if one.drawing]
+        return self._picture(name, figures, FIELD[self.kind])
+
+    def _picture(self, name: str, figures: list[Any], scale: float | None = None) -> str:
+        if not figures or figures[0] is None:
             return ""
-        name = f"figure-{item.number}.svg"
+        name = f"figure-{name}.svg"
         self.pictures[name] = figures[0].svg
         alt = string(" / ".join(figure.alt for figure in figures))
-        width = f"{figures[0].width_pt * SCALE[self.kind]:.2f}pt"
+        width = f"{figures[0].width_pt * (scale or SCALE[self.kind]):.2f}pt"
         return f"#v(0.4em)\n#image({string(name)}, width: {width}, alt: {alt})\n"
 
     def _part(self, item: Item, index: int) -> str:
@@ -179,9 +186,9 @@ class _Sheet:
         shown = [f"#hint[{each(self.langs, hints)}]"] if any(hints) else []
         if control.form == "pairs":
             return "\n".join(shown)
-        if control.sketch:
-            shown.append(f"#sketch[{words(self.langs, 'paper.sketch')}]")
-        if control.reckoned:
+        if control.board:
+            shown.append(self._board(fields[0].id, fields))
+        elif control.reckoned:
             shown.append(f"#answer-line([{words(self.langs, 'paper.answer_here')}])")
             shown.append(f"#room({squares(part.points)})")
         else:
@@ -220,7 +227,8 @@ class _Sheet:
         steps = [self._step([p.lines[i] for p in parts]) for i in range(len(parts[0].lines))]
         answer = joined(self.langs, [self._answer(p, lang) for p, lang in self._with_lang(parts)])
         reasons = [_reasons(part, lang) for part, lang in self._with_lang(parts)]
-        return "\n".join([*steps, f"#result[{answer}]", each(self.langs, reasons)])
+        drawn = filter(None, [self._board(item.number + parts[0].label, parts)])
+        return "\n".join([*steps, *drawn, f"#result[{answer}]", each(self.langs, reasons)])
 
     def _with_lang(self, parts: list[PartSolution]) -> list[tuple[PartSolution, str]]:
         return list(zip(parts, self.langs, strict=True))

@@ -75,6 +75,8 @@ def question_text(item: Item) -> str:
     lines = [f"{question.template}: {question.title}  [{key.identity}]", *blocks(question.stem)]
     for part, solved in zip(question.parts, key.solution.parts, strict=True):
         lines += ["", f"({part.label})" if part.label else "", *blocks(part.body)]
+        if part.field.drawing:
+            lines.append(f"   {part.field.drawing.alt}")
         for mark, text in (*part.field.options, *part.field.targets):
             lines.append(f"   {mark}  {inline(text)}")
         lines += [f"   [{hint}]" for hint in part.field.hints]

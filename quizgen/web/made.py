@@ -16,6 +16,7 @@ from quizgen.bank.folder import Bank, builtin
 from quizgen.bank.levels import EXAM, GUIDED
 from quizgen.bank.prose import Block, Inline
 from quizgen.errors import BlueprintError
+from quizgen.figures import Drawing
 from quizgen.locale import BOTH
 from quizgen.paper.blueprint import named_blueprint
 from quizgen.paper.key import KeyQuestion, key_question
@@ -45,6 +46,8 @@ class MadeField(msgspec.Struct, frozen=True):
     words: list[str]
     """The targets in plain text, for lists that hold no markup."""
     hint: Html
+    board: Html
+    """The field that is drawn in, if the answer is a drawing."""
 
     @property
     def marks(self) -> list[str]:
@@ -80,6 +83,8 @@ class MadePart(msgspec.Struct, frozen=True):
     field: MadeField
     lines: list[MadeLine]
     answer: Html
+    board: Html
+    """What was to be drawn, in its field."""
     right: list[Html]
     why: Html
     reasons: list[tuple[Html, Html]]
@@ -255,6 +260,7 @@ def _part(part: Part, solved: PartSolution, lang: str, bank: Bank | None) -> Mad
             for line in solved.lines
         ],
         _inline(solved.shown, lang),
+        _board(solved.drawing),
         [_inline(option, lang) for option in solved.options],
         _inline(solved.why, lang),
         _pairs(solved.reasons, lang),
@@ -271,7 +277,12 @@ def _field(field: Field, lang: str) -> MadeField:
         [(mark, _inline(text, lang)) for mark, text in field.targets],
         [plain(text) for _, text in field.targets],
         _inline(field.hint_in_fields, lang),
+        _board(field.drawing),
     )
+
+
+def _board(drawing: Drawing | None) -> Html:
+    return drawing.figure.svg.decode() if drawing else ""
 
 
 def _pairs(mistakes: Iterable[Mistake], lang: str) -> list[tuple[Html, Html]]:

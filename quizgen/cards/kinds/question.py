@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from quizgen.bank.folder import Bank
@@ -14,6 +14,7 @@ from quizgen.cards.note import Blocks, Note
 from quizgen.cards.prose import Display, Fold, Label, Picture, Said
 from quizgen.cards.versions import template_version
 from quizgen.cards.wish import Wish
+from quizgen.figures import Figure
 from quizgen.locale import word
 from quizgen.question.compose import Key, Part, Question, instance, put_into_words
 from quizgen.question.solution import PartSolution
@@ -77,22 +78,29 @@ def section_of(bank: Bank, covers: tuple[str, ...], topic: str) -> str:
 
 def shared(pairs: dict[str, Pair], index: int) -> dict[str, Blocks]:
     """What all languages share: figures, and the worked lines with a sentence per language."""
-    quiz = {lang: question.figure for lang, (question, _) in pairs.items()}
-    solved = {lang: key.figure for lang, (_, key) in pairs.items()}
-    template = next(iter(pairs.values()))[0].template
+    questions, keys = zip(*pairs.values(), strict=True)
+    template, label = questions[0].template, questions[0].parts[index].label
+    fields = [question.parts[index].field for question in questions]
+    solved = [key.solution.parts[index] for key in keys]
     return {
-        "Figure": picture(template, quiz),
-        "Work": tuple(steps([key for _, key in pairs.values()], index)),
-        "Answer figure": picture(template, solved),
+        "Figure": (
+            *picture(template, [question.figure for question in questions]),
+            *picture(template + label, [one.drawing.figure for one in fields if one.drawing]),
+        ),
+        "Work": tuple(steps(list(keys), index)),
+        "Answer figure": (
+            *picture(template, [key.figure for key in keys]),
+            *picture(template + label, [one.drawing.figure for one in solved if one.drawing]),
+        ),
     }
 
 
-def picture(template: str, figures: dict[str, Any]) -> Blocks:
-    """The figure of a question, told in every language; nothing if it has none."""
-    drawn = [figure for figure in figures.values() if figure is not None]
+def picture(name: str, figures: Iterable[Figure | None]) -> Blocks:
+    """A figure, told in every language; nothing if there is none."""
+    drawn = [figure for figure in figures if figure is not None]
     if not drawn:
         return ()
-    return (Picture(template, drawn[0], " / ".join(figure.alt for figure in drawn)),)
+    return (Picture(name, drawn[0], " / ".join(figure.alt for figure in drawn)),)
 
 
 def front(question: Question, index: int) -> Blocks:

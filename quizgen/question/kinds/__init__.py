@@ -25,6 +25,7 @@ from quizgen.question.kinds import (
     point,
     quantity,
     sets,
+    sketch,
     table,
     text,
     truth,
@@ -50,6 +51,7 @@ KINDS: dict[str, QuestionKind[Any]] = {
     "witness": witness,
     "code": code,
     "text": text,
+    "sketch": sketch,
 }
 """Kind to the module in this folder."""
 

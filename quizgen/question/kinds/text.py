@@ -11,13 +11,12 @@ from quizgen.question.specs import answer_of, specification, synonyms
 
 def build(drawn: Draw, index: int) -> Built[Spec]:
     """The key points; a model sentence tells each."""
-    answer = answer_of(drawn, index)
-    points = answer["points"]
+    points = answer_of(drawn, index)["points"]
     spec = specification(
         Spec, drawn, index, points={name: synonyms(drawn, name) for name in points}
     )
     right = tuple(("points", name) for name in points)
-    return Built(spec, Control("lines", lines=4, sketch=answer.get("sketch", False)), right=right)
+    return Built(spec, Control("lines", lines=4), right=right)
 
 
 FEW = 2

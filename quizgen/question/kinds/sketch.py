@@ -1,0 +1,153 @@
+"""Kind ``sketch``: lines to draw in a field with axes; a trap is a wrong quantity in them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any, TypeAlias
+
+import msgspec
+
+from quizgen.bank.draw import Draw
+from quizgen.bank.prose import Code
+from quizgen.figures import Board
+from quizgen.marking.kinds.sketch import Spec
+from quizgen.marking.mark import show
+from quizgen.marking.reading.strokes import written
+from quizgen.maths.constants import Scalar
+from quizgen.maths.notation import parse
+from quizgen.maths.numbers import to_float
+from quizgen.maths.systems import compile_expr, floats
+from quizgen.question.contract import Built, Control
+from quizgen.question.shown import Shown, said
+from quizgen.question.specs import answer_of, mistaken, notes, specification, why
+
+SAMPLES = 8
+"""Pieces of a curve."""
+DIGITS = 4
+"""Decimals of a point, as shares of what is typed they are far finer than any hand."""
+
+Point = tuple[float, float]
+Formulas = tuple[Scalar, Scalar]
+
+
+class Curve(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A curved line: formulas in ``t``, which runs from the first to the last of ``t``."""
+
+    x: Scalar
+    y: Scalar
+    t: Formulas
+
+
+Authored: TypeAlias = Curve | list[Formulas]
+"""A line: formulas of its points, or a curve."""
+
+
+class Answer(msgspec.Struct, frozen=True):
+    """What a template says of a sketch."""
+
+    view: tuple[Scalar, Scalar, Scalar, Scalar]
+    grid: Formulas
+    lines: dict[str, Authored]
+    features: dict[str, dict[str, Any]]
+    tall: Scalar = 0
+    given: dict[str, Authored] = {}
+    marks: dict[str, Formulas] = {}
+    traps: dict[str, dict[str, Scalar]] = {}
+
+
+def build(drawn: Draw, index: int) -> Built[Spec]:
+    """The wanted lines and those of each mistake, and the field that they are drawn in."""
+    answer = msgspec.convert(answer_of(drawn, index), Answer)
+    right = _Place({name: to_float(value) for name, value in drawn.shown_values.items()})
+    traps = {
+        trap: _typed(right.but(changed).lines(answer.lines))
+        for trap, changed in answer.traps.items()
+    }
+    features = {name: _feature(right, one) for name, one in answer.features.items()}
+    lines, tall = right.lines(answer.lines), right.number(answer.tall)
+    spec = specification(
+        Spec,
+        drawn,
+        index,
+        view=[right.number(limit) for limit in answer.view],
+        tall=tall,
+        lines=_typed(lines),
+        features=features,
+        traps=traps,
+        notes=notes(drawn, traps) if traps else {},
+        why=why(drawn, [(name, name) for name in features]),
+    )
+    board = Board(
+        view=spec.field,
+        grid=right.point(answer.grid),
+        tall=tall,
+        given=tuple(map(tuple, right.lines(answer.given).values())),
+        marks=tuple((label, right.point(at)) for label, at in answer.marks.items()),
+    )
+    return Built(
+        spec,
+        Control("lines", lines=4, board=board),
+        right=tuple(("points", name) for name in features),
+        drawn=tuple(map(tuple, lines.values())),
+        mistakes=mistaken(spec, "lines"),
+    )
+
+
+class _Place:
+    """Formulas of a template over the values of a draw."""
+
+    def __init__(self, values: Mapping[str, float]) -> None:
+        self._values = values
+
+    def but(self, changed: Mapping[str, Scalar]) -> _Place:
+        """The same with wrong values in place of some."""
+        return _Place({**self._values, **{name: self.number(to) for name, to in changed.items()}})
+
+    def number(self, formula: Scalar) -> float:
+        """The value of a formula."""
+        return self._compiled(formula)(0.0)
+
+    def point(self, formulas: Formulas) -> Point:
+        """The values of two."""
+        return self.number(formulas[0]), self.number(formulas[1])
+
+    def lines(self, authored: Mapping[str, Authored]) -> dict[str, list[Point]]:
+        """Lines by their names."""
+        return {name: self._line(line) for name, line in authored.items()}
+
+    def _line(self, line: Authored) -> list[Point]:
+        if not isinstance(line, Curve):
+            return [_rounded(*self.point(point)) for point in line]
+        x, y = self._compiled(line.x), self._compiled(line.y)
+        first, last = self.point(line.t)
+        steps = [first + (last - first) * i / SAMPLES for i in range(SAMPLES + 1)]
+        return [_rounded(x(t), y(t)) for t in steps]
+
+    def _compiled(self, formula: Scalar) -> Callable[[float], float]:
+        tree = parse(str(formula), symbols=(*self._values, "t"))
+        compiled = compile_expr(tree, floats())
+        return lambda t: float(compiled({**self._values, "t": t}))
+
+
+def _typed(lines: Mapping[str, list[Point]]) -> dict[str, str]:
+    return {name: written([line], DIGITS) for name, line in lines.items()}
+
+
+def _rounded(x: float, y: float) -> Point:
+    return round(x, DIGITS) + 0.0, round(y, DIGITS) + 0.0
+
+
+def _feature(place: _Place, authored: Mapping[str, Any]) -> dict[str, Any]:
+    """A feature with numbers in place of formulas."""
+    circle = authored.get("circle")
+    return {**authored, **({"circle": tuple(map(place.number, circle))} if circle else {})}
+
+
+def hints(_spec: Spec, lang: str) -> tuple[Shown, ...]:
+    """Draw, or write points."""
+    return (said(lang, "ask.sketch", example=(Code("0,0 1,0.4 2,0; 0,1 2,1"),)),)
+
+
+def printed(spec: Spec, lang: str) -> Shown:
+    """The wanted lines as they are typed."""
+    return (Code(show(spec, lang)),)
