@@ -93,7 +93,22 @@ def grid(page: Page) -> dict[str, Any]:
     bend = drawn_out(after) / drawn_out(before)
     words = (("none;", "কোনো") if abs(bend - 1) < 0.002 else ("barrel", "ব্যারেল") if bend < 1
              else ("pincushion", "পিনকুশন"))  # fmt: skip
-    return {"a": page.parts["a"].saying(*words)}
+    inward = any(name in page.parts["b"].text for name in ("barrel", "ব্যারেল"))
+    camera = ("fisheye", "ফিশআই") if inward else ("telephoto", "টেলিফটো")
+    return {
+        "a": page.parts["a"].saying(*words),
+        "b": _sketched(-0.15 if inward else 0.15),
+        "c": page.parts["c"].saying(*camera),
+    }
+
+
+def _sketched(k: float) -> list[Line]:
+    """A square of sides 2 and the lines through its middle, points moved as F22 says."""
+    sides = [[(t / 4, 1) for t in range(-4, 5)], [(t / 4, -1) for t in range(-4, 5)],
+             [(-1, t / 4) for t in range(-4, 5)], [(1, t / 4) for t in range(-4, 5)],
+             [(-1, 0), (1, 0)], [(0, -1), (0, 1)]]  # fmt: skip
+    return [[(x * (1 + k * (x * x + y * y)), y * (1 + k * (x * x + y * y))) for x, y in side]
+            for side in sides]  # fmt: skip
 
 
 @solves("normalisation-from-histograms", figure=True)

@@ -16,7 +16,7 @@ from printed_numbers import UNITS
 
 Spec = Mapping[str, Any]
 NUMERIC = {"number", "quantity", "angle", "point", "table", "set", "interval"}
-OWED = NUMERIC | {"expression", "witness", "code"}
+OWED = NUMERIC | {"expression", "witness", "code", "sketch"}
 """Kinds of answers that every solver has to give; those of choices where numbers decide."""
 COUNTED = {"stop": 1, "e-": 1, "deg": 1}
 """Units of keys that say what is counted."""
@@ -119,6 +119,19 @@ def _holds(mine: Mapping[str, Any], spec: Spec) -> bool:
     return set(mine) == set(symbols) and inside and all(calculated(c, known) for c in conditions)
 
 
+def _lines(mine: Sequence[Sequence[tuple[float, float]]], spec: Spec) -> bool:
+    """Whether the lines of a drawing are those of the key, point by point."""
+    wanted = [
+        [tuple(map(float, point.split(","))) for point in line.split()]
+        for line in spec["lines"].values()
+    ]
+    return len(mine) == len(wanted) and all(
+        any(len(a) == len(b) and all(math.dist(p, q) < 1e-3 for p, q in zip(a, b, strict=True))
+            for b in wanted)
+        for a in mine
+    )  # fmt: skip
+
+
 OTHERS: dict[str, Callable[[Any, Spec], bool]] = {
     "choice": lambda mine, spec: mine == set(spec["correct"]),
     "multi": lambda mine, spec: mine == set(spec["correct"]),
@@ -129,4 +142,5 @@ OTHERS: dict[str, Callable[[Any, Spec], bool]] = {
     "gap": _gaps,
     "expression": _formula,
     "witness": _holds,
+    "sketch": _lines,
 }

@@ -132,7 +132,12 @@ def test_a_wrong_key_would_be_found(bank):
 
 def spoiled(spec: dict[str, Any]) -> dict[str, Any]:
     """A specification that asks for another answer."""
-    return {**spec, **(_other_number(spec) or _other_words(spec))}
+    return {**spec, **(_other_lines(spec) or _other_number(spec) or _other_words(spec))}
+
+
+def _other_lines(spec: dict[str, Any]) -> dict[str, Any]:
+    """The lines of a known mistake, where lines are drawn."""
+    return {"lines": next(iter(spec["traps"].values()))} if "lines" in spec else {}
 
 
 def _other_number(spec: dict[str, Any]) -> dict[str, Any]:

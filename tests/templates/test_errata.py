@@ -159,7 +159,7 @@ SAID = [
     ("E44", "formulas/F13", "Both sides"),
     ("E46", "opencv-image-in-matplotlib", "bluish parts turn reddish"),
     ("E46", "traps/TR01", "**swapped**"),
-    ("E47", "recognise-and-sketch-distortion", "The lines through it stay straight"),
+    ("E47", "recognise-and-sketch-distortion", "through the principal point stay straight"),
     ("E47", "radial-points-and-line-bow", "all its points move along the line itself"),
     ("E48", "channel-counts", "bands"),
     ("E49", "cheat/aperture-tradeoff", "diffraction"),

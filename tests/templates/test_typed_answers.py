@@ -46,8 +46,8 @@ def test_printed_answer_typed_back_is_correct(parts):
         spec = load_spec(table)
         printed = show(spec)
         styles = [("auto", printed), ("point", printed), ("comma", printed.replace(".", ","))]
-        if table["kind"] == "code":
-            styles.pop()  # a program prints a point wherever it runs
+        if table["kind"] in {"code", "sketch"}:
+            styles.pop()  # a program prints a point wherever it runs, a comma parts x from y
         for decimal, text in styles:
             for typed in (text, text.translate(BANGLA)):
                 verdict = mark(spec, typed, decimal=decimal)
@@ -56,7 +56,7 @@ def test_printed_answer_typed_back_is_correct(parts):
 
 def shaped(table, value):
     """The key's own notation for a wrong answer."""
-    name = "value" if "value" in table else "values"
+    name = next(one for one in ("value", "lines", "values") if one in table)
     plain = {k: v for k, v in table.items() if k not in {"traps", "notes", "accept"}}
     return show({**plain, name: value})
 
