@@ -180,7 +180,7 @@ def _manager(request: Request) -> None:
 def _people(request: Request, link: Link | None = None) -> Response:
     accounts = _accounts(request)
     return page(
-        request, "people.html.j2", link=link, people=accounts.people(),
+        request, "people.html.j2", here="/people", link=link, people=accounts.people(),
         invitations=accounts.invitations(), now=time.time(),
     )  # fmt: skip
 
@@ -228,7 +228,8 @@ async def _person(request: Request) -> Person:
 
 def _about(request: Request, found: Person, status: int = 200, problem: str = "") -> Response:
     told = problem and said(lang_of(request), f"account.{problem}")
-    return page(request, "person.html.j2", status, person=found, problem=told)
+    here = f"/people/{found.id}"
+    return page(request, "person.html.j2", status, here=here, person=found, problem=told)
 
 
 async def person(request: Request) -> Response:

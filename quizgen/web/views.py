@@ -78,7 +78,6 @@ def page(request: Request, layout: str, status: int = 200, **content: Any) -> Re
     def words(key: str, **values: object) -> str:
         return said(lang, key, **values)
 
-    content.setdefault("kept", {})
     html = (
         _layouts()
         .get_template(layout)
@@ -87,12 +86,11 @@ def page(request: Request, layout: str, status: int = 200, **content: Any) -> Re
             say=words,
             points=lambda count: marks(Fraction(str(count)), lang),
             site=site,
-            here=request.url.path,
             token=form_token(request.state.token),
             learner=request.state.learner,
             menu=_menu(site, request.state.learner),
             bangla=bool(in_script("Beng")),
-            **content,
+            **{"here": request.url.path, "kept": {}, **content},
         )
     )
     return HTMLResponse(html, status)

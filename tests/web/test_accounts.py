@@ -282,6 +282,15 @@ def test_names_that_cannot_be(app, manager, site):
     assert found.join(link, "Bela").url.path == "/"
 
 
+def test_the_language_changes_where_a_form_was_answered(manager, site):
+    person = site.store.accounts.people()[0].id
+    for address in ("/people/invite", f"/people/{person}/password", f"/people/{person}/name"):
+        manager.get("/people")
+        manager.post(address, name="")
+        back = re.search(r'name="back" value="([^"]*)"', manager.page)[1]
+        assert manager.post("/settings", lang="bn", back=back).status_code == 200, address
+
+
 @pytest.mark.parametrize(
     "name", ["<b>x</b>\"'&", "{{ 7*7 }}", "عبد الرحمن", "ক্‌ষ", "W" * 60, "x' OR '1'='1"]
 )
