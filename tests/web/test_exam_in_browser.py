@@ -188,6 +188,18 @@ def test_by_keys_alone_to_the_marks(opened):
     expect(page.locator(".typed", has_text="12.5")).to_have_count(1)
 
 
+UNDER_THE_BAR = """() => document.activeElement.closest("section.question")
+    && document.activeElement.getBoundingClientRect().top < document.querySelector(".bar").getBoundingClientRect().bottom"""
+
+
+def test_what_has_the_focus_is_not_under_the_bar(exam):
+    page = exam(viewport={"width": 390, "height": 700})
+    page.get_by_role("button", name="Hand in").focus()
+    for _ in range(25):
+        page.keyboard.press("Shift+Tab")
+        assert not page.evaluate(UNDER_THE_BAR)
+
+
 def test_without_scripts_an_exam_is_sat_by_forms(exam):
     page = exam(java_script_enabled=False)
     boxes(page).first.fill("9.75")

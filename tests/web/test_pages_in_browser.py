@@ -75,6 +75,71 @@ def test_every_page_is_valid_and_open_to_everybody(opened, served, addresses, la
     opened.wrong.clear()
 
 
+def test_text_of_twice_the_size_needs_no_scrolling_sideways(opened, addresses):
+    page = opened(viewport={"width": 800, "height": 900}, bypass_csp=True)
+    wide = []
+    for address in addresses:
+        page.goto(address)
+        page.add_style_tag(content="html { font-size: 200% }")
+        if page.evaluate("document.documentElement.scrollWidth > innerWidth"):
+            wide.append(address)
+    assert wide == []
+    opened.wrong.clear()  # of the page that is not there
+
+
+@pytest.fixture
+def sitting(addresses):
+    return next(one for one in addresses if one.endswith("/hand-in")).removesuffix("/hand-in")
+
+
+def test_what_is_answered_shows_where_colours_are_forced(opened, sitting):
+    page = opened(forced_colors="active")
+    page.goto(sitting)
+    link = page.locator("a[data-question]").first
+    colour = "element => getComputedStyle(element).backgroundColor"
+    before = link.evaluate(colour)
+    link.evaluate("element => element.classList.add('answered')")
+    assert link.evaluate(colour) != before
+
+
+def test_nothing_moves_for_who_wants_no_motion(opened, served):
+    page = opened(reduced_motion="reduce")
+    at = post(page, "/practice", template=QUESTIONS[0])
+    post(page, at.removeprefix(served.address) + "/1", a="?")
+    moving = "element => getComputedStyle(element).animationName"
+    page.goto(at)
+    assert page.locator(".verdict").evaluate(moving) == "none"
+    page.emulate_media(reduced_motion="no-preference")
+    assert page.locator(".verdict").evaluate(moving) == "come"
+
+
+def test_everything_is_saved_as_a_file_and_taken_in_again(opened, served, tmp_path):
+    page = opened()
+    page.goto(served.address + "/progress")
+    with page.expect_download() as saved:
+        page.get_by_role("link", name="Save everything as a file").click()
+    file = tmp_path / saved.value.suggested_filename
+    saved.value.save_as(file)
+    assert '"format":"quizgen learning"' in file.read_text("utf-8")
+    page.get_by_label("Take in such a file").set_input_files(file)
+    page.get_by_role("button", name="Take in", exact=True).click()
+    expect(page.get_by_text("0 questions and exams were added.")).to_be_visible()
+    page.get_by_label("Take in such a file").set_input_files(__file__)
+    page.get_by_role("button", name="Take in", exact=True).click()
+    expect(page.get_by_role("alert")).to_contain_text("nothing has changed")
+    assert all("400" in one for one in opened.wrong)
+    opened.wrong.clear()
+
+
+def test_mistakes_are_saved_for_anki(opened, addresses):
+    page = opened()
+    page.goto(addresses[-1])
+    with page.expect_download() as saved:
+        page.get_by_role("link", name="Your mistakes as flashcards").click()
+    assert saved.value.suggested_filename == "quizgen-mistakes.apkg"
+    assert saved.value.path().read_bytes()[:2] == b"PK"
+
+
 def test_results_are_printed_whole_and_without_buttons(opened, addresses):
     page = opened()
     page.goto(addresses[-1])
