@@ -25,8 +25,6 @@ class Standing:
     ----------
     count, seen : int
         Its templates, and how many of them were asked.
-    ready : int
-        How many are due now.
     last : float, optional
         When one of them was last asked.
     stability : float, optional
@@ -37,7 +35,6 @@ class Standing:
 
     count: int
     seen: int
-    ready: int
     last: float | None
     stability: float | None
     due: float | None
@@ -107,7 +104,6 @@ class Agenda:
         return Standing(
             len(names),
             len(cards),
-            sum(self.due(card) <= self.now for card in cards),
             max((card.last for card in cards), default=None),
             min((card.stability for card in cards), default=None),
             min((self.due(card) for card in cards), default=None),

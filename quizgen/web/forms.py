@@ -28,7 +28,7 @@ async def posted(request: Request) -> FormData:
     _check(request, form)
     for name, value in form.multi_items():
         if not isinstance(value, str) or len(value) > LONGEST or "\0" in name + value:
-            raise HTTPException(400, "A field is too long, or no text.")
+            raise HTTPException(400)
     return form
 
 
@@ -49,7 +49,7 @@ async def posted_file(request: Request, name: str) -> bytes:
 def _check(request: Request, form: FormData) -> None:
     expected = form_token(request.state.token)
     if not secrets.compare_digest(one(form, "token").encode(), expected.encode()):
-        raise HTTPException(403, "This form is not one of these pages.")
+        raise HTTPException(403)
 
 
 def one(form: FormData, name: str) -> str:

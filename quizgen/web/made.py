@@ -97,7 +97,6 @@ class Wanted(msgspec.Struct, frozen=True):
     template: str
     seed: str
     lang: str
-    slot: str = "0"
     number: str = "1"
     level: str = EXAM
 
@@ -115,11 +114,9 @@ class Made(msgspec.Struct, frozen=True):
     """A question in one language."""
 
     wanted: Wanted
-    identity: str
     title: str
     topic: str
     tier: str
-    minutes: float
     stem: Html
     figure: Html
     solved_figure: Html
@@ -178,7 +175,7 @@ def make(root: Path | None, trusted: bool, wanted: Wanted | WantedPaper | Job) -
         return wanted.run(bank)
     if isinstance(wanted, WantedPaper):
         return msgspec.json.encode(_paper(bank, wanted))
-    drawn = instance(bank.template(wanted.template), wanted.seed, wanted.slot)
+    drawn = instance(bank.template(wanted.template), wanted.seed)
     question, key = put_into_words(drawn, wanted.lang, number=wanted.number, level=wanted.level)
     return msgspec.json.encode(made(wanted, question, key, bank))
 
@@ -213,11 +210,9 @@ def made(wanted: Wanted, question: Question, key: Key, bank: Bank | None = None)
     other = solved if solved and (figure is None or solved.svg != figure.svg) else None
     return Made(
         wanted,
-        key.identity,
         question.title,
         question.topic,
         question.tier,
-        float(question.minutes),
         stem=_blocks(question.stem, lang),
         figure=figure.svg.decode() if figure else "",
         solved_figure=other.svg.decode() if other else "",

@@ -11,14 +11,11 @@ from markupsafe import Markup
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 
-from quizgen.locale import FIRST, in_script, known, language, languages, line_heights, marks, table
+from quizgen.locale import FIRST, known, language, languages, line_heights, marks, table
 from quizgen.render.layouts import environment
 from quizgen.web.door import form_token
 from quizgen.web.site import Site
 from quizgen.web.store import Learner
-
-HX = "hx-request"
-"""The header that htmx sends."""
 
 
 @cache
@@ -89,7 +86,6 @@ def page(request: Request, layout: str, status: int = 200, **content: Any) -> Re
             token=form_token(request.state.token),
             learner=request.state.learner,
             menu=_menu(site, request.state.learner),
-            bangla=bool(in_script("Beng")),
             **{"here": request.url.path, "kept": {}, **content},
         )
     )
