@@ -101,6 +101,7 @@ def test_hints_come_one_by_one_and_solution_ends_a_part(client, token, begin):
     assert count == [1, 2]
     shown = client.post(f"{at}/1", data={"token": token, "do": "solution", "a": ["", ""]}).text
     assert 'class="result"' in shown
+    assert 'class="verdict' not in shown, "nothing was answered"
 
 
 def test_a_variant_is_the_same_question_with_other_numbers(client, token, begin):
