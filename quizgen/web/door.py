@@ -12,11 +12,11 @@ from urllib.parse import urlencode
 from sqlalchemy.exc import SQLAlchemyError
 from starlette.concurrency import run_in_threadpool
 from starlette.datastructures import Headers, MutableHeaders, QueryParams
-from starlette.responses import PlainTextResponse, RedirectResponse, Response
+from starlette.responses import RedirectResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from quizgen.locale import FIRST, languages, table
-from quizgen.web.guard import OPEN
+from quizgen.locale import FIRST, languages
+from quizgen.web.guard import OPEN, told
 from quizgen.web.site import Site
 from quizgen.web.store import Learner
 
@@ -53,7 +53,7 @@ class Door:
             sign = self._signed_in if self.site.settings.accounts else self._alone
             answer = await sign(scope)
         except SQLAlchemyError:
-            answer = _told("503", 503)
+            answer = told("503", 503)
         if answer is not None:
             await answer(scope, receive, send)
             return
@@ -65,7 +65,7 @@ class Door:
         if scope["path"] == ENTRANCE:
             return _entered(scope, token)
         if not _same(_cookie(scope), token):
-            return _told("entrance", 403)
+            return told("entrance", 403)
         store = self.site.store
         learner = store.remembered() or await run_in_threadpool(store.learner)
         scope.setdefault("state", {}).update(learner=learner, token=token)
@@ -131,18 +131,12 @@ def _to_sign_in(scope: Scope) -> Response:
         return Response(status_code=403, headers={"hx-redirect": where})
     if "text/html" in headers.get("accept", ""):
         return RedirectResponse(where, 303)
-    return _told("sign_in", 403)
-
-
-def _told(name: str, status: int) -> Response:
-    """Say something to whoever it is, in every language."""
-    said = [table(lang, "web")["error"][name] for lang in languages()]
-    return PlainTextResponse("\n".join(said), status)
+    return told("sign_in", 403)
 
 
 def _entered(scope: Scope, token: str) -> Response:
     if not _same(QueryParams(scope["query_string"]).get("key", ""), token):
-        return _told("entrance", 403)
+        return told("entrance", 403)
     response = RedirectResponse("/", 303)
     response.set_cookie(COOKIE, token, httponly=True, samesite="strict", path="/")
     return response

@@ -13,6 +13,7 @@ from starlette.exceptions import HTTPException
 from starlette.responses import PlainTextResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from quizgen.locale import languages, table
 from quizgen.web.settings import Settings
 
 MOST_BYTES = 1_000_000
@@ -76,22 +77,23 @@ class Guard:
 
     def _refused(self, scope: Scope) -> Response | None:
         headers = Headers(scope=scope)
-        if "\0" in scope["path"]:
-            return PlainTextResponse("This address is no text.", 400)
-        wrong = self._misplaced(headers, most_bytes(scope))
-        if wrong is None and scope["method"] not in {"GET", "HEAD"} and not _own(headers):
-            return PlainTextResponse("A page of another site may not send this.", 403)
-        return wrong
-
-    def _misplaced(self, headers: Headers, most: int) -> Response | None:
-        """What is wrong with a request whoever sends it."""
         name = _NAME.fullmatch(headers.get("host", "").lower())
         if name is None or not self.settings.serves(name[1].strip("[]")):
-            return PlainTextResponse("This address is not served here.", 400)
+            return told("host", 400)
         length = headers.get("content-length", "0")
-        if not length.isdecimal():
-            return PlainTextResponse("The length of the body is no number.", 400)
-        return PlainTextResponse("Too much was sent.", 413) if int(length[:12]) > most else None
+        if not length.isdecimal() or "\0" in scope["path"]:
+            return told("400", 400)
+        if int(length[:12]) > most_bytes(scope):
+            return told("413", 413)
+        if scope["method"] not in {"GET", "HEAD"} and not _own(headers):
+            return told("403", 403)
+        return None
+
+
+def told(name: str, status: int) -> Response:
+    """Say something to whoever it is, in every language."""
+    said = [table(lang, "web")["error"][name] for lang in languages()]
+    return PlainTextResponse("\n".join(said), status)
 
 
 def _kept(path: str) -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
 
@@ -52,6 +54,19 @@ def test_going_back_stays_here(client, token, back):
     sent = {"token": token, "lang": "en", "back": back}
     answer = client.post("/settings", data=sent, follow_redirects=False)
     assert answer.headers["location"] == "/"
+
+
+@pytest.mark.parametrize(
+    ("address", "headers"),
+    [
+        ("/", {}), ("/", {"host": "evil.example"}), ("/enter?key=wrong", {}), ("/%00", {}),
+        ("/", {"content-length": "x"}), ("/", {"content-length": "1000001"}),
+    ],
+)  # fmt: skip
+def test_who_is_refused_reads_why_in_every_language(visitor, address, headers):
+    english, bangla = visitor.get(address, headers=headers).text.splitlines()
+    assert re.fullmatch(r"[ -~]+\.", english)
+    assert re.search(r"[\u0980-\u09ff].*।$", bangla)
 
 
 def test_pages_load_scripts_of_their_own_alone(client):
