@@ -1,0 +1,310 @@
+"""The parts of a question as systems for courses take them: what is asked, and what is said.
+
+Such a system knows numbers with an interval, options, pairs, an order and words. Whatever is more
+is written by the student and marked by a person; it is told why.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import singledispatch
+
+from quizgen.bank.prose import Inline, Words
+from quizgen.export.ranges import Near, Range, ranges
+from quizgen.locale import word
+from quizgen.marking.kinds import angle, choice, code, gap, match, number, order, point, table
+from quizgen.marking.kinds import quantity as quantities
+from quizgen.marking.specs import AnySpec, Measured, Numbers, OneNumber
+from quizgen.maths.constants import exact_value
+from quizgen.maths.numbers import places
+from quizgen.maths.values import Value
+from quizgen.question.compose import Part
+from quizgen.question.solution import PartSolution
+
+Said = tuple[Inline, ...]
+"""A sentence, or pieces of one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Numeric:
+    """A number: the key's interval first, then those of known mistakes; no two meet.
+
+    ``name`` stands before its field where there are several, ``unit`` behind it.
+    """
+
+    name: str
+    unit: str
+    ranges: tuple[Range, ...]
+
+    @property
+    def key(self) -> Range:
+        """What is right."""
+        return self.ranges[0]
+
+
+@dataclass(frozen=True, slots=True)
+class Option:
+    """Something to choose: its letter, its words, and what is said to whoever chooses it."""
+
+    mark: str
+    words: Said
+    right: bool
+    said: Said = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Choose:
+    """One of several options, or with ``many`` any number of them."""
+
+    options: tuple[Option, ...]
+    many: bool = False
+
+    @property
+    def right(self) -> tuple[Option, ...]:
+        """What is to be chosen."""
+        return tuple(option for option in self.options if option.right)
+
+
+@dataclass(frozen=True, slots=True)
+class Truth:
+    """A statement that is true or false, and why."""
+
+    true: bool
+    said: Said = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Pairs:
+    """A target for each stem; ``said`` tells by stem and target why they do not belong together."""
+
+    stems: tuple[tuple[str, Said], ...]
+    targets: tuple[tuple[str, Said], ...]
+    right: Mapping[str, str]
+    said: Mapping[tuple[str, str], Said]
+
+
+@dataclass(frozen=True, slots=True)
+class Order:
+    """Steps, and their marks in the one order that is right."""
+
+    steps: tuple[tuple[str, Said], ...]
+    right: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Fill:
+    """Words: those that are right, the first one shown, and wrong ones with what is said."""
+
+    right: tuple[str, ...]
+    wrong: tuple[tuple[str, Said], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Write:
+    """What a person marks: why, by the name of a sentence of the report, and the key."""
+
+    why: str
+    key: Said
+    lines: int = 1
+
+
+Ask = Numeric | Choose | Truth | Pairs | Order | Fill | Write
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """A part with its solution, as far as its asks need them."""
+
+    part: Part
+    solved: PartSolution
+    lang: str
+
+    @property
+    def mistakes(self) -> Mapping[str, Said]:
+        """What is said of each known mistake."""
+        return {mistake.name: mistake.sentence for mistake in self.solved.mistakes}
+
+    @property
+    def reasons(self) -> Mapping[str, Said]:
+        """What is said of each wrong option, pair or word, by its mark."""
+        return {reason.value: reason.sentence for reason in self.solved.reasons}
+
+    def written(self, why: str) -> Write:
+        """The part as one that a person marks."""
+        lines = max(self.part.field.control.lines, 1)
+        key = self.solved.shown or tuple(_sentences(self.solved.options))
+        return Write(why, key, lines)
+
+
+def _sentences(options: tuple[Said, ...]) -> Iterator[Inline]:
+    for place, option in enumerate(options):
+        yield from ((Words(" "),) if place else ())
+        yield from option
+
+
+def asks(part: Part, spec: AnySpec, solved: PartSolution, lang: str) -> tuple[Ask, ...]:
+    """What a part asks, one for each field.
+
+    Parameters
+    ----------
+    part : Part
+    spec : Spec
+        What it is marked by.
+    solved : PartSolution
+        Its solution in the same language.
+    lang : str
+
+    Returns
+    -------
+    tuple of Ask
+        One ``Write`` where no system could mark it as we do.
+    """
+    return _asks(spec, Asked(part, solved, lang))
+
+
+@singledispatch
+def _asks(spec: AnySpec, asked: Asked) -> tuple[Ask, ...]:
+    return (asked.written(spec.kind),)
+
+
+@_asks.register
+def _number(spec: number.Spec, asked: Asked) -> tuple[Ask, ...]:
+    if spec.form in {"fraction", "lowest"}:
+        return (asked.written("fraction"),)
+    unit = "%" if spec.percent else spec.unit
+    return _measured(spec, asked, unit, 100 if spec.percent else 1)
+
+
+@_asks.register
+def _quantity(spec: quantities.Spec, asked: Asked) -> tuple[Ask, ...]:
+    return _measured(spec, asked, spec.unit)
+
+
+@_asks.register
+def _angle(spec: angle.Spec, asked: Asked) -> tuple[Ask, ...]:
+    return _measured(spec, asked, "°", period=exact_value(spec.period))
+
+
+def _measured(
+    spec: OneNumber, asked: Asked, unit: str, scale: int = 1, period: Value | None = None
+) -> tuple[Ask, ...]:
+    key = exact_value(spec.value) * scale
+    if spec.exact and not _finite(key):
+        return (asked.written("fraction"),)
+    said = asked.mistakes
+    wrong = [Near(value, said.get(name, ())) for name, value in spec.trap_values(scale)]
+    return (Numeric("", unit, ranges(spec, key, wrong, period)),)
+
+
+def _finite(key: Value) -> bool:
+    """Whether a key can be typed as a decimal."""
+    from flint import fmpq
+
+    return isinstance(key, fmpq) and places(key) is not None
+
+
+@_asks.register
+def _point(spec: point.Spec, asked: Asked) -> tuple[Ask, ...]:
+    if spec.up_to_scale:
+        return (asked.written("scale"),)
+    return _several(spec, asked, [box.name for box in asked.part.field.control.boxes])
+
+
+def _several(spec: Numbers, asked: Asked, names: list[str]) -> tuple[Ask, ...]:
+    said = asked.mistakes
+    found: list[Ask] = []
+    for place, key in enumerate(spec.keys()):
+        if spec.exact and not _finite(key):
+            return (asked.written("fraction"),)
+        wrong = [
+            Near(exact_value(values[place]), said.get(name, ()))
+            for name, values in spec.traps.items()
+        ]
+        name = names[place] if place < len(names) else ""
+        found.append(Numeric(name, spec.unit, ranges(spec, key, wrong)))
+    return tuple(found)
+
+
+@_asks.register
+def _table(spec: table.Spec, asked: Asked) -> tuple[Ask, ...]:
+    found: list[Ask] = []
+    for name in spec.values:
+        cell = table.cell(spec, name)
+        (one,) = _asks(cell, asked)
+        if isinstance(one, Write):
+            return (one,)
+        found.append(Numeric(name, one.unit, one.ranges) if isinstance(one, Numeric) else one)
+    return tuple(found)
+
+
+@_asks.register
+def _choice(spec: choice.Spec, asked: Asked) -> tuple[Ask, ...]:
+    if spec.kind == "tf":
+        told = asked.solved.options
+        return (Truth(spec.correct == [1], told[0] if told else ()),)
+    said = asked.reasons
+    options = tuple(
+        Option(mark, words, place in spec.correct, said.get(mark, ()))
+        for place, (mark, words) in enumerate(asked.part.field.options, 1)
+    )
+    return (Choose(options, spec.kind == "multi"),)
+
+
+@_asks.register
+def _match(spec: match.Spec, asked: Asked) -> tuple[Ask, ...]:
+    field, reasons = asked.part.field, asked.reasons
+    said = {
+        (left, right): reasons.get(f"{left}{right}", reasons.get(left, ()))
+        for left in spec.pairs
+        for right, _ in field.targets
+        if spec.pairs[left] != right
+    }
+    return (Pairs(field.options, field.targets, spec.pairs, said),)
+
+
+@_asks.register
+def _order(spec: order.Spec, asked: Asked) -> tuple[Ask, ...]:
+    if spec.before and not _one_way(spec):
+        return (asked.written("orders"),)
+    steps = asked.part.field.options
+    if not spec.distractors:
+        return (Order(steps, tuple(spec.steps)),)
+    places = [(str(place), (Words(str(place)),)) for place in range(1, len(spec.steps) + 1)]
+    nowhere = ("0", (Words(word(asked.lang, "export.no_step")),))
+    right = {mark: str(place) for place, mark in enumerate(spec.steps, 1)}
+    right |= dict.fromkeys(spec.distractors, "0")
+    return (Pairs(steps, (*places, nowhere), right, {}),)
+
+
+def _one_way(spec: order.Spec) -> bool:
+    """Whether only one order keeps to what must come before what."""
+    then = order.followers(spec)
+    row = zip(spec.steps, spec.steps[1:], strict=False)
+    return all(later in then[earlier] for earlier, later in row)
+
+
+@_asks.register
+def _gap(spec: gap.Spec, asked: Asked) -> tuple[Ask, ...]:
+    wrong: dict[str, list[tuple[str, Said]]] = {}
+    for mark, sentence in asked.reasons.items():
+        place, _, term = mark.removeprefix("(").partition(") ")
+        wrong.setdefault(place, []).append((term, sentence))
+    return tuple(
+        Fill(tuple(words), tuple(wrong.get(str(place), ())))
+        for place, words in enumerate(spec.gaps(), 1)
+    )
+
+
+@_asks.register
+def _code(spec: code.Spec, asked: Asked) -> tuple[Ask, ...]:
+    outputs = (spec.output, *spec.also)
+    if any("\n" in output for output in outputs):
+        return (asked.written("lines"),)
+    said = asked.mistakes
+    wrong = tuple((typed, said.get(name, ())) for name, typed in spec.traps.items())
+    return (Fill(outputs, wrong),)
+
+
+__all__ = ["Ask", "Choose", "Fill", "Measured", "Numeric", "Option", "Order", "Pairs", "Truth",
+           "Write", "asks"]  # fmt: skip
