@@ -15,7 +15,7 @@ from quizgen.export.ranges import Near, Range, ranges
 from quizgen.locale import word
 from quizgen.marking.kinds import angle, choice, code, gap, match, number, order, point, table
 from quizgen.marking.kinds import quantity as quantities
-from quizgen.marking.specs import AnySpec, Measured, Numbers, OneNumber
+from quizgen.marking.specs import AnySpec, Numbers, OneNumber
 from quizgen.maths.constants import exact_value
 from quizgen.maths.numbers import places
 from quizgen.maths.values import Value
@@ -109,7 +109,22 @@ class Write:
     lines: int = 1
 
 
+NOWHERE = "-"
+"""The place of a step that belongs to no place."""
+
 Ask = Numeric | Choose | Truth | Pairs | Order | Fill | Write
+
+
+def as_pairs(ask: Pairs | Order, lang: str) -> Pairs:
+    """An order as the place of each step, where a step may have none."""
+    if isinstance(ask, Pairs):
+        return ask
+    places = {mark: str(place) for place, mark in enumerate(ask.right, 1)}
+    right = {mark: places.get(mark, NOWHERE) for mark, _ in ask.steps}
+    targets = [(place, (Words(place),)) for place in places.values()]
+    if NOWHERE in right.values():
+        targets.append((NOWHERE, (Words(word(lang, "export.no_step")),)))
+    return Pairs(ask.steps, tuple(targets), right, {})
 
 
 @dataclass(frozen=True, slots=True)
@@ -267,14 +282,8 @@ def _match(spec: match.Spec, asked: Asked) -> tuple[Ask, ...]:
 def _order(spec: order.Spec, asked: Asked) -> tuple[Ask, ...]:
     if spec.before and not _one_way(spec):
         return (asked.written("orders"),)
-    steps = asked.part.field.options
-    if not spec.distractors:
-        return (Order(steps, tuple(spec.steps)),)
-    places = [(str(place), (Words(str(place)),)) for place in range(1, len(spec.steps) + 1)]
-    nowhere = ("0", (Words(word(asked.lang, "export.no_step")),))
-    right = {mark: str(place) for place, mark in enumerate(spec.steps, 1)}
-    right |= dict.fromkeys(spec.distractors, "0")
-    return (Pairs(steps, (*places, nowhere), right, {}),)
+    found = Order(asked.part.field.options, tuple(spec.steps))
+    return (as_pairs(found, asked.lang) if spec.distractors else found,)
 
 
 def _one_way(spec: order.Spec) -> bool:
@@ -304,7 +313,3 @@ def _code(spec: code.Spec, asked: Asked) -> tuple[Ask, ...]:
     said = asked.mistakes
     wrong = tuple((typed, said.get(name, ())) for name, typed in spec.traps.items())
     return (Fill(outputs, wrong),)
-
-
-__all__ = ["Ask", "Choose", "Fill", "Measured", "Numeric", "Option", "Order", "Pairs", "Truth",
-           "Write", "asks"]  # fmt: skip

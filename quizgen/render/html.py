@@ -67,6 +67,11 @@ def page(layout: str, langs: tuple[str, ...], style: str = "", **content: object
     return made.encode()
 
 
+def fragment(layout: str, **content: object) -> Markup:
+    """A piece of a page, without its head."""
+    return Markup(_layouts().get_template(layout).render(**content))  # noqa: S704 - escaped there
+
+
 def render(paper: Paper, kind: str) -> bytes:
     """Render a paper as an HTML page.
 

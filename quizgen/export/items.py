@@ -1,0 +1,127 @@
+"""What is exported: questions in one language, in slots of which a course draws one variant each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from quizgen.bank.folder import Bank
+from quizgen.export.asks import Ask, Write, asks
+from quizgen.paper.blueprint import Blueprint
+from quizgen.paper.paper import Item as PaperItem
+from quizgen.paper.paper import Progress, build, silent
+from quizgen.question.compose import Key, Part, Question, compose
+
+
+@dataclass(frozen=True)
+class Item:
+    """A question in one language.
+
+    Parameters
+    ----------
+    id : str
+        The same for the same question whenever it is exported.
+    slot : str
+        What it is one of several variants of.
+    question : Question
+    key : Key
+    """
+
+    id: str
+    slot: str
+    question: Question
+    key: Key
+
+    @property
+    def lang(self) -> str:
+        """The language that it is in."""
+        return self.question.lang
+
+    @property
+    def paper_item(self) -> PaperItem:
+        """The same as a question of a paper, whose worked solution is printed."""
+        return PaperItem(self.question.number, (self.question,), (self.key,))
+
+    @cached_property
+    def parts(self) -> tuple[tuple[Part, tuple[Ask, ...]], ...]:
+        """Each part with what it asks."""
+        rows = zip(self.question.parts, self.key.specs, self.key.solution.parts, strict=True)
+        return tuple((part, asks(part, spec, solved, self.lang)) for part, spec, solved in rows)
+
+    @property
+    def tags(self) -> tuple[str, ...]:
+        """Topic, tier and the formulas that its solution applies."""
+        lines = (line for part in self.key.solution.parts for line in part.lines)
+        cited = dict.fromkeys(line.formula for line in lines if line.formula)
+        return (self.question.topic, f"tier {self.question.tier}", *cited)
+
+    @property
+    def written(self) -> tuple[tuple[str, str], ...]:
+        """Field and why, of each part that a person marks."""
+        return tuple(
+            (part.field.id, ask.why)
+            for part, found in self.parts
+            for ask in found
+            if isinstance(ask, Write)
+        )
+
+
+def of_templates(
+    bank: Bank,
+    names: Sequence[str],
+    seed: int,
+    variants: int,
+    langs: Sequence[str],
+    progress: Progress = silent,
+) -> Iterator[Item]:
+    """Variants of templates, no two of them the same: fewer than asked for if there are no more.
+
+    Parameters
+    ----------
+    bank : Bank
+    names : sequence of str
+    seed : int
+        Of the first variant; the others follow.
+    variants : int
+    langs : sequence of str
+        Languages, one after another, with the same numbers.
+    progress : callable
+        Told each template.
+
+    Raises
+    ------
+    BankError, DrawError
+        If a template is wrong, or not written in one of the languages.
+    """
+    for lang in langs:
+        for name in names:
+            template, seen = bank.template(name), set[str]()
+            for place in range(seed, seed + variants):
+                question, key = compose(template, place, lang)
+                if key.identity not in seen:
+                    seen.add(key.identity)
+                    yield Item(f"{name}.{place}.{lang}", name, question, key)
+            progress(name)
+
+
+def of_blueprint(
+    bank: Bank,
+    blueprint: Blueprint,
+    seed: int,
+    variants: int,
+    langs: Sequence[str],
+    progress: Progress = silent,
+) -> Iterator[Item]:
+    """The questions of papers of consecutive seeds; those of one number share a slot.
+
+    Raises
+    ------
+    BlueprintError
+        If no template fits a slot.
+    """
+    for lang in langs:
+        for place in range(seed, seed + variants):
+            for item in build(bank, blueprint, place, lang, progress=progress).items:
+                name = f"{blueprint.name}.{place}.{item.number}.{lang}"
+                yield Item(name, f"{int(item.number):02}", item.questions[0], item.keys[0])
