@@ -1,4 +1,4 @@
-"""What is exported: questions in one language, in slots of which a course draws one variant each."""
+"""What is exported: questions in one language, in slots from which a course draws variants."""
 
 from __future__ import annotations
 

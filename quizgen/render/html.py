@@ -69,7 +69,7 @@ def page(layout: str, langs: tuple[str, ...], style: str = "", **content: object
 
 def fragment(layout: str, **content: object) -> Markup:
     """A piece of a page, without its head."""
-    return Markup(_layouts().get_template(layout).render(**content))  # noqa: S704 - escaped there
+    return Markup(_layouts().get_template(layout).render(**content))
 
 
 def render(paper: Paper, kind: str) -> bytes:
