@@ -6,8 +6,8 @@ is written by the student and marked by a person; it is told why.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from functools import singledispatch
 
 from quizgen.bank.prose import Inline, Words
@@ -15,12 +15,16 @@ from quizgen.export.ranges import Near, Range, ranges
 from quizgen.locale import word
 from quizgen.marking.kinds import angle, choice, code, gap, match, number, order, point, table
 from quizgen.marking.kinds import quantity as quantities
-from quizgen.marking.specs import AnySpec, Numbers, OneNumber
+from quizgen.marking.specs import AnySpec, Measured, OneNumber
+from quizgen.marking.specs import Numbers as SeveralNumbers
 from quizgen.maths.constants import exact_value
+from quizgen.maths.notation import people
 from quizgen.maths.numbers import places
 from quizgen.maths.values import Value
 from quizgen.question.compose import Part
+from quizgen.question.hints import rounding
 from quizgen.question.solution import PartSolution
+from quizgen.question.specs import Numbers
 
 Said = tuple[Inline, ...]
 """A sentence, or pieces of one."""
@@ -30,12 +34,14 @@ Said = tuple[Inline, ...]
 class Numeric:
     """A number: the key's interval first, then those of known mistakes; no two meet.
 
-    ``name`` stands before its field where there are several, ``unit`` behind it.
+    ``name`` stands before its field where there are several, ``unit`` behind it; ``precision``
+    says how exactly it is meant.
     """
 
     name: str
     unit: str
     ranges: tuple[Range, ...]
+    precision: str = ""
 
     @property
     def key(self) -> Range:
@@ -86,23 +92,32 @@ class Pairs:
 
 @dataclass(frozen=True, slots=True)
 class Order:
-    """Steps, and their marks in the one order that is right."""
+    """Steps, and their marks in the one order that is right; a step may have no place in it."""
 
     steps: tuple[tuple[str, Said], ...]
     right: tuple[str, ...]
 
+    @property
+    def whole(self) -> bool:
+        """Whether every step has its place."""
+        return len(self.steps) == len(self.right)
+
 
 @dataclass(frozen=True, slots=True)
 class Fill:
-    """Words: those that are right, the first one shown, and wrong ones with what is said."""
+    """Words: those that are right, the first one shown, and wrong ones with what is said.
+
+    What a program prints is meant to the letter (``printed``).
+    """
 
     right: tuple[str, ...]
     wrong: tuple[tuple[str, Said], ...] = ()
+    printed: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class Write:
-    """What a person marks: why, by the name of a sentence of the report, and the key."""
+    """What a person marks: why, in a word of the report, and the key."""
 
     why: str
     key: Said
@@ -113,6 +128,11 @@ NOWHERE = "-"
 """The place of a step that belongs to no place."""
 
 Ask = Numeric | Choose | Truth | Pairs | Order | Fill | Write
+
+
+def by_person(found: Iterable[Ask]) -> bool:
+    """Whether a part that asks this is marked by a person."""
+    return any(isinstance(ask, Write) for ask in found)
 
 
 def as_pairs(ask: Pairs | Order, lang: str) -> Pairs:
@@ -209,7 +229,18 @@ def _measured(
         return (asked.written("fraction"),)
     said = asked.mistakes
     wrong = [Near(value, said.get(name, ())) for name, value in spec.trap_values(scale)]
-    return (Numeric("", unit, ranges(spec, key, wrong, period)),)
+    told = _precision(spec, spec.value, asked.lang)
+    return (Numeric("", unit, ranges(spec, key, wrong, period), told),)
+
+
+def _precision(spec: Measured, key: Numbers, lang: str) -> str:
+    """How exactly a number is meant that can only be typed as a decimal."""
+    rule, number = spec.stated or ("", "")
+    if rule == "exact":
+        return word(lang, "export.exact")
+    if rule == "abs":
+        return word(lang, "export.abs", abs=people.number(str(number)))
+    return rounding(spec, key, lang)
 
 
 def _finite(key: Value) -> bool:
@@ -226,7 +257,7 @@ def _point(spec: point.Spec, asked: Asked) -> tuple[Ask, ...]:
     return _several(spec, asked, [box.name for box in asked.part.field.control.boxes])
 
 
-def _several(spec: Numbers, asked: Asked, names: list[str]) -> tuple[Ask, ...]:
+def _several(spec: SeveralNumbers, asked: Asked, names: list[str]) -> tuple[Ask, ...]:
     said = asked.mistakes
     found: list[Ask] = []
     for place, key in enumerate(spec.keys()):
@@ -237,7 +268,8 @@ def _several(spec: Numbers, asked: Asked, names: list[str]) -> tuple[Ask, ...]:
             for name, values in spec.traps.items()
         ]
         name = names[place] if place < len(names) else ""
-        found.append(Numeric(name, spec.unit, ranges(spec, key, wrong)))
+        told = _precision(spec, spec.values, asked.lang)
+        found.append(Numeric(name, spec.unit, ranges(spec, key, wrong), told))
     return tuple(found)
 
 
@@ -249,7 +281,7 @@ def _table(spec: table.Spec, asked: Asked) -> tuple[Ask, ...]:
         (one,) = _asks(cell, asked)
         if isinstance(one, Write):
             return (one,)
-        found.append(Numeric(name, one.unit, one.ranges) if isinstance(one, Numeric) else one)
+        found.append(replace(one, name=name) if isinstance(one, Numeric) else one)
     return tuple(found)
 
 
@@ -282,8 +314,7 @@ def _match(spec: match.Spec, asked: Asked) -> tuple[Ask, ...]:
 def _order(spec: order.Spec, asked: Asked) -> tuple[Ask, ...]:
     if spec.before and not _one_way(spec):
         return (asked.written("orders"),)
-    found = Order(asked.part.field.options, tuple(spec.steps))
-    return (as_pairs(found, asked.lang) if spec.distractors else found,)
+    return (Order(asked.part.field.options, tuple(spec.steps)),)
 
 
 def _one_way(spec: order.Spec) -> bool:
@@ -312,4 +343,10 @@ def _code(spec: code.Spec, asked: Asked) -> tuple[Ask, ...]:
         return (asked.written("lines"),)
     said = asked.mistakes
     wrong = tuple((typed, said.get(name, ())) for name, typed in spec.traps.items())
-    return (Fill(outputs, wrong),)
+    return (Fill(tuple(_set(outputs)), wrong, printed=True),)
+
+
+def _set(outputs: Iterable[str]) -> Iterator[str]:
+    """Outputs, and the same without blanks behind commas."""
+    for output in outputs:
+        yield from dict.fromkeys((output, output.replace(", ", ",")))

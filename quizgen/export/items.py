@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 from quizgen.bank.folder import Bank
-from quizgen.export.asks import Ask, Write, asks
+from quizgen.export.asks import Ask, asks
 from quizgen.paper.blueprint import Blueprint
 from quizgen.paper.paper import Item as PaperItem
 from quizgen.paper.paper import Progress, build, silent
@@ -39,6 +39,16 @@ class Item:
         return self.question.lang
 
     @property
+    def number(self) -> str:
+        """What it is called in any language."""
+        return self.id.rsplit(".", 1)[0]
+
+    @property
+    def category(self) -> str:
+        """Where a course keeps it: what stands together there, a quiz may draw from."""
+        return f"{self.lang}/{self.slot}"
+
+    @property
     def paper_item(self) -> PaperItem:
         """The same as a question of a paper, whose worked solution is printed."""
         return PaperItem(self.question.number, (self.question,), (self.key,))
@@ -56,15 +66,10 @@ class Item:
         cited = dict.fromkeys(line.formula for line in lines if line.formula)
         return (self.question.topic, f"tier {self.question.tier}", *cited)
 
-    @property
-    def written(self) -> tuple[tuple[str, str], ...]:
-        """Field and why, of each part that a person marks."""
-        return tuple(
-            (part.field.id, ask.why)
-            for part, found in self.parts
-            for ask in found
-            if isinstance(ask, Write)
-        )
+
+def by_slot(items: Iterable[Item]) -> list[Item]:
+    """The items of one slot after another, those of a slot in their order."""
+    return sorted(items, key=lambda item: item.category)
 
 
 def of_templates(
@@ -115,13 +120,19 @@ def of_blueprint(
 ) -> Iterator[Item]:
     """The questions of papers of consecutive seeds; those of one number share a slot.
 
+    No two in a slot are the same.
+
     Raises
     ------
     BlueprintError
         If no template fits a slot.
     """
     for lang in langs:
+        seen = set[tuple[str, str]]()
         for place in range(seed, seed + variants):
             for item in build(bank, blueprint, place, lang, progress=progress).items:
-                name = f"{blueprint.name}.{place}.{item.number}.{lang}"
-                yield Item(name, f"{int(item.number):02}", item.questions[0], item.keys[0])
+                slot, key = f"{blueprint.name}/{int(item.number):02}", item.keys[0]
+                if (slot, key.identity) not in seen:
+                    seen.add((slot, key.identity))
+                    name = f"{blueprint.name}.{place}.{item.number}.{lang}"
+                    yield Item(name, slot, item.questions[0], key)

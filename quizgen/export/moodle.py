@@ -16,35 +16,33 @@ from fractions import Fraction
 from functools import cache, singledispatch
 from itertools import groupby
 from math import lcm
-from typing import NamedTuple
 
 import jinja2
 from markupsafe import Markup
 
-from quizgen.export.asks import Ask, Choose, Fill, Numeric, Order, Pairs, Truth, Write, as_pairs
-from quizgen.export.items import Item
+from quizgen.bank.prose import Words
+from quizgen.export.answers import answers, lettered
+from quizgen.export.asks import (
+    Ask,
+    Choose,
+    Fill,
+    Numeric,
+    Order,
+    Pairs,
+    Truth,
+    Write,
+    as_pairs,
+    by_person,
+)
+from quizgen.export.items import Item, by_slot
+from quizgen.export.wording import body, hints, image, marked, solution, stem, targets
 from quizgen.figures import Figure
 from quizgen.locale import word
 from quizgen.maths.units import shown as shown_unit
 from quizgen.question.compose import Part
-from quizgen.question.markup import blocks, inline
+from quizgen.question.markup import inline
 from quizgen.question.shown import named
-from quizgen.render.html import fragment
 from quizgen.render.layouts import environment
-from quizgen.render.text import inline as in_text
-
-SHARES = (100, 90, 83.33333, 80, 75, 70, 66.66667, 60, 50, 40, 33.33333, 30, 25, 20, 16.66667,
-          14.28571, 12.5, 11.11111, 10, 5, 0)  # fmt: skip
-"""The percentages that Moodle knows; a question with another one is left out without a word."""
-
-
-class Answer(NamedTuple):
-    """An answer, its percentage, and what is said to it."""
-
-    typed: str
-    percent: float
-    said: Markup = Markup("")
-    tolerance: str = ""
 
 
 @dataclass(frozen=True)
@@ -75,13 +73,18 @@ def write(items: Iterable[Item]) -> bytes:
     bytes
         The same for the same questions.
     """
-    rows = sorted(items, key=lambda item: (item.lang, item.slot))
     slots = [
-        (f"{lang}/{slot}", [entry for item in found for entry in entries(item)])
-        for (lang, slot), found in groupby(rows, key=lambda item: (item.lang, item.slot))
+        (slot, [entry for item in found for entry in entries(item)])
+        for slot, found in groupby(by_slot(items), key=lambda item: item.category)
     ]
     page = _layouts().get_template("moodle.xml.j2")
     return page.render(slots=slots).encode()
+
+
+def by_hand(item: Item) -> Iterator[tuple[str, str]]:
+    """Field and why, of each part that a person marks."""
+    for part, found in item.parts:
+        yield from ((part.field.id, ask.why) for ask in found if isinstance(ask, Write))
 
 
 @cache
@@ -90,53 +93,51 @@ def _layouts() -> jinja2.Environment:
     layouts.globals.update(
         answers=answers,
         base64=lambda figure: base64.b64encode(figure.svg).decode(),
-        inline=inline,
-        targets=lambda pairs: dict(pairs.targets),
-        text=in_text,
         cdata=lambda text: Markup(str(text).replace("]]>", "]]]]><![CDATA[>")),  # noqa: S704
-        solution=_solution,
-        in_order=lambda order: [dict(order.steps)[mark] for mark in order.right],
+        hints=hints,
+        in_order=lambda order: [(mark, dict(order.steps)[mark]) for mark in order.right],
+        inline=inline,
+        marked=marked,
+        solution=lambda item: solution(item, _picture("solution.svg", item.key.figure)),
+        targets=targets,
     )
     return layouts
 
 
-def _solution(item: Item) -> Markup:
-    """The worked solution, and its picture if it has one of its own."""
-    return fragment("worked.html.j2", item=item.paper_item, picture=_picture(item.key.figure))
+def _picture(name: str, figure: Figure | None) -> Markup:
+    return image(f"@@PLUGINFILE@@/{name}", figure)
 
 
 def entries(item: Item) -> Iterator[Entry]:
     """The questions that an item becomes: one, and an essay for each part that a person marks."""
-    by_machine = [(part, found) for part, found in item.parts if not _by_person(found)]
+    by_machine = [(part, found) for part, found in item.parts if not by_person(found)]
+    above = stem(item, _picture("figure.svg", item.question.figure))
     if by_machine:
-        yield _one(item, by_machine) or _cloze(item, by_machine)
+        yield _one(item, above) or _cloze(item, above, by_machine)
     for part, found in item.parts:
         for ask in found:
             if isinstance(ask, Write):
-                suffix = f".{part.label}" if by_machine or len(item.parts) > 1 else ""
-                text = _stem(item) + _body(part, item.lang)
+                suffix = f".{part.label}" if part.label else ""
+                text = above + body(part, found, item.lang)
                 yield _entry(item, "essay", suffix, part.points, text, ask)
-
-
-def _by_person(found: Sequence[Ask]) -> bool:
-    return any(isinstance(ask, Write) for ask in found)
 
 
 def _entry(
     item: Item, kind: str, suffix: str, points: Fraction, text: Markup, ask: Ask | None
 ) -> Entry:
-    number = item.id.rsplit(".", 1)[0]
-    name = f"{item.question.title} ({number}{suffix})"
+    name = f"{item.question.title} ({item.number}{suffix})"
     return Entry(item, kind, f"{item.id}{suffix}", name, points, text, ask)
 
 
-def _one(item: Item, parts: Sequence[tuple[Part, tuple[Ask, ...]]]) -> Entry | None:
+def _one(item: Item, above: Markup) -> Entry | None:
     """A question of Moodle's own type, if only one thing is asked."""
-    part, found = parts[0]
+    part, found = item.parts[0]
     if len(item.parts) > 1 or len(found) > 1:
         return None
     (ask,) = found
-    text = _stem(item) + _body(part, item.lang) + _asked(part, item.lang)
+    if isinstance(ask, Order) and not ask.whole:
+        ask = as_pairs(ask, item.lang)
+    text = above + body(part, found, item.lang)
     return _entry(item, _kind(ask), "", part.points, text, ask)
 
 
@@ -153,87 +154,13 @@ _kind.register(Order, lambda _ask: "ordering")
 _kind.register(Fill, lambda _ask: "shortanswer")
 
 
-def _stem(item: Item) -> Markup:
-    """What stands before the parts."""
-    text = blocks(item.question.stem, item.lang)
-    return text + _picture(item.question.figure, name="figure.svg")
-
-
-def _picture(figure: Figure | None, name: str = "solution.svg") -> Markup:
-    if figure is None:
-        return Markup("")
-    tag = Markup('<p><img src="@@PLUGINFILE@@/{}" alt="{}" width="{:.0f}" height="{:.0f}"></p>')
-    return tag.format(name, figure.alt, figure.width_pt * 4 / 3, figure.height_pt * 4 / 3)
-
-
-def _body(part: Part, lang: str) -> Markup:
-    label = Markup("<p><strong>({})</strong></p>").format(part.label) if part.label else Markup("")
-    return label + blocks(part.body, lang)
-
-
-def _asked(part: Part, lang: str) -> Markup:
-    """How exactly and in which unit an answer is meant."""
-    if part.field.control.form != "line":
-        return Markup("")
-    return Markup("<p><small>{}</small></p>").format(inline(part.field.hint, lang))
-
-
-def answers(ask: Ask, lang: str) -> list[Answer]:
-    """What Moodle compares an answer with, in this order."""
-    return list(_answers(ask, lang))
-
-
-@singledispatch
-def _answers(ask: Ask, _lang: str) -> Iterator[Answer]:
-    raise TypeError(type(ask).__name__)
-
-
-@_answers.register
-def _numbers(ask: Numeric, lang: str) -> Iterator[Answer]:
-    for one in ask.ranges:
-        said = inline(one.said, lang)
-        yield Answer(repr(one.value), 100 * one.right, said, repr(one.width))
-
-
-@_answers.register
-def _words(ask: Fill, lang: str) -> Iterator[Answer]:
-    for typed in ask.right:
-        yield Answer(_literal(typed), 100)
-    for typed, said in ask.wrong:
-        yield Answer(_literal(typed), 0, inline(said, lang))
-
-
-def _literal(typed: str) -> str:
-    """A star stands for anything, unless a backslash is before it."""
-    return typed.replace("*", "\\*")
-
-
-@_answers.register
-def _options(ask: Choose, lang: str) -> Iterator[Answer]:
-    for option, share in zip(ask.options, _shares(ask), strict=True):
-        yield Answer(str(inline(option.words, lang)), share, inline(option.said, lang))
-
-
-def _shares(ask: Choose) -> list[float]:
-    """The percentage of each option: one that is too much takes away what a right one gives."""
-    if not ask.many:
-        return [100 * option.right for option in ask.options]
-    share = _known(Fraction(100, max(len(ask.right), 1)))
-    return [share if option.right else -share for option in ask.options]
-
-
-def _known(share: Fraction) -> float:
-    """The nearest percentage that Moodle knows."""
-    return min(SHARES, key=lambda known: abs(known - share))
-
-
-def _cloze(item: Item, parts: Sequence[tuple[Part, tuple[Ask, ...]]]) -> Entry:
+def _cloze(item: Item, above: Markup, parts: Sequence[tuple[Part, tuple[Ask, ...]]]) -> Entry:
     """One question with a field in its text for each value."""
     shares = [part.points / _fields(found, item.lang) for part, found in parts]
     scale = lcm(*(share.denominator for share in shares))
-    text = _stem(item)
+    text = above
     for (part, found), share in zip(parts, shares, strict=True):
-        text += _body(part, item.lang) + _asked(part, item.lang)
+        text += body(part, found, item.lang)
         for ask in found:
             text += _embedded(ask, int(share * scale), item.lang)
     points = sum((part.points for part, _ in parts), Fraction(0))
@@ -262,13 +189,14 @@ def _embedded_number(ask: Numeric, weight: int, lang: str) -> Markup:
 
 @_embedded.register
 def _embedded_words(ask: Fill, weight: int, lang: str) -> Markup:
+    kind = "SHORTANSWER_C" if ask.printed else "SHORTANSWER"
     rows = [(_cloze_text(a.typed), a.percent, a.said) for a in answers(ask, lang)]
-    return Markup("<p>{}</p>").format(_field(weight, "SHORTANSWER", rows))
+    return Markup("<p>{}</p>").format(_field(weight, kind, rows))
 
 
 @_embedded.register
 def _embedded_options(ask: Choose, weight: int, lang: str) -> Markup:
-    rows = [(_cloze_text(a.typed), a.percent, a.said) for a in answers(ask, lang)]
+    rows = [(_cloze_text(lettered(a)), a.percent, a.said) for a in answers(ask, lang)]
     kind = "MULTIRESPONSE" if ask.many else "MULTICHOICE_V"
     return Markup("<div>{}</div>").format(_field(weight, kind, rows))
 
@@ -288,17 +216,14 @@ def _embedded_truth(ask: Truth, weight: int, lang: str) -> Markup:
 def _embedded_pairs(ask: Pairs | Order, weight: int, lang: str) -> Markup:
     """A drop-down of the targets' marks for each stem, since it can hold no formulas."""
     pairs = as_pairs(ask, lang)
-    listed = Markup("").join(
-        Markup("<li>{} {}</li>").format(mark, inline(words, lang))
-        for mark, words in pairs.targets
-        if isinstance(ask, Pairs)
-    )
-    rows = Markup("").join(
-        Markup("<li>{} {}</li>").format(inline(words, lang), _drop_down(pairs, mark, weight, lang))
+    listed = [marked(mark, words, lang) for mark, words in pairs.targets if words != (Words(mark),)]
+    rows = [
+        marked(mark, words, lang) + " " + _drop_down(pairs, mark, weight, lang)
         for mark, words in pairs.stems
+    ]
+    return Markup("").join(
+        Markup("<p>{}</p>").format(Markup("<br>").join(lines)) for lines in (listed, rows) if lines
     )
-    above = Markup("<ul>{}</ul>").format(listed) if listed else Markup("")
-    return above + Markup("<ul>{}</ul>").format(rows)
 
 
 def _drop_down(pairs: Pairs, stem: str, weight: int, lang: str) -> Markup:

@@ -24,6 +24,8 @@ BEYOND = 1.01
 NARROWER, WIDER = 0.97, 1.003
 SAME = 1e-9
 """What counts as exact, and as on the edge, relative to the number."""
+ROUNDED = 2
+"""Places that a number is written with where the exact one was asked for and is longer."""
 DECIMALS = range(13)
 """Places that somebody may round to."""
 
@@ -92,9 +94,16 @@ def _right(rule: Tolerance, key: Value, period: Value | None) -> Iterator[Range]
 def _wrong(rule: Tolerance, one: Near) -> Range:
     """As near as marking calls a number by the name of a mistake."""
     value = to_float(one.value)
+    close = to_float(CLOSE) * abs(value)
     width = min(to_float(rule.half_width(one.value)), to_float(WIDEST) * abs(value))
-    widest = max(to_float(CLOSE) * abs(value), width, SAME * max(abs(value), 1))
+    wide = min(close, _rounding(value)) if rule.exact else max(close, width)
+    widest = max(wide, SAME * max(abs(value), 1))
     return Range(value, _off_edge(value, widest, NARROWER), right=False, said=one.said)
+
+
+def _rounding(value: float) -> float:
+    """How far a number is from what somebody writes who has to round it."""
+    return 0 if round(value, ROUNDED) == value else 0.51 * 10**-ROUNDED
 
 
 def _apart(wanted: Iterable[Range]) -> Iterator[Range]:

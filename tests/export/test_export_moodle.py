@@ -1,0 +1,212 @@
+"""Moodle XML read as Moodle's documents describe it, without a line of what wrote it."""
+
+from __future__ import annotations
+
+import base64
+import re
+from collections import Counter
+from fractions import Fraction
+from math import isclose
+from xml.etree import ElementTree as ET
+
+import pytest
+from cloze import fields
+
+from quizgen.export.asks import Choose, Fill, Numeric, Order, Pairs, by_person
+from quizgen.export.items import of_blueprint
+from quizgen.export.moodle import write
+from quizgen.paper.blueprint import load_blueprint
+from quizgen.question.markup import inline
+
+PERCENTAGES = {
+    100, 90, 83.33333, 80, 75, 70, 66.66667, 60, 50, 40, 33.33333, 30, 25, 20, 16.66667, 14.28571,
+    12.5, 11.11111, 10, 5, 0,
+}  # fmt: skip
+NUMBER = re.compile(r"-?\d+(\.\d+)?(e[-+]?\d+)?")
+
+
+@pytest.fixture(scope="module")
+def questions(items):
+    return read(items)
+
+
+def read(items):
+    root = ET.fromstring(write(items))
+    return {
+        one.findtext("idnumber"): one
+        for one in root.iter("question")
+        if one.get("type") != "category"
+    }
+
+
+def shares(question):
+    yield from (
+        float(one.get("fraction")) for one in question.iter("answer") if one.get("fraction")
+    )
+    for field in fields(question.findtext("questiontext/text")):
+        yield from (one.percent for one in field.alternatives)
+
+
+def keys(question):
+    """Every number that an answer is compared with, and how far it may be."""
+    if question.get("type") == "numerical":
+        for one in question.iter("answer"):
+            yield one.findtext("text"), one.findtext("tolerance")
+    for field in fields(question.findtext("questiontext/text")):
+        if field.kind == "NUMERICAL":
+            yield from (one.typed.split(":") for one in field.alternatives)
+
+
+def expected(item) -> set[str]:
+    """The names of the questions that an item becomes."""
+    written = [part.label for part, asks in item.parts if by_person(asks)]
+    essays = {f"{item.id}.{label}" if label else item.id for label in written}
+    return essays if len(written) == len(item.parts) else {item.id, *essays}
+
+
+def test_every_part_is_there(items, questions):
+    assert set().union(*map(expected, items)) == {*questions}
+    kinds = Counter(one.get("type") for one in questions.values())
+    assert {"cloze", "essay", "numerical", "multichoice", "matching"} <= {*kinds}
+
+
+def test_percentages_are_of_the_list_and_each_question_can_be_right(questions):
+    for name, one in questions.items():
+        found = list(shares(one)) if one.get("type") != "ordering" else []
+        assert {abs(share) for share in found} <= PERCENTAGES, name
+        if one.get("type") in {"numerical", "shortanswer", "truefalse"}:
+            assert 100 in found, name
+
+
+def test_numbers_have_a_point_and_a_tolerance(questions):
+    found = [pair for one in questions.values() for pair in keys(one)]
+    assert len(found) > 100
+    assert [text for pair in found for text in pair if not NUMBER.fullmatch(text)] == []
+
+
+def test_fields_of_a_text_are_what_is_asked(items, questions):
+    for item in items:
+        question = questions.get(item.id)
+        if question is None or question.get("type") != "cloze":
+            continue
+        found = fields(question.findtext("questiontext/text"))
+        asked = [ask for _, asks in item.parts for ask in asks if not by_person([ask])]
+        assert len(found) == sum(map(wide, asked)), item.id
+        places = iter(found)
+        for ask in asked:
+            compare(ask, [next(places) for _ in range(wide(ask))], item.lang)
+
+
+def wide(ask) -> int:
+    match ask:
+        case Pairs():
+            return len(ask.stems)
+        case Order():
+            return len(ask.steps)
+    return 1
+
+
+def compare(ask, found, lang):
+    """Whether the fields say what the ask does, feedback to the letter."""
+    rows = found[0].alternatives
+    match ask:
+        case Numeric():
+            assert [row.typed for row in rows] == [f"{r.value!r}:{r.width!r}" for r in ask.ranges]
+            assert [row.percent == 100 for row in rows] == [r.right for r in ask.ranges]
+            assert [row.said for row in rows] == [str(inline(r.said, lang)) for r in ask.ranges]
+        case Choose():
+            marks = [row.typed.split(".")[0] for row in rows if row.percent > 0]
+            assert marks == [option.mark for option in ask.right]
+            assert rows[0].typed.endswith(str(inline(ask.options[0].words, lang)))
+        case Fill():
+            right = [row.typed.replace("\\*", "*") for row in rows if row.percent == 100]
+            assert right == list(ask.right)
+        case Pairs():
+            right = [next(r.typed for r in f.alternatives if r.percent == 100) for f in found]
+            assert right == [ask.right[mark] for mark, _ in ask.stems]
+
+
+def test_weights_are_the_marks_of_the_parts(items, questions):
+    for item in items:
+        question = questions.get(item.id)
+        if question is None or question.get("type") != "cloze":
+            continue
+        weights = [field.weight for field in fields(question.findtext("questiontext/text"))]
+        points = [part.points for part, asks in item.parts if not by_person(asks)]
+        total = sum(points, Fraction(0))
+        assert isclose(float(question.findtext("defaultgrade")), total, rel_tol=1e-6)
+        start = 0
+        for points_of, (_, asks) in zip(
+            points, [row for row in item.parts if not by_person(row[1])], strict=True
+        ):
+            count = sum(map(wide, asks))
+            assert Fraction(sum(weights[start : start + count]), sum(weights)) == points_of / total
+            start += count
+
+
+def test_pictures_come_with_their_words(questions):
+    seen = 0
+    for name, one in questions.items():
+        for place in ("questiontext", "generalfeedback"):
+            shown = re.findall(
+                r'<img src="@@PLUGINFILE@@/(\S+)" alt="([^"]{20,})"', one.findtext(f"{place}/text")
+            )
+            files = {file.get("name"): file.text for file in one.iter("file")}
+            assert one.findtext(f"{place}/text").count("<img") == len(shown), name
+            for file, _ in shown:
+                assert base64.b64decode(files[file]).startswith(b"<svg"), name
+            seen += len(shown)
+    assert seen > 5
+
+
+def test_braces_tildes_quotes_and_stars_survive(items):
+    """Texts with every sign of the grammar, through the reader."""
+    from quizgen.export.moodle import _cloze_text
+
+    awkward = "{1:NUMERICAL:=3} ~ # \\ % = & &amp; \"quoted\" 'it' }"
+    (read_back,) = fields(
+        f"{{1:MULTICHOICE_V:%100%{_cloze_text(awkward)}#{_cloze_text(awkward)}~%0%no}}"
+    )
+    assert read_back.alternatives[0].typed == read_back.alternatives[0].said == awkward
+
+
+def test_nothing_is_left_of_our_own_pages(questions):
+    """Words hidden by our style would be seen twice."""
+    for one in questions.values():
+        page = "".join(one.itertext())
+        assert 'class="hidden"' not in page
+        assert "aria-hidden" not in page
+        assert "tabindex" not in page
+
+
+def test_a_question_of_one_number(reference):
+    """Names, marks and what to type, as the reference question of the notes has them."""
+    (one,) = read([reference("point-to-image-plane-fractions")]).values()
+    text = one.findtext("questiontext/text")
+    x, y = fields(text)
+    assert text.endswith("</p>")
+    assert "Type the number alone" in text
+    assert (x.weight, y.weight) == (3, 3)
+    assert x.alternatives[0].typed.startswith("6.66666")
+    (said,) = [row.said for row in x.alternatives if row.typed.startswith("20.0:")]
+    assert "forgot to divide by the depth" in said
+    assert "<h3>" in one.findtext("generalfeedback/text")
+
+
+def test_variants_of_a_paper_share_slots(bank):
+    plan = load_blueprint("trial", bank)
+    made = list(of_blueprint(bank, plan, 5, 2, ["en"]))
+    slots = Counter(item.slot for item in made)
+    assert {*slots.values()} <= {1, 2}
+    assert len({item.id for item in made}) == len(made)
+    assert write(made) == write(of_blueprint(bank, plan, 5, 2, ["en"]))
+
+
+@pytest.mark.slow
+def test_the_whole_bank(everything):
+    found = read(everything)
+    test_percentages_are_of_the_list_and_each_question_can_be_right(found)
+    test_numbers_have_a_point_and_a_tolerance(found)
+    test_fields_of_a_text_are_what_is_asked(everything, found)
+    test_weights_are_the_marks_of_the_parts(everything, found)
+    test_nothing_is_left_of_our_own_pages(found)
