@@ -1,5 +1,49 @@
 """Questions for other systems: one module per format over one model of what is asked.
 
-In: composed questions with their keys. Out: the bytes of a file that a system for courses imports.
-Must never know: how a question was drawn or how typed answers are read.
+In: composed questions with their keys. Out: the bytes of a file that a system for courses imports,
+and what a person has to mark there. Must never know: how a question was drawn or how typed answers
+are read.
 """
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+from quizgen.errors import one_of
+
+if TYPE_CHECKING:
+    from quizgen.export.items import Item
+
+FORMATS = {"moodle": "moodle.xml", "gift": "gift.txt"}
+"""The formats there are, and what their files are called."""
+
+
+class Exporter(NamedTuple):
+    """What a format's module offers.
+
+    ``write`` gives the bytes of a file, the same for the same questions; ``by_hand`` the fields of
+    a question that a person marks there, each with the reason.
+    """
+
+    write: Callable[[Iterable[Item]], bytes]
+    by_hand: Callable[[Item], Iterator[tuple[str, str]]]
+
+
+def exporter(name: str) -> Exporter:
+    """The functions of a format, loaded when it is asked for.
+
+    Raises
+    ------
+    ChoiceError
+        Naming the formats there are.
+    """
+    match one_of("format", name, FORMATS):
+        case "gift":
+            from quizgen.export import gift
+
+            return Exporter(gift.write, gift.by_hand)
+        case _:
+            from quizgen.export import moodle
+
+            return Exporter(moodle.write, moodle.by_hand)
