@@ -32,12 +32,13 @@ LAYERS = {
     "practice": "errors outside files locale maths bank marking question paper",
     "render": "errors outside files locale typeset bank question paper",
     "cards": "errors outside files locale maths typeset bank figures question paper render",
+    "export": "errors locale maths bank figures marking question paper render",
     "tradeoff": "errors outside files locale maths arrays typeset bank figures render",
     "web": "errors outside files png locale maths typeset bank camera figures marking question paper practice render "
     "cards tradeoff",
     "audit": "errors outside files locale maths bank figures marking question paper render",
     "cli": "errors outside files png locale maths bank camera figures marking question paper practice render cards "
-    "tradeoff audit web",
+    "export tradeoff audit web",
 }
 """Package to the packages below it that it may use. Solvers use ``maths.model`` alone."""
 

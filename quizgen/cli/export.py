@@ -1,0 +1,141 @@
+"""``quizgen export``."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Unpack
+
+import click
+
+from quizgen.cli.exam import USUAL
+from quizgen.cli.options import (
+    SEED,
+    BankOptions,
+    Whole,
+    bank_options,
+    open_bank,
+    split,
+    topic_option,
+)
+from quizgen.cli.terminal import Progress
+from quizgen.errors import ChoiceError
+from quizgen.export import FORMATS, exporter
+from quizgen.locale import FIRST, choices, chosen
+
+if TYPE_CHECKING:
+    from quizgen.bank.folder import Bank
+    from quizgen.export.items import Item
+
+MOST = 1000
+"""Most variants of a question in one file."""
+
+
+class Options(BankOptions):
+    """Which questions, and where to."""
+
+    target: str
+    blueprint: str | None
+    topic: str | None
+    templates: str | None
+    variants: int
+    seed: int
+    lang: str
+    out: Path | None
+
+
+@click.command()
+@click.argument("target", metavar="FORMAT", type=click.Choice([*FORMATS], case_sensitive=False))
+@click.option("--blueprint", help=f"A slot for each question of a paper. [default: {USUAL}]")
+@click.option("--topic", help="A slot for each template of this topic.")
+@click.option("--template", "templates", help="A slot for each of these templates, by comma.")
+@click.option("--variants", type=Whole(1, MOST), default=10, show_default=True,
+              help="Questions in a slot, as many as there are.")  # fmt: skip
+@click.option("--seed", type=SEED, default=0, show_default=True,
+              help="Number that fixes every draw.")  # fmt: skip
+@click.option("--lang", type=click.Choice(choices(), case_sensitive=False), default=FIRST,
+              show_default=True, help="Language.")  # fmt: skip
+@click.option("--out", type=click.Path(path_type=Path),
+              help="File to write. [default: in the folder export]")  # fmt: skip
+@bank_options
+def export(**options: Unpack[Options]) -> None:
+    """Write questions for a system for courses, with variants to draw from.
+
+    FORMAT is moodle (Moodle XML) or gift (plain text of Moodle). Parts that the system cannot mark
+    become essays; which and why is told, and stands in a file beside it.
+    """
+    from quizgen.files import write_all
+
+    target = options["target"]
+    path = options["out"] or Path("export") / FORMATS[target]
+    made = exporter(target)
+    with Progress("export") as tell:
+        items = list(_items(options, tell))
+        data = made.write(items)
+    lines = [
+        f"{item.id}: {field} exported as essay: {why}"
+        for item in items
+        for field, why in made.by_hand(item)
+    ]
+    report = f"{path.name}.report.txt"
+    contents = {report: _text(lines), path.name: data} if lines else {path.name: data}
+    for written in write_all(path.parent, contents):
+        click.echo(f"  {written}")
+    _summary(items, lines)
+
+
+def _text(lines: list[str]) -> bytes:
+    return "".join(f"{line}\n" for line in lines).encode()
+
+
+def _items(options: Options, tell: Progress) -> Iterator[Item]:
+    """The questions that are asked for.
+
+    Raises
+    ------
+    ChoiceError
+        If they are named in two ways.
+    """
+    from quizgen.export.items import of_blueprint, of_templates
+    from quizgen.paper.blueprint import load_blueprint
+
+    named = [options[key] for key in ("blueprint", "topic", "templates")]
+    if len(named) - named.count(None) > 1:
+        raise ChoiceError("--blueprint, --topic and --template each name the questions; give one")
+    bank = open_bank(options)
+    langs = chosen(options["lang"], bank.languages)
+    if options["topic"] is None and options["templates"] is None:
+        plan = load_blueprint(options["blueprint"] or USUAL, bank)
+        made = partial(of_blueprint, bank, plan)
+    else:
+        made = partial(of_templates, bank, _names(options, bank))
+    return made(options["seed"], options["variants"], langs, tell)
+
+
+def _names(options: Options, bank: Bank) -> list[str]:
+    """Templates of a topic, or those that are named.
+
+    Raises
+    ------
+    ChoiceError
+        If none is.
+    """
+    if options["topic"] is None:
+        names = list(dict.fromkeys(split(options["templates"])))
+        if not names:
+            raise ChoiceError("--template names no template")
+        return names
+    topic = topic_option(bank, options["topic"])
+    return [name for name in bank.paths if bank.rules(name).topic == topic]
+
+
+def _summary(items: list[Item], lines: list[str]) -> None:
+    """How many questions there are, and what a person marks of them, most frequent reason first."""
+    slots, parts = {item.category for item in items}, sum(len(item.parts) for item in items)
+    click.echo(f"{len(items)} questions in {len(slots)} slots, {parts} parts")
+    why = Counter(line.rpartition(": ")[2] for line in lines)
+    if lines:
+        told = ", ".join(f"{count} {name}" for name, count in why.most_common())
+        click.echo(f"{len(lines)} parts exported as essay: {told}")

@@ -1,0 +1,52 @@
+"""The table of docs/export.md is what the formats do with every kind of answer in the bank."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from pathlib import Path
+
+import pytest
+
+from quizgen.export import FORMATS, exporter
+from quizgen.export.items import Item
+from quizgen.question.compose import compose
+
+PAGE = Path(__file__).parents[2] / "docs" / "export.md"
+
+
+@pytest.fixture(scope="module")
+def plain(bank) -> list[Item]:
+    """Every template once, without its figures."""
+    return [
+        Item(f"{name}.1.en", name, *compose(bank.template(name), 1, "en", figures=False))
+        for name in bank.paths
+    ]
+
+
+def row(name: str, items: list[Item], kind: str) -> str:
+    """What a format does with a kind: marks it, leaves it to a person, or some of both."""
+    reasons, marked = set(), False
+    by_hand = exporter(name).by_hand
+    for item in items:
+        why = dict(by_hand(item))
+        for part, spec in zip(item.question.parts, item.key.specs, strict=True):
+            if spec.kind == kind:
+                marked |= part.field.id not in why
+                reasons |= {why.get(part.field.id, "")} - {""}
+    if not reasons:
+        return "marked"
+    told = ", ".join(sorted(reasons - {kind}))
+    return (f"marked, some essay ({told})" if marked else f"essay ({told})").replace(" ()", "")
+
+
+def test_the_table_of_the_page(plain):
+    found = defaultdict(list)
+    for item in plain:
+        for kind in {spec.kind for spec in item.key.specs}:
+            found[kind].append(item)
+    lines = [
+        f"| `{kind}` | " + " | ".join(row(name, found[kind], kind) for name in FORMATS) + " |"
+        for kind in sorted(found)
+    ]
+    text = PAGE.read_text(encoding="utf-8")
+    assert "\n".join(lines) in text, "\n".join(lines)
