@@ -32,7 +32,7 @@ _SPOKEN = re.compile(
 
 def foreign(page: Markup) -> Markup:
     """A piece of our pages as it can stand on others."""
-    shown = _SPOKEN.sub(r"\1", page).replace(' tabindex="0"', "")
+    shown = _SPOKEN.sub(r"\1", str(page)).replace(' tabindex="0"', "")
     return Markup(shown)  # noqa: S704 - made of pieces that are escaped
 
 

@@ -177,6 +177,7 @@ def test_nothing_is_left_of_our_own_pages(questions):
         assert 'class="hidden"' not in page
         assert "aria-hidden" not in page
         assert "tabindex" not in page
+        assert "&lt;math" not in page
 
 
 def test_a_question_of_one_number(reference):
