@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import shutil
 
+import html5lib
 import pytest
 from starlette.testclient import TestClient
 
@@ -97,6 +98,11 @@ def test_the_page_of_a_template_in_a_browser(browser, tmp_path_factory, root, ba
     finally:
         context.close()
         server.kill()
+
+
+@pytest.mark.parametrize("path", ["", f"/{NAME}", f"/{NAME}/lint"])
+def test_its_pages_are_valid(author, path):
+    html5lib.HTMLParser(strict=True).parse(author.get(f"/author{path}").text)
 
 
 def test_a_template_that_is_not_there_has_no_page(author):
