@@ -149,7 +149,8 @@ def _summary(session: Session, learning: Learning, words: dict[str, str]) -> Non
     _print(session, session.summary(), words)
     there = session.bank.topics
     past = [outcome for outcome in learning.outcomes() if outcome.topic in there]
-    results = by_topic(past, RECENT)
+    skipped = [outcome for outcome in session.state.outcomes if outcome.skipped]  # kept nowhere
+    results = by_topic([*past, *skipped], RECENT)
     if len(past) > len(session.state.outcomes):
         head(words["so-far"])
         _print(session, results, words)

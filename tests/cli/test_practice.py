@@ -198,7 +198,8 @@ def test_what_is_practised_here_shows_in_the_browser(browser_side):
 
 
 def test_a_skipped_part_says_nothing(browser_side):
-    run(["skip"] * 9, "--seed", several(), "--count", "1")
+    done = run(["skip"] * 9, "--seed", several(), "--count", "1")
+    assert "Practise next: Projection" in done.output
     assert browser_side.store.seen(browser_side.learner.id) == []
     assert browser_side.agenda().cards == {}
     browser_side.store.archives.take_in(
