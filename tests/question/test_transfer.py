@@ -119,6 +119,25 @@ def test_a_worked_solution_and_two_changes_are_introduced(lang):
         assert all(len(plain(text)) < 40 for _, text in part.options)
 
 
+def test_no_step_with_a_wrong_formula_is_called_right():
+    """Rounding gives the same as cutting off in about half of the four numbers."""
+    places = set()
+    for seed in range(40):
+        drawn = draw(builtin().template("flat-field-correction-output"), seed)
+        found = found_mistake(drawn)
+        if found is None or not found.trap:
+            continue
+        wrong = {step.name for step in drawn.template.chain.traps[found.trap]}
+        odd = [place for place, step in enumerate(found.steps) if step.name in wrong]
+        why = found("en").spec.why["en"]
+        assert found.place == odd[0]
+        assert not any(
+            why["ABCDEF"[place]].startswith(f"Step {place + 1} is right") for place in odd
+        )
+        places.add(found.trap)
+    assert "rounded" in str(places)
+
+
 def test_a_mistake_whose_value_cannot_be_written_is_left_out():
     """1 - (1/sqrt(a))^2*a is nought, but no number of digits shows it."""
     for seed in (18, 23, 34):

@@ -104,9 +104,11 @@ class Wrong:
         if self.trap and place == self.place:
             return filler.sentence("traps", self.trap)
         number = (Words(str(place + 1)),)
-        if self.trap and place > self.place and self._differs(place):
-            again = any(one.name == self.steps[place].name for one in self._wrong())
-            return said(lang, "transfer.again" if again else "transfer.carried", n=number)
+        if self.trap and place > self.place:
+            if any(one.name == self.steps[place].name for one in self._wrong()):
+                return said(lang, "transfer.again", n=number)
+            if self._differs(place):
+                return said(lang, "transfer.carried", n=number)
         why = filler.sentence("steps", self.steps[place].name)
         return said(lang, "transfer.right_step", n=number, why=why)
 
@@ -172,8 +174,11 @@ def _usable(drawn: Draw, index: int, steps: tuple[ChainStep, ...]) -> Iterator[t
         changed = [
             one.name for one in inside if not same_value(values[one.name], drawn.values[one.name])
         ]
-        if changed and not all(same_value(values[name], drawn.values[name]) for name in answer):
-            yield trap, min(places[name] for name in changed)
+        first = min(places[one.name] for one in inside)
+        if steps[first].name not in changed:  # a wrong formula that gives the right number
+            continue
+        if not all(same_value(values[name], drawn.values[name]) for name in answer):
+            yield trap, first
 
 
 def _writable(shown: Draw, steps: tuple[ChainStep, ...]) -> bool:
