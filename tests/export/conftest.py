@@ -2,19 +2,30 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
+
 import pytest
 
 from quizgen.export.items import Item, of_templates
 from quizgen.question.compose import compose
 
 
+def some(bank, count: slice) -> list[str]:
+    """A few templates of every kind."""
+    by_kind = defaultdict(list)
+    for name in bank.paths:
+        for part in bank.rules(name).part:
+            by_kind[part.answer["kind"]].append(name)
+    return list(dict.fromkeys(name for names in by_kind.values() for name in names[count]))
+
+
 @pytest.fixture(scope="session")
 def items(bank) -> list[Item]:
-    """Some of the bank in each language, not the same one."""
-    names = list(bank.paths)
+    """The first templates of every kind in English, the last ones in Bangla."""
     single = ["imread-missing-file", "luminous-flux-over-bands", "demosaic-at-border"]
-    english = of_templates(bank, [*names[::10], *single], 1, 1, ["en"])
-    return [*english, *of_templates(bank, names[4::12], 2, 1, ["bn"])]
+    names = dict.fromkeys([*some(bank, slice(2)), *single])
+    english = of_templates(bank, list(names), 1, 1, ["en"])
+    return [*english, *of_templates(bank, some(bank, slice(-1, None)), 2, 1, ["bn"])]
 
 
 @pytest.fixture(scope="session")
