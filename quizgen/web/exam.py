@@ -216,8 +216,8 @@ async def _hand_in(request: Request, sitting: Sitting) -> None:
     store = request.app.state.site.store.sittings
     paper = await _paper(request, sitting)
     answers = await run_in_threadpool(store.answers, sitting)
-    if await run_in_threadpool(store.hand_in, sitting, outcomes(paper, answers)):
-        results = marked(paper, answers, {})
+    results = marked(paper, answers, {})
+    if await run_in_threadpool(store.hand_in, sitting, outcomes(results)):
         learning = learning_of(request)
         await run_in_threadpool(learning.count, asked(learning.bank, results))
 

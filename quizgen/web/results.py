@@ -151,7 +151,7 @@ def asked(bank: Bank, results: Results) -> list[Asked]:
     return found
 
 
-def outcomes(paper: MadePaper, answers: Mapping[str, list[str]]) -> tuple[Seen, ...]:
+def outcomes(results: Results) -> tuple[Seen, ...]:
     """How the parts went, for what to practise next; blank ones were not right."""
     now = time.time()
     return tuple(
@@ -164,7 +164,7 @@ def outcomes(paper: MadePaper, answers: Mapping[str, list[str]]) -> tuple[Seen, 
             part.verdict.verdict == "correct",
             now,
         )
-        for question in marked(paper, answers, {}).questions
+        for question in results.questions
         for part in question.parts
         if part.status != "open"
     )
