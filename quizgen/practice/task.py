@@ -90,8 +90,8 @@ class Task(Generic[P, S]):
     ) -> None:
         self.topic, self.part, self.solved, self.state = topic, part, solved, state
         self._keyed, self._marker = keyed, marker
-        if state.typed:
-            marker.mark(keyed, state.typed)
+        self.verdict = marker.mark(keyed, state.typed).verdict if state.typed else None
+        """What is said of the last answer that could be read."""
 
     @property
     def outcome(self) -> Outcome | None:
@@ -132,7 +132,7 @@ class Task(Generic[P, S]):
         verdict = self._marker.mark(self._keyed, typed).verdict
         then = self._next(verdict)
         if then is not Next.ASK_BACK:
-            self.state.typed = typed
+            self.state.typed, self.verdict = typed, verdict
         if then in {Next.AGAIN, Next.OUT_OF_TRIES}:
             self.state.wrong, self.state.note = typed, verdict.note
         if then in {Next.RIGHT, Next.OUT_OF_TRIES}:

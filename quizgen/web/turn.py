@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import time
-from typing import Any
 
 import msgspec
 
 from quizgen.marking.options import Options
 from quizgen.marking.verdict import Verdict
+from quizgen.paper.key import KeyPart
 from quizgen.paper.marking import Marker
 from quizgen.practice.boxes import filled, joined
 from quizgen.practice.state import PartState
@@ -83,10 +83,10 @@ class Turn:
             for part, keyed in zip(made.parts, made.key.parts, strict=True)
         ]
 
-    def _place(self, part: MadePart, keyed: Any, progress: Progress) -> Place:
+    def _place(self, part: MadePart, keyed: KeyPart, progress: Progress) -> Place:
         task = Task(self.made.topic, part, part, keyed, progress.state, marker=self._marker)
-        typed = progress.asked_back or progress.state.typed
-        verdict = self._marker.mark(keyed, typed).verdict if typed else None
+        unread = progress.asked_back
+        verdict = self._marker.mark(keyed, unread).verdict if unread else task.verdict
         return Place(task, progress, verdict)
 
     def place(self, name: str) -> Place | None:
