@@ -125,6 +125,6 @@ async def unreachable(request: Request, error: Exception) -> Response:
 
 
 async def failed(request: Request, error: Exception) -> Response:
-    """A page for a template that is wrong; its author reads why."""
+    """A page for a template that is wrong; what is wrong stands on the page of its authors."""
     del error
     return page(request, "message.html.j2", 500, title="error.title", text="error.500")

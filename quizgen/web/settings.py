@@ -40,6 +40,8 @@ class Settings:
         before keeps its own.
     workers : int
         Processes that make questions.
+    examine : callable, optional
+        Says what is wrong with a template; without it there are no pages for authors.
     """
 
     database: str
