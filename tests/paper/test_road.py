@@ -9,13 +9,16 @@ from typing import Any
 
 import pytest
 from road import Desk, Printed, all_templates, fields, typed
+from sweep import draws
 
 from quizgen.paper.key import key_bytes
 
 LANGS = ("en", "bn")
 NUMBER = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?(?:e-?\d+)?")
 THOUSANDS = re.compile(r"-?[1-9]\d{0,2}\.\d{3}")
-SEEDS = [pytest.param(seed, marks=[pytest.mark.slow] * (seed > 1)) for seed in range(1, 51)]
+SEEDS = [
+    pytest.param(seed, marks=[pytest.mark.slow] * (seed > 1)) for seed in range(1, draws(50) + 1)
+]
 
 
 @pytest.fixture
@@ -23,10 +26,15 @@ def desk(bank, tmp_path, seed):
     return Desk(tmp_path, all_templates(bank, seed))
 
 
+def filled_in(seed: int) -> tuple[str, ...]:
+    """The first paper in every language, the others in turn: all of them have the same key."""
+    return LANGS if seed == 1 else (LANGS[seed % len(LANGS)],)
+
+
 @pytest.mark.parametrize("seed", SEEDS)
-def test_what_is_printed_is_marked_as_it_was_meant(desk):
+def test_what_is_printed_is_marked_as_it_was_meant(desk, seed):
     """Right answers typed as asked get full marks, known mistakes are named: in every form."""
-    papers = {lang: list(fields(desk.paper, lang)) for lang in LANGS}
+    papers = {lang: list(fields(desk.paper, lang)) for lang in filled_in(seed)}
     sheets: list[tuple[str, Any]] = []
     for lang, printed in papers.items():
         assert len(printed) >= 230
