@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 from click.testing import CliRunner
+from sweep import draws
 
 from quizgen.audit.leaks import leaks, said
 from quizgen.bank.folder import Bank
@@ -34,6 +35,11 @@ ASKERS = {
 
 CHOICE = '[[part]]\nanswer = { kind = "choice", options = { x = true, y = false } }\n'
 TF = '[claims]\nx = true\n[[part]]\nanswer = { kind = "tf", from = "claims" }\n'
+PAPERS = [
+    range(6),
+    *(pytest.param(range(n, n + 20), marks=pytest.mark.slow) for n in range(6, draws(106), 20)),
+]
+"""Seeds, in batches that several processes can share."""
 
 
 def options(text):
@@ -174,7 +180,7 @@ def test_lint_makes_papers_and_names_the_leak(tmp_path):
     assert CliRunner().invoke(lint, [str(tmp_path), "--papers", "3"]).exit_code == 0
 
 
-@pytest.mark.parametrize("seeds", [range(6), pytest.param(range(300), marks=pytest.mark.slow)])
+@pytest.mark.parametrize("seeds", PAPERS)
 @pytest.mark.parametrize("name", ["mock", "trial"])
 def test_no_paper_of_the_bank_tells_an_answer(bank, name, seeds):
     blueprint = load_blueprint(name)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import pytest
+from sweep import draws
 
 from quizgen.audit.teach import examine
 from quizgen.bank.folder import builtin
 
-SEEDS = [200, pytest.param(1000, marks=pytest.mark.slow)]
+SEEDS = [200, pytest.param(draws(500), marks=pytest.mark.slow)]
 
 
 @pytest.mark.parametrize("seeds", SEEDS)
