@@ -55,6 +55,12 @@ class Board:
         return WIDE, WIDE * (self.tall or (high - low) / (right - left))
 
     @property
+    def picture(self) -> Point:
+        """Width and height of the picture in points: the field and the room around it."""
+        wide, tall = self.size
+        return LEFT + wide + RIGHT, TOP + tall + FOOT
+
+    @property
     def frame(self) -> tuple[float, float, float, float]:
         """Where the field lies in the picture, in points from the upper left: x, y, size."""
         return (LEFT, TOP, *self.size)
@@ -100,8 +106,7 @@ def _figure(drawing: Drawing) -> Figure:
     from quizgen.figures._svg import with_title
 
     board = drawing.board
-    wide, tall = board.size
-    pen = Pen(LEFT + wide + RIGHT, TOP + tall + FOOT)
+    pen = Pen(*board.picture)
     _axes(pen, board)
     for line in board.given:
         pen.line(

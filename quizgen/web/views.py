@@ -15,6 +15,7 @@ from quizgen.locale import FIRST, known, language, languages, line_heights, mark
 from quizgen.render.layouts import environment
 from quizgen.web.door import form_token
 from quizgen.web.site import Site
+from quizgen.web.sketches import strokes
 from quizgen.web.store import Learner
 
 
@@ -22,7 +23,7 @@ from quizgen.web.store import Learner
 def _layouts() -> jinja2.Environment:
     layouts = environment("quizgen.web")
     layouts.filters["html"] = Markup  # of what was made here, see ``made.Html``
-    layouts.globals.update(languages=languages, language=language)
+    layouts.globals.update(languages=languages, language=language, strokes=strokes)
     return layouts
 
 
