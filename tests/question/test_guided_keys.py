@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 import sympy
 from models import mistaken, near, solved
+from sweep import draws
 
 from quizgen.bank.draw import draw
 from quizgen.bank.folder import builtin
@@ -20,7 +21,7 @@ CALCULATING = [
     name for name in builtin().paths
     if builtin().rules(name).solver and "guided" in builtin().rules(name).levels
 ]  # fmt: skip
-SEEDS = [1, *(pytest.param(n, marks=pytest.mark.slow) for n in range(2, 9))]
+SEEDS = [1, *(pytest.param(n, marks=pytest.mark.slow) for n in range(2, draws(5) + 1))]
 UNITS_ALONE = [1, 180 / sympy.pi]
 """Between two values of one formula in different units; powers of ten also come by chance."""
 
