@@ -10,10 +10,11 @@ from quizgen.render.html import page
 
 
 @cache
-def _style() -> str:
+def style() -> str:
+    """How formulas look, besides what all pages have; the pages of the browser show them alike."""
     return (files("quizgen.render") / "pages" / "sheet.css").read_text(encoding="utf-8")
 
 
 def render(sheet: Sheet) -> bytes:
     """Render a formula sheet as an HTML page."""
-    return page("sheet.html.j2", sheet.langs, _style(), sheet=sheet, notes=NOTES)
+    return page("sheet.html.j2", sheet.langs, style(), sheet=sheet, notes=NOTES)

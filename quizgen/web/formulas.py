@@ -17,6 +17,7 @@ from quizgen.question.markup import blocks, display, inline
 from quizgen.question.sheet import NOTES, Line, Sheet, sheet
 from quizgen.question.shown import Maths
 from quizgen.render import render_sheet
+from quizgen.render.sheet_html import style
 from quizgen.web.made import Html
 from quizgen.web.site import Site
 from quizgen.web.views import lang_of, page
@@ -125,8 +126,17 @@ async def file(request: Request) -> Response:
     return Response(data, media_type="application/pdf")
 
 
+async def style_sheet(_request: Request) -> Response:
+    """The style that the page shares with the sheet as a file."""
+    return Response(style(), media_type="text/css")
+
+
 def _missing(request: Request) -> Response:
     return page(request, "message.html.j2", 404, title="error.title", text="error.404")
 
 
-ROUTES = [Route("/formulas", formulas), Route("/formulas.pdf", file)]
+ROUTES = [
+    Route("/formulas", formulas),
+    Route("/formulas.pdf", file),
+    Route("/static/sheet.css", style_sheet),
+]

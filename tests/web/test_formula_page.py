@@ -7,6 +7,9 @@ import re
 
 import pytest
 
+from quizgen.question.sheet import sheet
+from quizgen.render import render_sheet
+
 
 def shown(page: str) -> str:
     return html.unescape(" ".join(re.sub(r"<[^>]*>", " ", page).split()))
@@ -49,8 +52,15 @@ def test_a_worked_solution_leads_to_its_formulas(client, token, begin):
     page = client.post(f"{at}/1", data={"token": token, "do": "solution", "a": ["", ""]}).text
     cited = set(re.findall(r'class="cite" href="/formulas#(F\d\d)"', page))
     assert cited
-    sheet = client.get("/formulas").text
-    assert all(f'id="{name}"' in sheet for name in cited)
+    formulas = client.get("/formulas").text
+    assert all(f'id="{name}"' in formulas for name in cited)
+
+
+def test_its_style_is_that_of_the_sheet_as_a_file(client, bank):
+    answer = client.get("/static/sheet.css")
+    assert answer.headers["content-type"].startswith("text/css")
+    assert answer.text in render_sheet(sheet(bank, "en"), "html").decode()
+    assert '<link rel="stylesheet" href="/static/sheet.css">' in client.get("/formulas").text
 
 
 @pytest.mark.browser
