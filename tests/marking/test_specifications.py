@@ -46,7 +46,7 @@ FULL = [
     {"kind": "text", "points": {"noise": ["noise", "grain"]}, "needed": 1},
     {"kind": "sketch", "view": [-1, 1, 0, "1"], "tall": "1/2", "lines": {"ray": "0,0 0.5,1"},
      "features": {"way": {"of": ["ray"], "worth": 2, "bend": True, "on": True,
-                          "circle": [0, 0, "0.7"], "tip": True}},
+                          "circle": [0, 0, "0.7"]}},
      "traps": {"half": {"ray": "0,0 0.25,1"}}, "notes": NOTES},
 ]  # fmt: skip
 """Every field of every kind, none of them at its default."""

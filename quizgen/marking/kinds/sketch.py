@@ -22,7 +22,7 @@ FLAT, MOST_BENT = 0.03, 0.25
 ROUGH = 0.03
 """How far from a smooth curve a hand may draw, as a share of the length."""
 NEAR = 0.045
-"""How far from its place a line may run or end, as a share of the width of the field."""
+"""How far from its place a line may run, as a share of the width of the field."""
 COVERED = 0.55
 """Share of a wanted line that has to be there."""
 CLEARLY = 0.06
@@ -41,7 +41,7 @@ class Feature(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
     ``of`` names the lines; ``worth`` weighs it among the others. ``bend``: straight, or bent to
     the same side as the wanted line. ``on``: it lies on the wanted line, whose ends it need not
     reach. ``circle``: centre and radius; both ends are inside or outside as those of the wanted
-    line. ``tip``: it ends where the wanted line's last point is.
+    line.
     """
 
     of: list[str]
@@ -49,7 +49,6 @@ class Feature(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
     bend: bool = False
     on: bool = False
     circle: tuple[Scalar, Scalar, Scalar] | None = None
-    tip: bool = False
 
 
 class Spec(Worded, kw_only=True, frozen=True):
@@ -150,7 +149,6 @@ class Spec(Worded, kw_only=True, frozen=True):
             (not feature.bend or _bends_alike(drawn.bow, wish.fit.bow))
             and (not feature.on or wish.covers(drawn))
             and (feature.circle is None or self._sides(feature.circle, wish, drawn))
-            and (not feature.tip or math.dist(wish.tip(drawn), wish.line[-1]) <= NEAR)
         )
 
     def _sides(self, circle: tuple[Scalar, ...], wish: _Wish, drawn: Fit) -> bool:
@@ -195,10 +193,6 @@ class _Wish(msgspec.Struct, frozen=True):
         last = min(drawn.middle + drawn.half, self.fit.middle + self.fit.half)
         places = (first, (first + last) / 2, last)
         return all(abs(drawn.off(place) - self.fit.off(place)) <= NEAR for place in places)
-
-    def tip(self, drawn: Fit) -> Point:
-        """The end of a drawn line that is to be where the wanted one ends."""
-        return min(drawn.ends, key=lambda end: math.dist(end, self.line[-1]))
 
 
 def _numbers(scalars: Sequence[Scalar]) -> list[float]:
