@@ -123,7 +123,7 @@ def test_everything_is_saved_as_a_file_and_taken_in_again(opened, served, tmp_pa
     assert '"format":"quizgen learning"' in file.read_text("utf-8")
     page.get_by_label("Take in such a file").set_input_files(file)
     page.get_by_role("button", name="Take in", exact=True).click()
-    expect(page.get_by_text("0 questions and exams were added.")).to_be_visible()
+    expect(page.get_by_text("Questions and exams added: 0.")).to_be_visible()
     page.get_by_label("Take in such a file").set_input_files(__file__)
     page.get_by_role("button", name="Take in", exact=True).click()
     expect(page.get_by_role("alert")).to_contain_text("nothing has changed")
