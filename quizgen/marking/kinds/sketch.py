@@ -15,6 +15,7 @@ from quizgen.marking.reading.strokes import Point, View, read_line, read_strokes
 from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, shared
 from quizgen.maths.constants import Scalar
+from quizgen.maths.numbers import MINUS
 from quizgen.maths.numbers import written as written_number
 
 FLAT, MOST_BENT = 0.03, 0.25
@@ -101,7 +102,7 @@ class Spec(Worded, kw_only=True, frozen=True):
         missed = tuple(name for name, share in shares.items() if share < 1)
         return shared(
             credit / sum(worth.values()),
-            safe(written(strokes, self.digits), 80),
+            safe(self._told(strokes), 80),
             note,
             right=len(shares) - len(missed),
             of=len(shares),
@@ -116,7 +117,11 @@ class Spec(Worded, kw_only=True, frozen=True):
 
     def show(self) -> str:
         """The wanted lines, curved ones by a few of their points."""
-        return written([_few(read_line(line)) for line in self.lines.values()], self.digits)
+        return self._told([_few(read_line(line)) for line in self.lines.values()])
+
+    def _told(self, lines: Sequence[Sequence[Point]]) -> str:
+        """Lines as people write them, and as they can be typed."""
+        return written(lines, self.digits).replace("-", MINUS)
 
     def _placed(self, line: Sequence[Point]) -> list[Point]:
         """Points in shares of the width of the field."""

@@ -16,7 +16,7 @@ const sketching = (box) => {
   const snapped = (point) => point.map((value, i) => Math.round(value / snaps[i]) * snaps[i]);
   const number = (value) => String(Number(value.toFixed(digits)) + 0);
   const written = (lines) => lines.map((line) => line.map((point) => point.map(number).join(",")).join(" ")).join("; ");
-  const typed = () => area.value.split(/[;\n]/)
+  const typed = () => area.value.replaceAll("\u2212", "-").split(/[;\n]/)
     .map((line) => [...line.matchAll(/(-?[\d.]+) ?, ?(-?[\d.]+)/g)].map((found) => [Number(found[1]), Number(found[2])]))
     .filter((line) => line.length && line.flat().every(Number.isFinite));
   let now = null, cursor = null, setting = false;
