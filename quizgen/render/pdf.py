@@ -246,7 +246,8 @@ class _Sheet:
         said = f"#strong({string(name + ':')}); {inline(part.shown, lang)}"
         options = [inline(option, lang) for option in part.options]
         if len(options) == 1:
-            return f'{said}#" - ";{options[0]}'
+            between = '#" - ";' if part.shown else ""
+            return f"{said}{between}{options[0]}"
         return f"{said}#list({', '.join(f'[{o}]' for o in options)});" if options else said
 
     def _remarks(self, item: Item) -> str:

@@ -13,7 +13,7 @@ import typst
 from PIL import Image
 
 from quizgen.paper.blueprint import load_blueprint
-from quizgen.paper.paper import build
+from quizgen.paper.paper import build, single
 from quizgen.render import html, pdf
 from quizgen.render.room import squares
 from quizgen.render.typ import _fonts
@@ -107,3 +107,11 @@ def test_options_break_between_rows_and_none_stands_alone(body):
     for rows in re.findall(r"(?:^#(?:tick|pair|option)\(.*\n)+", body, re.MULTILINE):
         held = ["hold: true" in row for row in rows.splitlines()]
         assert held == [place in {0, len(held) - 1} for place in range(len(held))]
+
+
+def test_an_answer_told_in_words_alone_begins_with_them(bank):
+    paper = single(bank.template("define-image-pixel-channel"), 3, "en", figures=False)
+    said = re.findall(r"<strong>Answer:</strong>\s*(\S+)", html.render(paper, "solutions").decode())
+    assert said[1:] == ["one", "one", "false"]
+    typst_text, _ = pdf.source(paper, "solutions")
+    assert '#strong("Answer:"); #" - "' not in typst_text
