@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -171,8 +170,7 @@ class _Sheet:
         if self.kind == "solutions":
             return f"#whole[{body}]\n{rows}\n{self._solution(item, index)}"
         field = self._field(questions, index)
-        asked = f"#asked[{body}]\n{rows}\n#below[{field}]" if rows else f"#part[{body}\n{field}]"
-        return f"{asked}{_left_over(questions[0].parts[index:])}"
+        return f"#part[{body}\n{rows}\n{field}]\n{_left_over(first)}"
 
     def _field(self, questions: tuple[Question, ...], index: int) -> str:
         """What stands below a part and its options: hints, room to work in, lines to write on."""
@@ -279,13 +277,9 @@ def _points(points: Fraction) -> str:
     return f"{float(points):g}"
 
 
-def _left_over(parts: Sequence[Part]) -> str:
-    """What of the page is left goes to calculations, by points; without any, behind other parts."""
-    part, *others = parts
-    if part.field.control.reckoned:
-        return f"\n#more-room({_points(part.points)})"
-    run_on = others and not others[0].field.control.reckoned
-    return "" if run_on else "\n#rest"
+def _left_over(part: Part) -> str:
+    """What of the page is left goes to calculations, by points; without any it is for notes."""
+    return f"#more-room({_points(part.points)})" if part.field.control.reckoned else "#rest"
 
 
 def _reasons(part: PartSolution, lang: str) -> str:
