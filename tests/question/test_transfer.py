@@ -207,6 +207,13 @@ def test_what_follows_from_a_quantity_cannot_stay_when_it_changes():
     assert {change.given for change in Changes(drawn).of(0, "Y_601")} <= {"R", "G", "B"}
 
 
+def test_the_largest_of_two_depths_stays_the_largest():
+    template = builtin().template("weak-perspective-scale-error")
+    for seed in range(20):
+        for change in Changes(draw(template, seed)).of(0, "s_2"):
+            assert change.changed.shown["z_1"] < change.changed.shown["z_2"]
+
+
 def test_answers_vary_over_the_seeds():
     template = builtin().template("diameter-stops-and-exposure-time")
     drawn = [draw(template, seed) for seed in range(40)]
