@@ -46,6 +46,8 @@ STEM = 5
 """Letters by which words are compared."""
 USUAL = frozenset(str(2**power - less) for power in range(17) for less in (0, 1))
 """Numbers of levels and largest values: everybody has them in mind."""
+THIRD = re.compile(r"0\.(?:3{3,}|6{2,}7)")
+"""One and two thirds, rounded: they come up everywhere."""
 _NUMBER = re.compile(r"(?<![\w./])[-−]?\d+(?:[ \u00a0\u202f,]\d{3})*(?:\.\d+)?(?![\w.]*\d)")
 _WORD = re.compile(r"[^\W\d_\u0980-\u09ff][\w'-]{3,}|[\u0980-\u09ff]{3,}")
 
@@ -219,8 +221,10 @@ def _numbers(text: str) -> Iterator[str]:
         whole, _, decimals = number.partition(".")
         decimals = decimals.rstrip("0")
         digits = (whole + decimals).lstrip("0") if decimals else whole.strip("0")
-        if len(digits) >= (DIGITS if decimals else WHOLE) and (decimals or whole not in USUAL):
-            yield f"{whole}.{decimals}".rstrip(".")
+        shown = f"{whole}.{decimals}".rstrip(".")
+        usual = shown in USUAL or THIRD.fullmatch(shown)
+        if len(digits) >= (DIGITS if decimals else WHOLE) and not usual:
+            yield shown
 
 
 def _words(text: str) -> frozenset[str]:
