@@ -214,10 +214,14 @@ MOST_PLANS = 1000
 
 
 def plan_of(template: Template) -> Plan:
-    """The drawing plan of a template, built once per content."""
+    """The drawing plan of a template, built once.
+
+    A template of the same content in another bank has a plan of its own: what the banks say about
+    themselves may differ.
+    """
     key = f"{template.id}/{template.digest}"
     found = _PLANS.get(key)
-    if found is None:
+    if found is None or found.template is not template:
         found = _PLANS[key] = Plan(template)
         for oldest in [*_PLANS][:-MOST_PLANS]:
             _PLANS.pop(oldest, None)

@@ -298,3 +298,9 @@ def test_plans_of_templates_that_were_edited_are_dropped(tmp_path, monkeypatch):
     assert plan_of(first) is kept
     assert [len(plan_of(one).variables[0].choices) for one in others] == [4, 3]
     assert [plan.template for plan in plans._PLANS.values()] == others
+
+
+def test_a_draw_is_of_the_bank_that_was_asked(tmp_path):
+    one, other = (make_bank(tmp_path / name, BASE).template("mine") for name in ("one", "other"))
+    assert one.digest == other.digest
+    assert [draw(template, 0).template.path for template in (one, other)] == [one.path, other.path]
