@@ -163,7 +163,7 @@ def told(call: str, setup: str) -> str:
 def at_border(page: Page) -> dict[str, Any]:
     """Each call is made."""
     (part,) = page.parts.values()
-    found = [told(f"neighbours({one.partition('=')[2]})", page.programs[0]) for one in part.options]
+    found = [told(call, page.programs[0]) for call in part.options]
     return {"a": _matched(found, part.targets)}
 
 
