@@ -25,6 +25,7 @@ def exam(opened, served):
             page.get_by_label("with the clock running").uncheck()
         page.get_by_role("button", name="Begin the exam").click()
         expect(page.locator("#exam")).to_be_visible()
+        page.wait_for_load_state()  # then its script has run
         return page
 
     return begun
@@ -64,6 +65,19 @@ def test_a_reload_and_the_way_back_keep_what_was_typed(exam, served):
     page.goto(served.address + "/")
     page.go_back()
     expect(boxes(page).first).to_have_value("13")
+
+
+def test_what_is_typed_before_the_script_runs_is_saved(exam):
+    page, late = exam(), []
+    page.route("**/static/app.js", lambda route: late.append(route))  # noqa: PLW0108 (Playwright marks what it is given)
+    with page.expect_request("**/static/app.js"):
+        page.reload(wait_until="commit")
+    boxes(page).first.fill("8.25")
+    late[0].continue_()
+    expect(page.locator("#kept")).to_have_text(SAVED)
+    page.unroute_all()
+    page.reload()
+    expect(boxes(page).first).to_have_value("8.25")
 
 
 def test_enter_keeps_and_changes_nothing_else(exam):

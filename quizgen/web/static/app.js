@@ -86,9 +86,15 @@ document.addEventListener("htmx:after:swap", () => {
     try { return await busy; } finally { busy = null; if (waiting.size) { soon(wait || 300); } }
   };
   const send = () => { if (!busy && waiting.size) { flush(); } };
+  // Typed before this ran, while the page was still coming.
+  const already = (part) => {
+    const plain = (all) => JSON.stringify(all.some(Boolean) ? all : []);
+    return plain(values(part)) !== plain(JSON.parse(form.elements["on-" + part.dataset.part].value));
+  };
   for (const part of parts) {
     const kept = store.get(part.dataset.part);
-    if (Array.isArray(kept)) { fill(part, kept); waiting.add(part.dataset.part); }
+    if (already(part)) { store.set(part.dataset.part, values(part)); waiting.add(part.dataset.part); }
+    else if (Array.isArray(kept)) { fill(part, kept); waiting.add(part.dataset.part); }
     part.addEventListener("input", () => {
       store.set(part.dataset.part, values(part));
       waiting.add(part.dataset.part);
