@@ -13,6 +13,7 @@
 
 What the paper as a whole is to hold may be asked for: ``total = 100`` points exactly,
 ``minutes = [110, 120]``, at least ``figures = 6`` of ``figure_kinds = 4`` and ``photographs = 2``.
+``pauses = false`` forbids to stop the clock where it is sat in a browser, ``true`` allows it.
 
 ``reference`` lists the templates that make up the notes' own paper. A topic's name (``optics``), a
 topic with minutes (``optics.45``) or ``all.90`` is a blueprint without a file: questions of that
@@ -64,6 +65,7 @@ class Authored(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     figure_kinds: int = 0
     photographs: int = 0
     aids: dict[str, str] = {}
+    pauses: bool | None = None
 
     @property
     def demanding(self) -> bool:

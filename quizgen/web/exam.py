@@ -46,6 +46,8 @@ class Choice:
 
     name: str
     title: str
+    pauses: bool | None
+    """Whether it says itself that the clock may be stopped."""
 
 
 async def offer(request: Request) -> Response:
@@ -65,7 +67,7 @@ def _choices(request: Request) -> list[Choice]:
     for name in (*site.bank.blueprints, EVERYTHING, *site.bank.topics):
         plan = named_blueprint(name, site.bank)
         if plan is not None:
-            found.append(Choice(name, plan.title.get(lang) or plan.title["en"]))
+            found.append(Choice(name, plan.title.get(lang) or plan.title["en"], plan.pauses))
     return found
 
 
@@ -79,12 +81,13 @@ async def begin(request: Request) -> Response:
         problem = "code" if isinstance(error, CodeError) else "paper"
         return to(f"/exam?problem={problem}")
     limit = paper.minutes * 60.0 if one(form, "clock") else None
+    pauses = bool(one(form, "pauses")) if paper.pauses is None else paper.pauses
     sitting = await run_in_threadpool(
         site.store.sittings.begin,
         request.state.learner.id,
         paper.code,
         limit,
-        pauses=bool(one(form, "pauses")),
+        pauses=pauses,
     )
     return to(f"/exam/{sitting.id}")
 

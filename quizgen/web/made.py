@@ -137,6 +137,8 @@ class MadePaper(msgspec.Struct, frozen=True):
     title: str
     points: float
     minutes: int
+    pauses: bool | None
+    """Whether its blueprint allows pauses; None where whoever sits it chooses."""
     items: list[Made]
 
 
@@ -199,7 +201,14 @@ def _paper(bank: Bank, wanted: WantedPaper) -> MadePaper:
         )
         for item in paper.items
     ]
-    return MadePaper(paper.code, paper.title(lang), float(paper.points), paper.minutes, items)
+    return MadePaper(
+        paper.code,
+        paper.title(lang),
+        float(paper.points),
+        paper.minutes,
+        paper.blueprint.pauses,
+        items,
+    )
 
 
 def made(wanted: Wanted, question: Question, key: Key, bank: Bank | None = None) -> Made:

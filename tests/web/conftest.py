@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
+from own_bank import own_bank
 from served import Served
 from sqlalchemy import delete
 from starlette.testclient import TestClient
@@ -58,6 +59,14 @@ def app(settings):
     app = application(settings)
     with TestClient(app, ADDRESS):
         yield app
+
+
+@pytest.fixture(scope="module")
+def root(tmp_path_factory):
+    """The folder of a bank of one template."""
+    root = tmp_path_factory.mktemp("bank")
+    own_bank(root)
+    return root
 
 
 @pytest.fixture

@@ -3,31 +3,15 @@
 from __future__ import annotations
 
 import re
-import shutil
 
 import html5lib
 import pytest
+from own_bank import NAME
 from starlette.testclient import TestClient
 
-from quizgen.bank.folder import builtin
 from quizgen.cli.lint import problems_of
 from quizgen.web.app import application
 from quizgen.web.settings import Settings
-
-NAME = "point-to-image-plane"
-
-
-@pytest.fixture(scope="module")
-def root(tmp_path_factory):
-    """A bank of one template and its solver."""
-    root = tmp_path_factory.mktemp("bank")
-    shutil.copytree(builtin().paths[NAME], root / "templates" / "projection" / NAME)
-    (root / "templates" / "cards").mkdir()
-    shutil.copy(builtin().cards["formulas"], root / "templates" / "cards")
-    solver = "solvers/projection/perspective.py"
-    (root / solver).parent.mkdir(parents=True)
-    shutil.copy(builtin().root / solver, root / solver)
-    return root
 
 
 @pytest.fixture(scope="module")
