@@ -127,6 +127,25 @@ def test_errors_point_into_what_was_typed(typed, column):
     assert mark(spec, typed).fields["column"] == column
 
 
+@pytest.mark.parametrize(
+    ("kind", "typed", "column"),
+    [
+        ("point", "1; 1/0", 4),
+        ("point", "1; 1e999", 4),
+        ("point", "1; sqrt(-1)", 4),
+        ("point", "1; (2", 6),
+        ("table", "V = 1; S = 1/0", 12),
+        ("table", "V = 1; S = ab", 12),
+        ("table", "V = 1; S = 2 foo", 14),
+    ],
+)
+def test_what_is_wrong_with_one_of_several_values_is_said_where_it_stands(kind, typed, column):
+    values = {"point": ["1", "2"], "table": {"V": "1", "S": "2"}}
+    verdict = mark({"kind": kind, "values": values[kind]}, typed)
+    assert verdict.verdict == "unreadable"
+    assert verdict.fields["column"] == column
+
+
 def test_a_missing_end_points_behind_the_text():
     spec = {"kind": "expression", "value": "x", "symbols": {"x": "real"}}
     verdict = mark(spec, "(x + 1")

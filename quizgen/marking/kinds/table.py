@@ -14,6 +14,7 @@ from quizgen.marking.kinds import angle, number, quantity
 from quizgen.marking.options import Options
 from quizgen.marking.reading.lists import read_list
 from quizgen.marking.reading.named import find_name, split_name
+from quizgen.marking.reading.scalars import moved
 from quizgen.marking.reading.source import Source
 from quizgen.marking.specs import Measured, decode
 from quizgen.marking.verdict import Verdict, ambiguous, correct, partial, shared, with_values, wrong
@@ -133,7 +134,10 @@ def _placed(typed: str, names: list[str], decimal: str) -> dict[str, Source]:
 def _one(asked: Cell, name: str, item: Source | None, options: Options) -> Verdict:
     if item is None:
         return wrong("", "missing", names=(name,))
-    verdict = asked.judge(item.text, options)
+    try:
+        verdict = asked.judge(item.text, options)
+    except ReadError as error:
+        raise moved(error, item) from None
     if verdict.verdict == "unreadable":
         raise ReadError(verdict.note, item.column(0), verdict.read_as)
     return verdict

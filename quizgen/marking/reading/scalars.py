@@ -162,10 +162,19 @@ def read_source(source: Source, decimal: str) -> Readings:
     found = quick(source.text, decimal)
     if found:
         return found
-    main, other, doubt = pointed(tidied(source), decimal)
-    if other is None:
-        return Readings(_written(main))
-    return Readings(_written(main), _written(other), doubt)
+    try:
+        main, other, doubt = pointed(tidied(source), decimal)
+        return Readings(_written(main), None if other is None else _written(other), doubt)
+    except ReadError as error:
+        raise _inside(error, source) from None
+
+
+def _inside(error: ReadError, source: Source) -> ReadError:
+    """What is wrong with a number as a whole is wrong where the number begins."""
+    begin = source.column(0)
+    if (error.column or 1) >= begin:
+        return error
+    return ReadError(error.code, begin, error.found, error.expected)
 
 
 def _written(source: Source) -> Number:
