@@ -30,10 +30,39 @@ def joined(control: Control, values: Sequence[str], marks: Sequence[str] = ()) -
         return join(filled, marks)
     if not control.boxes or len(filled) == 1:
         return filled[0]
-    if control.named:
-        named = zip(control.boxes, filled, strict=False)
-        return _BETWEEN.join(f"{box.name} = {value}" for box, value in named if value)
-    return _BETWEEN.join(filled)
+    return _BETWEEN.join(before + value for _, before, value in _pieces(control, filled))
+
+
+def _pieces(control: Control, filled: Sequence[str]) -> list[tuple[int, str, str]]:
+    """Place of each field that counts, what is typed before its value, and the value."""
+    if not control.named:
+        return [(place, "", value) for place, value in enumerate(filled)]
+    named = enumerate(zip(control.boxes, filled, strict=False))
+    return [(place, f"{box.name} = ", value) for place, (box, value) in named if value]
+
+
+def located(control: Control, values: Sequence[str], column: int) -> tuple[int, int]:
+    """Place of the field and column in it, both where the line that was joined has a column.
+
+    Parameters
+    ----------
+    control : Control
+        Of a part with several boxes.
+    values : sequence of str
+        What stands in them; not all of it blank.
+    column : int
+        From 1.
+    """
+    begin, found = 0, (0, 1)
+    for place, before, value in _pieces(control, [value.strip() for value in values]):
+        begin += len(before)
+        blanks = len(values[place]) - len(values[place].lstrip())
+        found = place, max(1, column - begin) + blanks
+        begin += len(value)
+        if column <= begin + 1:
+            break
+        begin += len(_BETWEEN)
+    return found
 
 
 def filled(control: Control, values: Sequence[str], marks: Sequence[str] = ()) -> bool:

@@ -11,10 +11,11 @@ from quizgen.bank.folder import Bank
 from quizgen.marking.options import Options
 from quizgen.marking.verdict import Verdict
 from quizgen.paper.marking import Marker, PartResult, in_quarters
-from quizgen.practice.boxes import filled, joined
+from quizgen.practice.boxes import joined
 from quizgen.practice.schedule import Asked, Grade
 from quizgen.web.made import Made, MadePaper, MadePart
 from quizgen.web.store import Seen
+from quizgen.web.unread import Unread, unread
 
 WRONG = frozenset({"wrong", "partial"})
 
@@ -29,6 +30,7 @@ class Marked:
     result: PartResult
     own: float | None
     """The share of its points that the learner gave it, where a person has to decide."""
+    lang: str
 
     @property
     def verdict(self) -> Verdict:
@@ -36,10 +38,11 @@ class Marked:
         return self.result.verdict
 
     @property
-    def half(self) -> bool:
-        """Whether it could not be read because a field is empty."""
-        field = self.part.field
-        return not self.verdict.graded and not filled(field.control, self.values, field.marks)
+    def unread(self) -> Unread | None:
+        """Why it could not be read, if it could not."""
+        if self.verdict.graded or self.verdict.self_marked:
+            return None
+        return unread(self.part.field, self.values, self.verdict, self.lang)
 
     @property
     def marks(self) -> Fraction | None:
@@ -128,13 +131,14 @@ def marked(paper: MadePaper, answers: Mapping[str, list[str]], own: Mapping[str,
 
 
 def _question(item: Made, answers: Mapping[str, list[str]], own: Mapping[str, float]) -> Question:
-    marker = Marker(item.key, Options(item.wanted.lang))
+    lang = item.wanted.lang
+    marker = Marker(item.key, Options(lang))
     parts = []
     for part, keyed in zip(item.parts, item.key.parts, strict=True):
         field = part.field
         values = answers.get(field.id, ())
         typed = joined(field.control, values, field.marks)
-        parts.append(Marked(part, values, marker.mark(keyed, typed), own.get(field.id)))
+        parts.append(Marked(part, values, marker.mark(keyed, typed), own.get(field.id), lang))
     return Question(item, tuple(parts))
 
 

@@ -7,15 +7,19 @@ import time
 import msgspec
 
 from quizgen.marking.options import Options
-from quizgen.marking.verdict import Verdict
+from quizgen.marking.verdict import Verdict, unreadable
 from quizgen.paper.key import KeyPart
 from quizgen.paper.marking import Marker
 from quizgen.practice.boxes import filled, joined
 from quizgen.practice.state import PartState
-from quizgen.practice.task import TRIES, Feedback, Next, Task
+from quizgen.practice.task import TRIES, Next, Task
 from quizgen.web.learning import seen_of
 from quizgen.web.made import Made, MadePart
 from quizgen.web.store import Attempt, Seen
+from quizgen.web.unread import Unread, unread
+
+HALF = unreadable("values-missing")
+"""Said of fields of which some are empty."""
 
 
 class Progress(msgspec.Struct):
@@ -31,10 +35,10 @@ class Place:
     """A part on the page: its task, its fields, what was said of it last."""
 
     def __init__(
-        self, task: Task[MadePart, MadePart], progress: Progress, verdict: Verdict | None
+        self, task: Task[MadePart, MadePart], progress: Progress, verdict: Verdict | None, lang: str
     ) -> None:
         self.task, self.progress, self.verdict = task, progress, verdict
-        self.part = task.part
+        self.part, self._lang = task.part, lang
 
     @property
     def name(self) -> str:
@@ -47,11 +51,11 @@ class Place:
         return self.task.outcome is not None
 
     @property
-    def half(self) -> bool:
-        """Whether it could not be read because a field is empty."""
-        field = self.part.field
-        whole = filled(field.control, self.progress.values, field.marks)
-        return bool(self.progress.asked_back) and not whole
+    def unread(self) -> Unread | None:
+        """Why it could not be read, if it could not."""
+        if self.verdict is None or not self.progress.asked_back:
+            return None
+        return unread(self.part.field, self.progress.values, self.verdict, self._lang)
 
     @property
     def left(self) -> int:
@@ -85,9 +89,11 @@ class Turn:
 
     def _place(self, part: MadePart, keyed: KeyPart, progress: Progress) -> Place:
         task = Task(self.made.topic, part, part, keyed, progress.state, marker=self._marker)
-        unread = progress.asked_back
-        verdict = self._marker.mark(keyed, unread).verdict if unread else task.verdict
-        return Place(task, progress, verdict)
+        verdict = task.verdict
+        if progress.asked_back:
+            whole = _whole(part, progress.values)
+            verdict = self._marker.mark(keyed, progress.asked_back).verdict if whole else HALF
+        return Place(task, progress, verdict, self.made.wanted.lang)
 
     def place(self, name: str) -> Place | None:
         """A part by its name."""
@@ -98,16 +104,21 @@ class Turn:
         """Whether every part is done."""
         return all(place.done for place in self.places)
 
-    def answer(self, place: Place, values: list[str]) -> Feedback | None:
-        """Mark what stands in the fields of a part; None if that is nothing, or it is done."""
+    def answer(self, place: Place, values: list[str]) -> None:
+        """Mark what stands in the fields of a part, unless that is nothing, or it is done.
+
+        A field that was left out costs no try: Enter sends all of them from any of them.
+        """
         typed = joined(place.part.field.control, values, place.part.field.marks)
         place.progress.values = values
         if not typed or place.done:
-            return None
+            return
+        if not _whole(place.part, values):
+            place.verdict, place.progress.asked_back = HALF, typed
+            return
         feedback = place.task.answer(typed)
         place.verdict = feedback.verdict
         place.progress.asked_back = typed if feedback.then is Next.ASK_BACK else ""
-        return feedback
 
     def keep(self) -> tuple[Seen, ...]:
         """Write into the attempt how far the question has got; say which parts have just ended."""
@@ -128,3 +139,7 @@ class Turn:
 
     def _seen(self, place: Place) -> Seen:
         return seen_of(self.attempt.which, self.made.topic, place.part.label, place.task.state)
+
+
+def _whole(part: MadePart, values: list[str]) -> bool:
+    return filled(part.field.control, values, part.field.marks)

@@ -1,10 +1,10 @@
-"""Whether all fields of a part are filled in."""
+"""Fields of a part: whether all are filled in, and which one a column of their line is in."""
 
 from __future__ import annotations
 
 import pytest
 
-from quizgen.practice.boxes import filled
+from quizgen.practice.boxes import filled, joined, located
 from quizgen.question.contract import LINE, Box, Control
 
 TWO = Control("line", boxes=(Box(""), Box("")))
@@ -29,3 +29,29 @@ TWO = Control("line", boxes=(Box(""), Box("")))
 )
 def test_filled(control, values, marks, right):
     assert filled(control, values, marks) is right
+
+
+NAMED = Control("line", boxes=(Box("V"), Box("S"), Box("H")), named=True)
+
+
+@pytest.mark.parametrize(
+    ("control", "values", "marked"),
+    [
+        (TWO, ["1", "?"], (1, 1)),
+        (TWO, ["?", "1"], (0, 1)),
+        (TWO, ["12", "  3?4"], (1, 4)),
+        (TWO, ["1+?", "2"], (0, 3)),
+        (NAMED, ["1", "2?", "3"], (1, 2)),
+        (NAMED, ["", " 2", "3 ?"], (2, 3)),
+    ],
+)
+def test_a_column_of_the_joined_line_is_found_in_its_field(control, values, marked):
+    line = joined(control, values)
+    assert located(control, values, line.index("?") + 1) == marked
+
+
+def test_what_is_before_or_behind_a_value_belongs_to_it():
+    line = joined(NAMED, ["1", "2", "3"])
+    assert line == "V = 1; S = 2; H = 3"
+    assert located(NAMED, ["1", "2", "3"], line.index("S") + 1) == (1, 1)
+    assert located(NAMED, ["1", "2", "3"], len(line) + 1) == (2, 2)

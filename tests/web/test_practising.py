@@ -49,6 +49,27 @@ def test_right_wrong_and_unreadable_answers(client, token, begin, bank):
     assert client.get(at).text.count("verdict correct") == 1, "and is there again after a reload"
 
 
+@pytest.mark.parametrize(
+    ("typed", "told", "place"),
+    [
+        (["0.5", "0.2", " 0.4 +"], "S : Column 7: something is missing.", 2),
+        (["0.5", "1/0", "0.4"], "Δ : Division by zero.", 1),
+        (["0.2 0.3", "0.2", "0.4"], "V : Column 5: 0.3 does not fit here.", 0),
+        (["", "0.2", "0.4"], "Fill in every field.", 0),
+    ],
+)
+def test_of_several_fields_the_one_that_cannot_be_read_is_named(
+    client, token, begin, typed, told, place
+):
+    page = client.post(f"{begin('rgb-to-hsv')}/1a", data={"token": token, "a": typed}).text
+    verdict = re.search(r'<div class="verdict asked".*?</div>', page, re.DOTALL)[0]
+    assert told in text(verdict)
+    boxes = re.findall('<input type="text" name="a" id="a-1a[^>]*>', page)
+    wrong = [number for number, box in enumerate(boxes) if "aria-invalid" in box]
+    assert wrong == [place]
+    assert "left" not in text(verdict)
+
+
 def test_three_wrong_answers_show_the_solution(client, token, begin):
     at = begin("point-to-image-plane")
     for _ in range(3):
