@@ -13,6 +13,7 @@
     |-- RenderError      an output could not be made or written
     |-- StoreError       the database of the browser's server, or its port, cannot be opened
     |-- KeyFileError     a key or an answer file cannot be read
+    |-- ClassError       a class's roster or folder is wrong, or would be spoiled
     `-- ChoiceError      an argument is none of the values allowed (names them)
 
 Three more stand beside their subject: ``SceneError`` in ``camera.scene``, ``OraclesDisagree`` in
@@ -80,6 +81,10 @@ class StoreError(QuizgenError):
 
 class KeyFileError(QuizgenError):
     """A key or an answer file cannot be read."""
+
+
+class ClassError(QuizgenError):
+    """A class's roster or folder is wrong, or would be spoiled."""
 
 
 class ChoiceError(QuizgenError, ValueError):

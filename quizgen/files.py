@@ -24,7 +24,11 @@ STALE = 3600.0
 _LEFT_BEHIND = re.compile(r"\..*\.\d+-[0-9a-f]{8}\.part", re.DOTALL)
 
 
-def write_all(folder: Path, contents: Mapping[str, bytes]) -> list[Path]:
+USUAL = 0o666
+"""Mode of a new file, less what the process takes away."""
+
+
+def write_all(folder: Path, contents: Mapping[str, bytes], mode: int = USUAL) -> list[Path]:
     """Write several files so that either all of them appear or none changes.
 
     A folder that is new appears with everything in it. In one that exists, the last file seals the
@@ -37,6 +41,8 @@ def write_all(folder: Path, contents: Mapping[str, bytes]) -> list[Path]:
         Made if it does not exist.
     contents : mapping of str to bytes
         File name, or path below the folder, to content; what needs the others comes last.
+    mode : int
+        Who may read the files.
 
     Raises
     ------
@@ -50,7 +56,7 @@ def write_all(folder: Path, contents: Mapping[str, bytes]) -> list[Path]:
     try:
         around.mkdir(parents=True, exist_ok=True)
         _sweep(around)
-        _stage(stage, folder, contents)
+        _stage(stage, folder, contents, mode)
         with _undisturbed():
             _appear(stage, folder, list(contents), new=new)
     except OSError as error:
@@ -60,13 +66,14 @@ def write_all(folder: Path, contents: Mapping[str, bytes]) -> list[Path]:
     return [folder / name for name in contents]
 
 
-def _stage(stage: Path, folder: Path, contents: Mapping[str, bytes]) -> None:
+def _stage(stage: Path, folder: Path, contents: Mapping[str, bytes], mode: int) -> None:
     """Write everything where nobody looks."""
     stage.mkdir()
     for name, data in contents.items():
         if (folder / name).is_dir():
             raise RenderError(f"{folder / name}: is a folder")
         (stage / name).parent.mkdir(parents=True, exist_ok=True)
+        (stage / name).touch(mode)
         _write_synced(stage / name, data)
 
 

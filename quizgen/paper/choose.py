@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import math
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import partial
 from itertools import repeat
 
@@ -22,7 +22,7 @@ TRIES = 20
 """Choices of templates until none is used more often than it has numbers."""
 
 
-def choose(bank: Bank, blueprint: Blueprint, seed: int) -> list[str]:
+def choose(bank: Bank, blueprint: Blueprint, seed: int | str) -> list[str]:
     """Names of the templates, in order of the paper.
 
     Raises
@@ -41,7 +41,7 @@ def choose(bank: Bank, blueprint: Blueprint, seed: int) -> list[str]:
     return next((chosen for chosen in tries if not _exhausted(bank, chosen)), first)
 
 
-def _as_a_whole(bank: Bank, blueprint: Blueprint, seed: int) -> list[str]:
+def _as_a_whole(bank: Bank, blueprint: Blueprint, seed: int | str) -> list[str]:
     """Fill the slots so that the paper holds what its blueprint asks for as a whole."""
     slots = [n for n, slot in enumerate(blueprint.slot, 1) for _ in range(slot.count)]
     worth = [points for points, _ in zip(weights(blueprint), slots, strict=False)]
@@ -120,7 +120,7 @@ def _gives_away(bank: Bank, name: str, chosen: list[str]) -> bool:
     )
 
 
-def _timed(bank: Bank, blueprint: Blueprint, seed: int) -> list[str]:
+def _timed(bank: Bank, blueprint: Blueprint, seed: int | str) -> list[str]:
     """Questions of a topic, tiers in turn, as many as the minutes allow; then sorted by tier."""
     rules = {name: bank.rules(name) for name in bank.paths}
     open_names = [n for n in rules if blueprint.topic in (EVERYTHING, rules[n].topic)]
@@ -150,6 +150,46 @@ def _timed(bank: Bank, blueprint: Blueprint, seed: int) -> list[str]:
             f" (the shortest takes {shortest} min)"
         )
     return sorted(chosen, key=lambda n: rules[n].tier)
+
+
+def families(bank: Bank, blueprint: Blueprint, chosen: Sequence[str]) -> list[tuple[str, ...]]:
+    """For each question of a paper, the templates that may stand there instead, itself first.
+
+    They have its tier, topic, points and minutes, and a figure if it has one; none may stand in two
+    places, and none tells what another one asks. So papers that take any one of each are alike.
+    """
+    open_names = dict(enumerate(_open_to(bank, blueprint)))
+    taken = list(chosen)
+    found = []
+    for place, (name, worth) in enumerate(zip(chosen, weights(blueprint), strict=False)):
+        like = _likeness(bank, name, worth)
+        family = [name]
+        for other in sorted(open_names.get(place, bank.paths), key=bank.origin):
+            alike = other not in taken and _likeness(bank, other, worth) == like
+            if alike and not _gives_away(bank, other, [one for one in taken if one not in family]):
+                family.append(other)
+                taken.append(other)
+        found.append(tuple(family))
+    return found
+
+
+def _open_to(bank: Bank, blueprint: Blueprint) -> Iterator[list[str]]:
+    """The templates that may fill each place of a blueprint with slots."""
+    for index, slot in enumerate(blueprint.slot, 1):
+        yield from repeat(_fitting(bank, blueprint, index), slot.count)
+
+
+def _likeness(bank: Bank, name: str, worth: float | None) -> tuple[object, ...]:
+    one, rules = candidate(bank, name, worth), bank.rules(name)
+    return (
+        rules.tier,
+        rules.topic,
+        rules.beyond,
+        one.points,
+        one.minutes,
+        bool(one.figure),
+        one.photograph,
+    )
 
 
 def variety(bank: Bank, blueprint: Blueprint) -> int:

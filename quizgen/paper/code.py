@@ -10,7 +10,7 @@ import hashlib
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from quizgen.bank.levels import CHOICES, EXAM
 from quizgen.errors import ChoiceError, CodeError
@@ -19,12 +19,19 @@ from quizgen.locale import choices
 if TYPE_CHECKING:
     from quizgen.bank.template import Template
 
+Asked: TypeAlias = tuple[str, str, str, list[tuple[str, str]]]
+"""Number, template and variant of a question; its parts with their points."""
+
 ENGINE = "1"
 """Rises when the same code would give another paper; part of every digest."""
 REFERENCE = "reference"
 """Stands for the seed in the code of a paper with the numbers of the notes."""
 LARGEST_SEED = 10**9
 DIGEST_LENGTH = 6
+
+GRADED, SIGNS, GROUPS, GROUP = "G", "0123456789ABCDEFGHJKMNPQRSTVWXYZ", 4, 4
+"""What a graded paper's code begins with, and its signs: groups of them, none like another."""
+_GRADED = re.compile(rf"{GRADED}(-[{SIGNS}]{{{GROUP}}}){{{GROUPS}}}", re.IGNORECASE)
 
 _LEVELS = "|".join(level for level in CHOICES if level != EXAM)
 _CODE = re.compile(
@@ -53,7 +60,7 @@ class Code:
     blueprint: str
     seed: str
     choice: str
-    digest: str
+    digest: str = ""
     level: str = EXAM
 
     def __str__(self) -> str:
@@ -66,14 +73,24 @@ class Code:
         return self.seed == REFERENCE
 
 
+def is_graded(text: str) -> bool:
+    """Whether a code is one of a class: it leads to a student, and to no questions."""
+    return _GRADED.fullmatch(text.strip()) is not None
+
+
 def parse_code(text: str) -> Code:
     """Take a paper's code apart.
 
     Raises
     ------
     CodeError
-        If it is not a code, or of a language that is not installed.
+        If it is not a code, that of a graded paper, or of a language that is not installed.
     """
+    if is_graded(text):
+        raise CodeError(
+            f"{text!r} is the code of a graded paper: it says whose paper it is and leads to no "
+            "questions; those follow from the secret in the class's folder (quizgen class code)"
+        )
     match = _CODE.fullmatch(text.strip())
     if match is None:
         raise CodeError(f"{text!r} is not a paper's code (like mock-1234-en-0a1b2c)")
@@ -97,6 +114,15 @@ def checked_seed(seed: int) -> int:
     if isinstance(seed, int) and not isinstance(seed, bool) and 0 <= seed <= LARGEST_SEED:
         return seed
     raise ChoiceError(f"seed: {seed!r} (allowed: whole numbers from 0 to {LARGEST_SEED})")
+
+
+def digest_of_parts(code: str, questions: Iterable[Asked]) -> str:
+    """Digest of what a paper asks and marks."""
+    lines = [
+        f"{number}|{template}|{identity}|" + ",".join(f"{part}={worth}" for part, worth in parts)
+        for number, template, identity, parts in questions
+    ]
+    return hashlib.sha256("\n".join([code, *lines]).encode()).hexdigest()[:16]
 
 
 def digest_of(source: str, templates: Iterable[Template], levels: Iterable[str]) -> str:

@@ -17,8 +17,7 @@ from quizgen.maths.alike import Form, equation
 from quizgen.maths.notation import to_text
 from quizgen.maths.numbers import to_float
 from quizgen.maths.tree import Expr, substitute
-from quizgen.paper.blueprint import Blueprint
-from quizgen.paper.choose import choose
+from quizgen.maths.values import Value
 from quizgen.question.compose import identity
 from quizgen.question.kinds import build
 from quizgen.question.specs import answer_of
@@ -52,45 +51,75 @@ class _Seen:
         return bool(asked & self.asked or asked & self.given or self.asked & _given(one))
 
 
-def draws(bank: Bank, blueprint: Blueprint, seed: int) -> Iterator[Draw]:
+def draws(
+    bank: Bank, names: Sequence[str], seed: str, beside: Sequence[Sequence[Draw]] = ()
+) -> Iterator[Draw]:
     """Draw the questions of a paper in order.
+
+    Parameters
+    ----------
+    bank : Bank
+    names : sequence of str
+        The templates.
+    seed : str
+    beside : sequence of sequences of Draw
+        Other papers of the same templates, with which no question is to share what it asks.
 
     Raises
     ------
-    BlueprintError
-        If no template fits a slot.
     DrawError
         If a question would stand in the paper again and has no other numbers.
     """
     seen = _Seen()
-    for place, name in enumerate(choose(bank, blueprint, seed), 1):
-        one = _other(bank.template(name), seed, place, seen)
+    for place, name in enumerate(names, 1):
+        near = [paper[place - 1] for paper in beside]
+        one = _other(bank.template(name), seed, place, seen, near)
         seen.add(one)
         yield one
 
 
-def _other(template: Template, seed: int, place: int, seen: _Seen) -> Draw:
-    """The first draw that is new and tells nothing; if there is none, the first that is new."""
+def _other(template: Template, seed: str, place: int, seen: _Seen, near: Sequence[Draw]) -> Draw:
+    """The first draw that is new and tells nothing; if there is none, the one that tells least."""
     new: list[Draw] = []
     for again in range(REDRAWS):
         one = draw(template, seed, f"{place}.{again}" if again else place)
         if identity(one) not in seen.questions:
             new.append(one)
-            if not seen.tells(one):
+            if not seen.tells(one) and not any(shared(one, other) for other in near):
                 return one
         if new and again >= OTHER_ANSWERS:
-            return new[0]
+            return min(new, key=lambda one: _told(one, seen, near))
     raise DrawError(
         f"{template.file}: would stand in the paper again, and has no other numbers: "
         "ask for fewer questions, or let other templates take the place"
     )
 
 
+def _told(one: Draw, seen: _Seen, near: Sequence[Draw]) -> tuple[bool, bool, bool]:
+    """What of a draw tells something: its own paper, the same question beside it, its answer."""
+    again = any(identity(one) == identity(other) for other in near)
+    return seen.tells(one), again, any(shared(one, other) for other in near)
+
+
+def shared(one: Draw, other: Draw) -> set[str]:
+    """What two questions have in common: numbers that both ask, or that they are the same."""
+    same = {identity(one)} & {identity(other)}
+    return (_answers(one) & _answers(other)) | same
+
+
 def _asked(one: Draw) -> set[str]:
     """Numbers that are asked for, small whole ones aside."""
-    names = [name for part in one.template.rules.part for name in answer_names(part.answer)]
-    values = [one.shown_values[name] for name in names]
-    return {digits(v) for v in values if abs(to_float(v)) >= COUNTED or to_float(v) % 1}
+    return {digits(v) for v in _values(one) if abs(to_float(v)) >= COUNTED or to_float(v) % 1}
+
+
+def _answers(one: Draw) -> set[str]:
+    """Numbers that are asked for."""
+    return set(map(digits, _values(one)))
+
+
+def _values(one: Draw) -> Iterator[Value]:
+    for part in one.template.rules.part:
+        yield from (one.shown_values[name] for name in answer_names(part.answer))
 
 
 def _given(one: Draw) -> set[str]:

@@ -88,6 +88,7 @@ def form_bytes(paper: Paper, form: str = "toml") -> bytes:
 
 
 def _toml(paper: Paper) -> str:
+    name, matriculation = _holder(paper)
     before = [
         f"# {paper.title(paper.langs[0])} - {paper.code}",
         f"code = {json.dumps(paper.code)}",
@@ -96,8 +97,8 @@ def _toml(paper: Paper) -> str:
     after = [
         "",
         "[student]",
-        'name = ""',
-        'matriculation = ""',
+        f"name = {json.dumps(name, ensure_ascii=False)}",
+        f"matriculation = {json.dumps(matriculation, ensure_ascii=False)}",
         f'lang = "{paper.langs[0]}"',
         'decimal = "auto"   # auto, point or comma',
         "",
@@ -106,6 +107,11 @@ def _toml(paper: Paper) -> str:
     ]
     seal = _seal("\n".join([*before, *after]))
     return "\n".join([*before, f'seal = "{seal}"   # {SEALED}', *after]) + "\n"
+
+
+def _holder(paper: Paper) -> tuple[str, str]:
+    """Name and matriculation number, where it is known whose paper it is."""
+    return (paper.holder.name, paper.holder.id) if paper.holder else ("", "")
 
 
 def _seal(text: str) -> str:
@@ -137,8 +143,8 @@ def _csv_rows(paper: Paper) -> Iterator[tuple[str, ...]]:
     lang = paper.langs[0]
     yield "code", paper.title(lang), "", paper.code
     yield "paper", "", "", f"#{paper.digest}"
-    for name in ("name", "matriculation"):
-        yield name, word(lang, f"paper.{name}"), "", ""
+    for name, value in zip(("name", "matriculation"), _holder(paper), strict=True):
+        yield name, word(lang, f"paper.{name}"), "", value
     yield "lang", "", "", lang
     yield "decimal", "", ", ".join(DECIMALS), DECIMALS[0]
     for item in paper.items:
@@ -230,7 +236,9 @@ def holds_answers(path: Path) -> bool:
         return False
     try:
         form = read_answers(path)
-        return not form.blank or form.seal not in {"", _seal(read_text(path, KeyFileError))}
+        if not form.seal:
+            return not form.blank
+        return form.seal != _seal(read_text(path, KeyFileError))
     except KeyFileError:
         return True
 

@@ -22,6 +22,7 @@ from quizgen.maths.constants import exact_value
 from quizgen.maths.numbers import written
 from quizgen.maths.precision import working_precision
 from quizgen.maths.units import factor
+from quizgen.paper.code import digest_of_parts
 
 if TYPE_CHECKING:
     from quizgen.paper.paper import Item, Paper
@@ -136,6 +137,22 @@ def key_of(paper: Paper) -> Key:
     title = {lang: paper.title(lang) for lang in paper.langs}
     questions = [key_question(item) for item in paper.items]
     return Key(FORMAT, questions, paper.code, paper.digest, title, paper.langs)
+
+
+def digest_of_key(key: Key, code: str = "") -> str:
+    """Digest of the paper that a key is of: ``Paper.digest``.
+
+    Parameters
+    ----------
+    key : Key
+    code : str
+        That which the paper had before it got a secret one.
+    """
+    asked = [
+        (q.number, q.template, q.identity, [(part.id, part.points) for part in q.parts])
+        for q in key.questions
+    ]
+    return digest_of_parts(code or key.code, asked)
 
 
 def key_question(item: Item) -> KeyQuestion:

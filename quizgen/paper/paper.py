@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
@@ -23,8 +22,15 @@ from quizgen.locale import chosen, word
 from quizgen.maths.notation import people
 from quizgen.outside import located
 from quizgen.paper.blueprint import Blueprint, SlotRule, named_blueprint
-from quizgen.paper.choose import levels, variety, weights
-from quizgen.paper.code import REFERENCE, Code, checked_seed, digest_of, parse_code
+from quizgen.paper.choose import choose, levels, variety, weights
+from quizgen.paper.code import (
+    REFERENCE,
+    Code,
+    checked_seed,
+    digest_of,
+    digest_of_parts,
+    parse_code,
+)
 from quizgen.paper.draws import aware, draws
 from quizgen.paper.whole import working_time
 from quizgen.question.compose import Key, Question, instance, put_into_words
@@ -53,6 +59,22 @@ class Item:
 
 
 @dataclass(frozen=True)
+class Holder:
+    """Whose paper it is; stands on every page.
+
+    Parameters
+    ----------
+    id, name : str
+    extra : int
+        Minutes besides the working time.
+    """
+
+    id: str
+    name: str = ""
+    extra: int = 0
+
+
+@dataclass(frozen=True)
 class Paper:
     """A paper: its questions, and the code that rebuilds it."""
 
@@ -62,6 +84,10 @@ class Paper:
     items: tuple[Item, ...]
     variety: int = 0
     """How many different papers the blueprint can make; 0 if not counted."""
+    seal: str = ""
+    """What a graded paper bears for a digest: one without a secret would confirm guesses."""
+    holder: Holder | None = None
+    """Whose paper it is, if it is one person's."""
 
     def __repr__(self) -> str:
         return f"<Paper {self.code}: {len(self.items)} questions, {float(self.points):g} points>"
@@ -83,13 +109,16 @@ class Paper:
 
         It is of names and numbers as they were drawn, so it is the same for all formats.
         """
-        parts = [
-            f"{item.number}|{key.template}|{key.identity}|"
-            + ",".join(f"{part.field.id}={part.points}" for part in item.questions[0].parts)
+        asked = [
+            (
+                item.number,
+                item.keys[0].template,
+                item.keys[0].identity,
+                [(part.field.id, str(part.points)) for part in item.questions[0].parts],
+            )
             for item in self.items
-            for key in item.keys[:1]
         ]
-        return hashlib.sha256("\n".join([self.code, *parts]).encode()).hexdigest()[:16]
+        return self.seal or digest_of_parts(self.code, asked)
 
     @property
     def variety_text(self) -> str:
@@ -147,15 +176,29 @@ def build(
     ChoiceError
         If there is no such language, or the seed is out of range.
     """
-    langs = chosen(choice, bank.languages)
-    asked = [*_levels(draws(bank, blueprint, checked_seed(seed)), levels(blueprint))]
-    code = _code(blueprint, str(seed), choice, asked)
+    drawn = draws(bank, choose(bank, blueprint, seed), str(checked_seed(seed)))
+    named = Code(blueprint.name, str(seed), choice, level=blueprint.level)
+    ready = composed(bank, blueprint, drawn, named, figures=figures, progress=progress)
+    return replace(ready, variety=variety(bank, blueprint))
+
+
+def composed(
+    bank: Bank,
+    blueprint: Blueprint,
+    drawn: Iterable[Draw],
+    named: Code,
+    *,
+    figures: bool = True,
+    progress: Progress = silent,
+) -> Paper:
+    """The paper of a blueprint's questions once they are drawn; its code gets their digest."""
+    langs = chosen(named.choice, bank.languages)
+    asked = [*_levels(drawn, levels(blueprint))]
     items = []
-    marked = zip(asked, weights(blueprint), strict=False)
-    for number, (one, points) in enumerate(marked, 1):
+    for number, (one, points) in enumerate(zip(asked, weights(blueprint), strict=False), 1):
         items.append(_item(one, langs, str(number), points, figures=figures))
         progress(one.drawn.template.id)
-    return Paper(str(code), blueprint, langs, tuple(items), variety(bank, blueprint))
+    return Paper(str(_digested(named, blueprint, asked)), blueprint, langs, tuple(items))
 
 
 class _Wanted(NamedTuple):
@@ -254,8 +297,8 @@ def reference_paper(
     for number, one in enumerate(asked, 1):
         items.append(_item(one, langs, str(number), figures=figures))
         progress(one.drawn.template.id)
-    code = _code(blueprint, REFERENCE, choice, asked)
-    return Paper(str(code), blueprint, langs, tuple(items))
+    named = Code(blueprint.name, REFERENCE, choice, level=blueprint.level)
+    return Paper(str(_digested(named, blueprint, asked)), blueprint, langs, tuple(items))
 
 
 def single(
@@ -271,10 +314,10 @@ def single(
     return Paper(f"{template.id}-{seed}", blueprint, (lang,), (item,))
 
 
-def _code(blueprint: Blueprint, seed: str, choice: str, asked: list[_Wanted]) -> Code:
+def _digested(code: Code, blueprint: Blueprint, asked: list[_Wanted]) -> Code:
     templates = [one.drawn.template for one in asked]
     digest = digest_of(blueprint.source, templates, [one.level for one in asked])
-    return Code(blueprint.name, seed, choice, digest, blueprint.level)
+    return replace(code, digest=digest)
 
 
 def _item(

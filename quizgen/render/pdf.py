@@ -53,6 +53,7 @@ class _Sheet:
         title = self._title(self.main)
         return (
             f"#show: paper.with(title: {string(title)}, code: {string(self.paper.code)}, "
+            f"holder: {string(_named(self.paper))}, "
             f'lang: {string(self.main)}, of: (page, pages) => "{page}")'
         )
 
@@ -71,10 +72,8 @@ class _Sheet:
         facts = self._facts()
         if self.kind == "solutions":
             return "\n".join([head, *others, "#v(0.6em)", facts, *self._cited(), "#v(0.6em)"])
-        lines = [
-            f"#write-line([{words(self.langs, f'paper.{name}')}])"
-            for name in ("name", "matriculation")
-        ]
+        unknown = () if self.paper.holder else ("name", "matriculation")
+        lines = [f"#write-line([{words(self.langs, f'paper.{name}')}])" for name in unknown]
         rules = each(self.langs, [self._said("on_paper", lang) for lang in self.langs])
         gap = "#v(1.1em)"
         return "\n".join(
@@ -88,11 +87,16 @@ class _Sheet:
     def _facts(self) -> str:
         """Code, points and minutes; before an exam also what may lie on the desk."""
         paper, main = self.paper, self.main
+        minutes = word(main, "paper.minutes")
+        more = f" + {paper.holder.extra} {minutes}" if paper.holder and paper.holder.extra else ""
         total = (
-            f"{marks(paper.points, main)}, {paper.minutes} {word(main, 'paper.minutes')}, "
+            f"{marks(paper.points, main)}, {paper.minutes} {minutes}{more}, "
             f"{len(paper.items)} {word(main, 'paper.contents')}"
         )
         rows = [("code", f"raw({string(paper.code)})"), ("total", string(total))]
+        if paper.holder:
+            known = (("name", paper.holder.name), ("matriculation", paper.holder.id))
+            rows = [*((name, string(value)) for name, value in known if value), *rows]
         if self.kind == "exam":
             aids = joined(self.langs, [f"#{string(paper.aids(lang))};" for lang in self.langs])
             rows.append(("aids", f"[{aids}]"))
@@ -271,6 +275,11 @@ class _Sheet:
         if not rows:
             return ""
         return within(solution.lang, "\n".join([_heading("mistakes", solution.lang), *rows]))
+
+
+def _named(paper: Paper) -> str:
+    """Whose paper it is, at the foot of every page."""
+    return " · ".join(filter(None, (paper.holder.name, paper.holder.id))) if paper.holder else ""
 
 
 def _points(points: Fraction) -> str:
