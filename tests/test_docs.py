@@ -106,11 +106,24 @@ def test_every_option_of_exam_and_key_of_blueprints_is_documented():
             assert field.name in hidden or field.name in text, field.name
 
 
-@pytest.mark.parametrize("name", list(COMMANDS))
-def test_every_option_is_documented_and_explained(name):
+def called(name, inner=""):
+    """A command, or one of those that it holds."""
+    command = group.get_command(None, name)
+    return getattr(command, "commands", {}).get(inner, command)
+
+
+PAIRS = [
+    (name, inner)
+    for name in COMMANDS
+    for inner in getattr(group.get_command(None, name), "commands", [""])
+]
+
+
+@pytest.mark.parametrize(("name", "inner"), PAIRS)
+def test_every_option_is_documented_and_explained(name, inner):
     pages = [*sorted((ROOT / "docs").glob("*.md")), ROOT / "README.md"]
     text = "".join(page.read_text(encoding="utf-8") for page in pages if page.stem != "api")
-    for option in group.get_command(None, name).params:
+    for option in called(name, inner).params:
         for word in option.opts:
             assert not word.startswith("--") or word in text, word
         if isinstance(option, click.Option):
@@ -175,7 +188,7 @@ def test_commands_in_sentences_exist_with_their_options():
             words = text.removeprefix("uv run ").split()
             assert words[0] == "quizgen" or text.startswith("uv run "), f"{page.name}: {text}"
             if words[0] == "quizgen" and len(words) > 1 and words[1] in COMMANDS:
-                options = group.get_command(None, words[1]).params
+                options = called(*words[1:3]).params
                 known = {name for option in options for name in option.opts} | {"--help"}
                 assert {w for w in words if w.startswith("--")} <= known, f"{page.name}: {text}"
                 count += 1

@@ -34,11 +34,12 @@ LAYERS = {
     "cards": "errors outside files locale maths typeset bank figures question paper render",
     "export": "errors locale maths bank figures marking question paper render",
     "tradeoff": "errors outside files locale maths arrays typeset bank figures render",
+    "classes": "errors outside files locale maths bank marking question paper render",
     "web": "errors outside files png locale maths typeset bank camera figures marking question paper practice render "
-    "cards tradeoff",
+    "cards tradeoff classes",
     "audit": "errors outside files locale maths bank figures marking question paper render",
     "cli": "errors outside files png locale maths bank camera figures marking question paper practice render cards "
-    "export tradeoff audit web",
+    "export tradeoff classes audit web",
 }
 """Package to the packages below it that it may use. Solvers use ``maths.model`` alone."""
 

@@ -8,6 +8,7 @@ import os
 import signal
 import sys
 from importlib import import_module
+from keyword import iskeyword
 from typing import NoReturn
 
 import click
@@ -25,6 +26,7 @@ COMMANDS = {
     "exam": ("quizgen.cli.exam", "Make a mock exam with solutions and key."),
     "check": ("quizgen.cli.check", "Mark typed answers with a paper's key."),
     "practice": ("quizgen.cli.practice", "Practise in the terminal with instant feedback."),
+    "class": ("quizgen.cli.classes", "Examine a class: a paper for each student."),
     "mark": ("quizgen.cli.mark", "Mark one answer, or JSON Lines of answers (for authors)."),
     "cards": ("quizgen.cli.cards", "Make flashcards for Anki and other programs."),
     "sheet": ("quizgen.cli.sheet", "Write the formulas of the chapter on a sheet."),
@@ -52,7 +54,8 @@ class _Lazy(click.Group):
         if cmd_name not in COMMANDS:
             return None
         module = import_module(COMMANDS[cmd_name][0])
-        command: click.Command = getattr(module, cmd_name)
+        name = f"{cmd_name}_" if iskeyword(cmd_name) else cmd_name
+        command: click.Command = getattr(module, name)
         return command
 
     def resolve_command(

@@ -1,0 +1,257 @@
+"""The folder of a class: its settings and secret, its roster, the key of every paper.
+
+``class.toml`` and ``keys.jsonl`` are for the examiner alone (mode 0600). Keys are written a line a
+student as papers are made; a line that a killed run left half written counts as not there.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from quizgen.classes.roster import Student, read_roster, roster_bytes
+from quizgen.classes.secret import code_of
+from quizgen.errors import ClassError
+from quizgen.files import write_all
+from quizgen.outside import parse_json, parse_toml, read_text
+from quizgen.paper.key import Key, digest_of_key, load_key
+
+SETTINGS, ROSTER, KEYS = "class.toml", "roster.csv", "keys.jsonl"
+PAPERS, SOLUTIONS, FORMS, ANSWERS = "papers", "solutions", "forms", "answers"
+PRIVATE = 0o600
+
+
+class Settings(msgspec.Struct, frozen=True):
+    """What a class was made with; written once.
+
+    Parameters
+    ----------
+    name : str
+        Of the class: that of its folder.
+    secret : str
+        128 bits, from which every number follows.
+    blueprint : str
+        Its name or its file.
+    bank : str
+        A folder, or empty for the built-in bank.
+    trust : bool
+    lang : str
+        Of students whose row names none.
+    digest : str
+        Of the blueprint and the templates.
+    templates : tuple of tuple of str
+        For each question, the templates that it may be made from.
+    """
+
+    name: str
+    secret: str
+    blueprint: str
+    bank: str
+    trust: bool
+    lang: str
+    digest: str
+    templates: tuple[tuple[str, ...], ...]
+
+
+class Head(msgspec.Struct, frozen=True):
+    """What the line of a student's paper says besides its key.
+
+    Parameters
+    ----------
+    id, code : str
+    made : str
+        Blueprint, language and digest of the files that the paper was made with.
+    stamp : str
+        Digest of the row of the roster and of ``made``.
+    beside : tuple of str
+        Ids of neighbours that this paper gave way to.
+    """
+
+    id: str
+    code: str
+    made: str
+    stamp: str
+    beside: tuple[str, ...] = ()
+
+
+class Record(msgspec.Struct, frozen=True):
+    """A student's paper: what was printed, and the key that marks it."""
+
+    head: Head
+    key: Key
+
+
+class ClassFolder:
+    """The folder of a class.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+
+    def __repr__(self) -> str:
+        return f"<ClassFolder {self.path}>"
+
+    @property
+    def is_new(self) -> bool:
+        """Whether there is no class yet.
+
+        Raises
+        ------
+        ClassError
+            If the folder holds something else.
+        """
+        if (self.path / SETTINGS).exists():
+            return False
+        if self.path.exists() and (not self.path.is_dir() or any(self.path.iterdir())):
+            raise ClassError(
+                f"{self.path}: holds something else than a class; name another folder with --out"
+            )
+        return True
+
+    @cached_property
+    def settings(self) -> Settings:
+        """What the class was made with.
+
+        Raises
+        ------
+        ClassError
+            If it is no folder of a class.
+        """
+        place = self.path / SETTINGS
+        if not place.exists():
+            raise ClassError(f"{self.path}: is not the folder of a class (it has no {SETTINGS})")
+        table = parse_toml(read_text(place, ClassError), place, ClassError)
+        try:
+            found = msgspec.convert(table, Settings)
+            bytes.fromhex(found.secret)
+        except (msgspec.ValidationError, ValueError) as error:
+            raise ClassError(f"{place}: {error}") from None
+        return found
+
+    def create(self, settings: Settings, students: Sequence[Student]) -> None:
+        """Begin a class: settings first, for nothing may be made that they do not explain."""
+        contents = {ROSTER: roster_bytes(students), KEYS: b"", SETTINGS: _toml(settings)}
+        write_all(self.path, contents, mode=PRIVATE)
+
+    def students(self) -> list[Student]:
+        """The students in the order of their seats."""
+        return read_roster(self.path / ROSTER)
+
+    def write_roster(self, students: Sequence[Student]) -> None:
+        """Replace the roster."""
+        write_all(self.path, {ROSTER: roster_bytes(students)}, mode=PRIVATE)
+
+    def heads(self) -> dict[str, Head]:
+        """Student's id to what was printed last."""
+        return {head.id: head for head, _ in self._index().values()}
+
+    def whose(self, code: str) -> Record:
+        """The paper with a printed code, whose key is still that which the code was made from.
+
+        Raises
+        ------
+        ClassError
+            If no paper has it, or the paper's key has been changed.
+        """
+        wanted = code.strip().upper()
+        places = [place for head, place in self._index().values() if head.code == wanted]
+        if not places:
+            raise ClassError(f"{self.path}: no paper of this class has the code {wanted!r}")
+        found = self._record(places[0])
+        digest = digest_of_key(found.key, found.head.made)
+        if code_of(self.settings.secret, found.head.id, digest) != wanted:
+            raise ClassError(f"{self.path / KEYS}: the key of {wanted} has been changed")
+        return found
+
+    def append(self, lines: Iterable[bytes]) -> None:
+        """Add lines of keys; they are on the disk when this returns."""
+        flags = os.O_WRONLY | os.O_CREAT | os.O_APPEND
+        with os.fdopen(os.open(self.path / KEYS, flags, PRIVATE), "ab") as stream:
+            if self._torn:
+                stream.write(b"\n")
+            stream.write(b"".join(lines))
+            stream.flush()
+            os.fsync(stream.fileno())
+
+    @property
+    def _torn(self) -> bool:
+        """Whether a run was killed in the middle of a line."""
+        place = self.path / KEYS
+        if not place.exists() or not place.stat().st_size:
+            return False
+        with place.open("rb") as stream:
+            stream.seek(-1, os.SEEK_END)
+            return stream.read() != b"\n"
+
+    def settle(self, order: Sequence[str]) -> None:
+        """Keep each student's last line: those of the roster in its order, then those who left."""
+        index = self._index()
+        ids = [one for one in dict.fromkeys((*order, *index)) if one in index]
+        fresh = self.path / f".{KEYS}.new"
+        flags = os.O_WRONLY | os.O_CREAT | os.O_TRUNC
+        with (
+            (self.path / KEYS).open("rb") as lines,
+            os.fdopen(os.open(fresh, flags, PRIVATE), "wb") as stream,
+        ):
+            for one in ids:
+                lines.seek(index[one][1])
+                stream.write(lines.readline())
+            stream.flush()
+            os.fsync(stream.fileno())
+        fresh.replace(self.path / KEYS)
+
+    def _index(self) -> dict[str, tuple[Head, int]]:
+        """Student's id to the last whole line about it, and where that begins."""
+        found: dict[str, tuple[Head, int]] = {}
+        at = 0
+        with (self.path / KEYS).open("rb") as stream:
+            for line in stream:
+                head = _head(line)
+                if head is not None:
+                    found[head.id] = head, at
+                at += len(line)
+        return found
+
+    def _record(self, at: int) -> Record:
+        place = self.path / KEYS
+        with place.open("rb") as stream:
+            stream.seek(at)
+            line = stream.readline()
+        table = parse_json(line.decode(), place, ClassError)
+        head = msgspec.json.decode(line, type=Head)
+        if not isinstance(table, dict):
+            raise ClassError(f"{place}: a table is expected in each line")
+        return Record(head, load_key(table.get("key", {}), f"{place}: {head.id}"))
+
+
+def line_of(head: Head, key: Key) -> bytes:
+    """A line of the keys."""
+    table = {**msgspec.to_builtins(head), "key": msgspec.to_builtins(key)}
+    return json.dumps(table, ensure_ascii=False, separators=(",", ":")).encode() + b"\n"
+
+
+def _head(line: bytes) -> Head | None:
+    """What a line says besides the key; None for one that a killed run left."""
+    if not line.endswith(b"\n"):
+        return None
+    try:
+        return msgspec.json.decode(line, type=Head)
+    except msgspec.DecodeError:
+        return None
+
+
+def _toml(settings: Settings) -> bytes:
+    """Settings as TOML: its texts are written as those of JSON."""
+    table: Mapping[str, Any] = msgspec.structs.asdict(settings)
+    lines = [f"{name} = {json.dumps(value, ensure_ascii=False)}" for name, value in table.items()]
+    return ("\n".join(lines) + "\n").encode()

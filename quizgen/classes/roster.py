@@ -1,0 +1,184 @@
+"""The roster: who sits the exam, in the order in which they sit.
+
+A CSV file with a row per student. ``id`` is needed; ``name``, ``lang`` (a language or ``both``),
+``extra`` (time: ``25%`` or ``30`` minutes), ``group`` and ``seat`` may follow. Without seats, who
+stands in the row before sits in the seat before. Groups do not see each other.
+"""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+import io
+import math
+import re
+import unicodedata
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+from pathlib import Path
+
+import msgspec
+
+from quizgen.errors import ClassError
+from quizgen.locale import choices
+from quizgen.outside import defused, is_name, parse_csv, read_text, visible
+
+COLUMNS = ("id", "name", "lang", "extra", "group", "seat")
+LONGEST = 200
+"""Characters of a cell."""
+LONGEST_FILE = 60
+_EXTRA = re.compile(r"(\d{1,3}) ?(%|min)?")
+_JOINERS = "\u200c\u200d"
+_DEVICES = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?", re.IGNORECASE)
+"""Names that Windows gives to devices."""
+
+
+class Student(msgspec.Struct, frozen=True):
+    """A row of the roster.
+
+    Parameters
+    ----------
+    id : str
+        As the office writes it; unique whatever the case of its letters.
+    name : str
+    lang : str
+        A language, ``both``, or empty for that of the class.
+    extra : str
+        More time: ``25%``, or minutes.
+    group : str
+        A room or a sitting: only within it are there neighbours.
+    seat : str
+    """
+
+    id: str
+    name: str = ""
+    lang: str = ""
+    extra: str = ""
+    group: str = ""
+    seat: str = ""
+
+    @property
+    def file(self) -> str:
+        """The id as the name of a file, on any system, and never that of another student."""
+        if is_name(self.id) and self.id[0] not in ".-" and self.id[-1] != "." and self._short:
+            return self.id
+        kept = re.sub(r"[^A-Za-z0-9_]+", "-", self.id)[:LONGEST_FILE].strip("-") or "student"
+        return f"{kept}-{hashlib.sha256(self.id.encode()).hexdigest()[:8]}"
+
+    @property
+    def _short(self) -> bool:
+        return len(self.id) <= LONGEST_FILE and not _DEVICES.fullmatch(self.id)
+
+    def more(self, minutes: int) -> int:
+        """Minutes besides the working time of the paper."""
+        found = _EXTRA.fullmatch(self.extra)
+        if found is None:
+            return 0
+        count = int(found[1])
+        return math.ceil(minutes * count / 100) if found[2] == "%" else count
+
+
+def read_roster(path: Path, columns: Mapping[str, str] | None = None) -> list[Student]:
+    """Read a roster in the order of its seats.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        A CSV file.
+    columns : mapping of str to str, optional
+        What each of ``COLUMNS`` is called in the file, where it is called otherwise.
+
+    Raises
+    ------
+    ClassError
+        Naming the file and the line or the column.
+    """
+    rows = parse_csv(read_text(path, ClassError), path, ClassError)
+    if not rows:
+        raise ClassError(f"{path}: is empty (a row of column names is needed, then one a student)")
+    places = _places(rows[0][1], columns or {}, path)
+    found: dict[str, tuple[int, Student]] = {}
+    for line, row in rows[1:]:
+        one = _student(row, places, f"{path}: line {line}")
+        before = found.setdefault(one.id.casefold(), (line, one))
+        if before[0] != line:
+            raise ClassError(f"{path}: lines {before[0]} and {line} have the same id {one.id!r}")
+    if not found:
+        raise ClassError(f"{path}: has no students")
+    return sorted((one for _, one in found.values()), key=_seating)
+
+
+def _places(head: Sequence[str], columns: Mapping[str, str], path: Path) -> dict[str, int]:
+    """Which column of the file is which of ours."""
+    there = {_clean(cell).casefold(): place for place, cell in reversed([*enumerate(head)])}
+    said = ", ".join(visible(_clean(cell)) for cell in head)
+    for ours, theirs in columns.items():
+        if ours not in COLUMNS:
+            raise ClassError(f"no column {ours!r} of a roster (there are {', '.join(COLUMNS)})")
+        if _clean(theirs).casefold() not in there:
+            raise ClassError(f"{path}: has no column {theirs!r} (it has {said})")
+    names = {ours: _clean(columns.get(ours, ours)).casefold() for ours in COLUMNS}
+    if names["id"] not in there:
+        raise ClassError(
+            f"{path}: has no column 'id' (it has {said}); name the one that is: --columns id=NAME"
+        )
+    return {ours: there[theirs] for ours, theirs in names.items() if theirs in there}
+
+
+def _student(row: Sequence[str], places: Mapping[str, int], where: str) -> Student:
+    cells = {
+        name: _plain(_clean(row[place])) if place < len(row) else ""
+        for name, place in places.items()
+    }
+    for name, cell in cells.items():
+        if len(cell) > LONGEST:
+            raise ClassError(f"{where}: {name} is longer than {LONGEST} characters")
+    one = Student(**cells)
+    if not one.id:
+        raise ClassError(f"{where}: has no id")
+    if one.lang and one.lang not in choices():
+        raise ClassError(f"{where}: lang {one.lang!r} (allowed: {', '.join(choices())})")
+    if one.extra and not _EXTRA.fullmatch(one.extra):
+        raise ClassError(f"{where}: extra {one.extra!r} (allowed: such as 25%, or 30 for minutes)")
+    return one
+
+
+def _clean(cell: str) -> str:
+    """A cell in one line, without marks that nobody sees, such as those that turn writing round."""
+    whole = unicodedata.normalize("NFC", cell)
+    seen = (c if _is_seen(c) else " " if c.isspace() else "" for c in whole)
+    return " ".join("".join(seen).split())
+
+
+def _plain(cell: str) -> str:
+    """A cell without the sign that ``roster_bytes`` puts before what a spreadsheet would run."""
+    return cell[1:] if cell[:1] == "'" and defused(cell[1:]) == cell else cell
+
+
+def _is_seen(character: str) -> bool:
+    return character in _JOINERS or unicodedata.category(character) not in {"Cc", "Cf", "Cs", "Co"}
+
+
+def _seating(one: Student) -> tuple[str, list[tuple[int, str]]]:
+    """Groups together, seats in the order that people count them: 9 before 10."""
+    pieces = re.findall(r"\d+|\D+", one.seat)
+    return one.group, [(int(p), "") if p.isdecimal() else (0, p.casefold()) for p in pieces]
+
+
+def neighbours(students: Sequence[Student]) -> dict[str, list[str]]:
+    """For each student's id, the ids of those beside."""
+    found: dict[str, list[str]] = {one.id: [] for one in students}
+    for left, right in pairwise(students):
+        if left.group == right.group:
+            found[left.id].append(right.id)
+            found[right.id].append(left.id)
+    return found
+
+
+def roster_bytes(students: Sequence[Student]) -> bytes:
+    """The roster as a file that ``read_roster`` and any spreadsheet read."""
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(COLUMNS)
+    writer.writerows([defused(getattr(one, name)) for name in COLUMNS] for one in students)
+    return out.getvalue().encode("utf-8-sig")

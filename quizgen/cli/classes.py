@@ -1,0 +1,157 @@
+"""``quizgen class``."""
+
+from __future__ import annotations
+
+import os
+from collections import Counter
+from pathlib import Path
+from typing import TYPE_CHECKING, Unpack
+
+import click
+
+from quizgen.cli.options import BankOptions, Whole, bank_options, open_bank, split
+from quizgen.cli.terminal import Progress, one_line, tell
+from quizgen.errors import ClassError
+from quizgen.locale import FIRST, choices
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from quizgen.classes.folder import ClassFolder
+    from quizgen.classes.make import Report
+    from quizgen.classes.roster import Student
+    from quizgen.paper.blueprint import Blueprint
+
+USUAL = "mock"
+FEW = 16
+"""Papers that are made in this process."""
+MOST_JOBS = 256
+
+
+@click.group("class")
+def class_() -> None:
+    """Examine a class: one folder from the roster to the grades."""
+
+
+class Options(BankOptions):
+    """Which class, and where it is made."""
+
+    roster: Path
+    out: Path
+    blueprint: str | None
+    columns: str | None
+    lang: str | None
+    vary: bool
+    jobs: int | None
+    scheduler: str
+
+
+@class_.command()
+@click.argument("roster", type=click.Path(path_type=Path))
+@click.option("--out", type=click.Path(path_type=Path), required=True, help="Folder of the class.")
+@click.option("--blueprint", help="A blueprint's name or TOML file. [default: mock]")
+@click.option("--columns", help="What columns are called: id=Matrikel,name=Name.")
+@click.option("--lang", type=click.Choice(choices(), case_sensitive=False),
+              help=f"Language of who has none in the roster. [default: {FIRST}]")  # fmt: skip
+@click.option("--vary", is_flag=True, help="Other templates of the same kind, too.")
+@click.option("--jobs", type=Whole(1, MOST_JOBS), help="Processes. [default: as many as cores]")
+@click.option("--scheduler", default="", help="Dask scheduler that makes them: tcp://HOST:8786.")
+@bank_options
+def make(**options: Unpack[Options]) -> None:
+    """Make a paper for each student of ROSTER, a CSV file with a column id.
+
+    All papers have the same questions with other numbers. A second run makes only what is missing
+    or whose row has changed.
+    """
+    from quizgen.classes.executors import workers
+    from quizgen.classes.folder import ClassFolder
+    from quizgen.classes.make import make as make_papers
+    from quizgen.classes.roster import read_roster
+
+    students = read_roster(options["roster"], _columns(options["columns"]))
+    folder = ClassFolder(options["out"])
+    blueprint = _blueprint(folder, students, options)
+    count = options["jobs"] or (1 if len(students) <= FEW else os.cpu_count() or 1)
+    with (
+        Progress("paper", len(students)) as progress,
+        workers(count, options["scheduler"]) as (executor, ahead),
+    ):
+        report = make_papers(folder, students, blueprint, executor, ahead, progress)
+    _say(folder, report)
+
+
+@class_.command()
+@click.argument("folder", type=click.Path(path_type=Path))
+@click.argument("printed")
+def code(folder: Path, printed: str) -> None:
+    """Say whose paper of the class in FOLDER has the PRINTED code, and that it is unaltered."""
+    from quizgen.classes.folder import ClassFolder
+
+    found = ClassFolder(folder).whose(printed)
+    click.echo(f"{found.head.code}: {one_line(found.head.id)}")
+
+
+def _columns(text: str | None) -> Mapping[str, str]:
+    pairs = [name.partition("=") for name in split(text)]
+    for ours, sign, theirs in pairs:
+        if not (sign and theirs.strip()):
+            raise click.BadParameter(f"{ours!r} (write id=Matrikel)", param_hint="--columns")
+    return {ours.strip(): theirs.strip() for ours, _, theirs in pairs}
+
+
+def _blueprint(folder: ClassFolder, students: list[Student], options: Options) -> Blueprint:
+    """The blueprint of the class, which is created if there is none yet."""
+    from quizgen.classes.make import bank_of, new_settings
+    from quizgen.paper.blueprint import load_blueprint
+
+    if folder.is_new:
+        bank = open_bank(options)
+        blueprint = load_blueprint(options["blueprint"] or USUAL, bank)
+        name = folder.path.resolve().name
+        lang = options["lang"] or FIRST
+        folder.create(new_settings(name, bank, blueprint, lang, vary=options["vary"]), students)
+        return blueprint
+    settings = folder.settings
+    _same(folder, options)
+    return load_blueprint(options["blueprint"] or settings.blueprint, bank_of(settings))
+
+
+def _same(folder: ClassFolder, options: Options) -> None:
+    """Refuse what a class that there is was not made with."""
+    settings = folder.settings
+    wished = {
+        "bank": str(options["bank"].resolve()) if options["bank"] else None,
+        "lang": options["lang"],
+    }
+    for name, value in wished.items():
+        if value is not None and value != getattr(settings, name):
+            raise ClassError(
+                f"{folder.path}: was made with {name} {getattr(settings, name)!r}, not {value!r}; "
+                "a new class needs a new folder (--out)"
+            )
+    if options["vary"] and not any(len(family) > 1 for family in settings.templates):
+        raise ClassError(f"{folder.path}: was made without --vary; name a new folder (--out)")
+
+
+def _say(folder: ClassFolder, report: Report) -> None:
+    """What was made, and how alike the papers are."""
+    tell(f"{folder.path}: {len(report.made)} papers made, {report.kept} kept as they were")
+    if report.made:
+        tell(f"Each of them: {_comparison(report)}")
+        few = sorted({number for one in report.made for number in one.alike})
+        if few:
+            tell(f"Neighbours share a number in questions {few}")
+    for student in report.left:
+        tell(f"{student} is no longer on the roster; the paper and its key stay")
+    tell("Nobody but you should read the folder: class.toml and keys.jsonl lead to every answer")
+
+
+def _comparison(report: Report) -> str:
+    """Questions by tier, points and minutes: one value each, or all that there are."""
+    tiers = (
+        ", ".join(f"{count} of tier {tier}" for tier, count in sorted(Counter(one.tiers).items()))
+        for one in report.made
+    )
+    points = (f"{float(one.points):g} points" for one in report.made)
+    minutes = (f"{one.minutes} min" for one in report.made)
+    return "; ".join(" or ".join(sorted({*each})) for each in (tiers, points, minutes))

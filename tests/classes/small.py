@@ -1,0 +1,48 @@
+"""A class of two questions, made in this process."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from quizgen.bank.folder import builtin
+from quizgen.classes.executors import Here
+from quizgen.classes.folder import ClassFolder
+from quizgen.classes.make import make, new_settings
+from quizgen.classes.roster import Student
+from quizgen.paper.blueprint import Blueprint, load_blueprint
+from quizgen.paper.paper import silent
+
+TWO = """
+[title]
+en = "Two"
+[[slot]]
+templates = ["point-to-image-plane"]
+[[slot]]
+templates = ["rods-cones-and-peaks"]
+"""
+
+
+def blueprint(folder: Path) -> Blueprint:
+    """A short one, as a file."""
+    path = folder / "two.toml"
+    path.write_text(TWO, encoding="utf-8")
+    return load_blueprint(str(path))
+
+
+def begun(folder: Path, students: list[Student]) -> tuple[ClassFolder, Blueprint]:
+    """A folder with a secret and no papers."""
+    plan = blueprint(folder)
+    made = ClassFolder(folder / "class")
+    made.create(new_settings("class", builtin(), plan, "en"), students)
+    return made, plan
+
+
+def with_papers(folder: ClassFolder, plan: Blueprint, students: list[Student], executor=None):
+    """What ``make`` reports."""
+    return make(folder, students, plan, executor or Here(), 2, silent)
+
+
+def bytes_of(folder: Path) -> dict[str, bytes]:
+    """Every file of a folder."""
+    files = sorted(path for path in folder.rglob("*") if path.is_file())
+    return {str(path.relative_to(folder)): path.read_bytes() for path in files}

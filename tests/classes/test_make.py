@@ -1,0 +1,157 @@
+"""Papers of a class: comparable, not alike, and made once."""
+
+from __future__ import annotations
+
+import io
+import json
+import shutil
+import stat
+from itertools import pairwise
+
+import pikepdf
+import pytest
+from small import begun, bytes_of, with_papers
+
+from quizgen.classes.folder import ClassFolder
+from quizgen.classes.roster import Student
+from quizgen.errors import ClassError
+
+IDS = ("11", "12", "13", "14", "../15")
+STUDENTS = [Student(one, f"Student {one}") for one in IDS]
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    folder, plan = begun(tmp_path_factory.mktemp("class"), STUDENTS)
+    return folder, plan, with_papers(folder, plan, STUDENTS)
+
+
+@pytest.fixture
+def copied(made, tmp_path):
+    """A folder of one's own to spoil."""
+    shutil.copytree(made[0].path, tmp_path / "class")
+    return ClassFolder(tmp_path / "class"), made[1]
+
+
+def keys(folder):
+    lines = (folder.path / "keys.jsonl").read_text(encoding="utf-8").splitlines()
+    return {table["id"]: table for table in map(json.loads, lines)}
+
+
+def test_each_student_has_paper_solutions_form_and_key(made):
+    folder, _, report = made
+    assert [one.student for one in report.made] == list(IDS)
+    assert list(keys(folder)) == list(IDS)
+    for part, ending in (("papers", "pdf"), ("solutions", "pdf"), ("forms", "toml")):
+        names = {path.name for path in (folder.path / part).iterdir()}
+        assert len(names) == len(IDS)
+        assert {f"{one}.{ending}" for one in IDS[:4]} < names
+
+
+def test_papers_ask_the_same_with_other_numbers(made):
+    asked = [[q["template"] for q in one["key"]["questions"]] for one in keys(made[0]).values()]
+    points = [[q["points"] for q in one["key"]["questions"]] for one in keys(made[0]).values()]
+    numbers = [one["key"]["questions"][0]["identity"] for one in keys(made[0]).values()]
+    assert len({*map(tuple, asked)}) == len({*map(tuple, points)}) == 1
+    assert all(left != right for left, right in pairwise(numbers))
+    assert len({(one.points, one.minutes, one.tiers) for one in made[2].made}) == 1
+
+
+def test_what_leads_to_answers_is_for_the_examiner_alone(made):
+    for path in made[0].path.rglob("*"):
+        if path.is_file():
+            assert stat.S_IMODE(path.stat().st_mode) & 0o077 == 0, path
+
+
+def pages(data):
+    with pikepdf.open(io.BytesIO(data)) as pdf:
+        return len(pdf.pages), str(pdf.docinfo)
+
+
+def test_a_second_run_makes_nothing(copied):
+    folder, plan = copied
+    before = bytes_of(folder.path)
+    report = with_papers(folder, plan, STUDENTS)
+    assert (len(report.made), report.kept) == (0, len(IDS))
+    assert bytes_of(folder.path) == before
+
+
+def test_only_what_is_missing_or_changed_is_made_again_and_the_same(copied):
+    folder, plan = copied
+    before = bytes_of(folder.path)
+    (folder.path / "papers/12.pdf").unlink()
+    changed = [*STUDENTS[:3], Student("14", "Renamed"), STUDENTS[4]]
+    report = with_papers(folder, plan, changed)
+    assert {one.student for one in report.made} == {"12", "14"}
+    after = bytes_of(folder.path)
+    other = {name for name in before if before[name] != after[name]}
+    assert other == {
+        "papers/14.pdf",
+        "solutions/14.pdf",
+        "forms/14.toml",
+        "keys.jsonl",
+        "roster.csv",
+    }
+    assert keys(folder)["14"]["code"] == json.loads(before["keys.jsonl"].splitlines()[3])["code"]
+
+
+def test_who_comes_late_changes_no_other_paper_and_who_leaves_keeps_the_key(copied):
+    folder, plan = copied
+    before = bytes_of(folder.path)
+    students = [STUDENTS[0], Student("late"), *STUDENTS[2:]]
+    report = with_papers(folder, plan, students)
+    assert [one.student for one in report.made] == ["late"]
+    assert report.left == ("12",)
+    after = bytes_of(folder.path)
+    assert {
+        n: before[n] for n in before if n not in {"keys.jsonl", "roster.csv"}
+    }.items() <= after.items()
+    assert keys(folder)["12"]["key"]
+    assert keys(folder)["late"]["beside"] == ["11", "13"]
+
+
+def test_an_interrupted_run_goes_on_to_the_same_bytes(made, copied):
+    whole, (folder, plan) = bytes_of(made[0].path), copied
+    for name in ("papers/13.pdf", "solutions/14.pdf", "forms/14.toml"):
+        (folder.path / name).unlink()
+    lines = whole["keys.jsonl"].splitlines(keepends=True)
+    (folder.path / "keys.jsonl").write_bytes(b"".join(lines[:2]) + lines[2][:500])
+    with_papers(folder, plan, STUDENTS)
+    assert bytes_of(folder.path) == whole
+
+
+def test_a_form_with_answers_is_never_written_over(copied):
+    folder, plan = copied
+    form = folder.path / "forms/12.toml"
+    typed = form.read_text(encoding="utf-8").replace('"1" = ""', '"1" = "3 mm"')
+    form.write_text(typed, encoding="utf-8")
+    (folder.path / "papers/12.pdf").unlink()
+    with_papers(folder, plan, STUDENTS)
+    assert form.read_text(encoding="utf-8") == typed
+
+
+def test_another_blueprint_needs_another_folder(copied, tmp_path):
+    import msgspec
+
+    folder, plan = copied
+    before = bytes_of(folder.path)
+    with pytest.raises(ClassError, match="new folder"):
+        with_papers(folder, msgspec.structs.replace(plan, source=plan.source + "#"), STUDENTS)
+    assert bytes_of(folder.path) == before
+    (tmp_path / "other").mkdir()
+    (tmp_path / "other/notes.txt").touch()
+    with pytest.raises(ClassError, match="something else than a class"):
+        assert ClassFolder(tmp_path / "other").is_new
+
+
+def test_a_code_leads_to_its_student_as_long_as_the_key_is_that_of_the_paper(copied):
+    folder, _ = copied
+    code = keys(folder)["13"]["code"]
+    assert folder.whose(f" {code.lower()} ").head.id == "13"
+    with pytest.raises(ClassError, match="no paper of this class"):
+        folder.whose("G-0000-0000-0000-0000")
+    path = folder.path / "keys.jsonl"
+    identity = json.dumps(keys(folder)["13"]["key"]["questions"][0]["identity"])
+    path.write_text(path.read_text(encoding="utf-8").replace(identity, '"other"'), encoding="utf-8")
+    with pytest.raises(ClassError, match="has been changed"):
+        folder.whose(code)

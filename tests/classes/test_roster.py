@@ -1,0 +1,105 @@
+"""Rosters: any columns, any names, and files that no name can leave the folder by."""
+
+from __future__ import annotations
+
+import pytest
+
+from quizgen.classes.roster import Student, neighbours, read_roster, roster_bytes
+from quizgen.errors import ClassError
+
+
+def roster(tmp_path, text, **columns):
+    path = tmp_path / "roster.csv"
+    path.write_bytes(text.encode("utf-8-sig"))
+    return read_roster(path, columns)
+
+
+def test_columns_may_be_called_anything(tmp_path):
+    text = "Nachname;Matrikel;Raum\nMüller, Ö.;104;A\n"
+    assert roster(tmp_path, text, id="matrikel", name="Nachname", group="Raum") == [
+        Student("104", "Müller, Ö.", group="A")
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("", "is empty"),
+        ("id,name\n", "has no students"),
+        ("Matrikel\n1\n", "it has Matrikel"),
+        ("id\nab\nc\nAB\n", "lines 2 and 4"),
+        ("id,name\n,Ada\n", "line 2: has no id"),
+        ("id,lang\n1,fr\n", "line 2: lang 'fr' (allowed: en, bn, both)"),
+        ("id,extra\n1,half\n", "line 2: extra 'half'"),
+        ('id,name\n1,"' + "x" * 201 + '"\n', "line 2: name is longer"),
+    ],
+)
+def test_what_is_wrong_is_named_with_its_line(tmp_path, text, said):
+    with pytest.raises(ClassError, match=r"roster\.csv") as error:
+        roster(tmp_path, text)
+    assert said in str(error.value)
+
+
+def test_a_column_that_is_not_there_is_named_with_those_that_are(tmp_path):
+    with pytest.raises(ClassError, match=r"no column 'Matr' \(it has id, name"):
+        roster(tmp_path, "id,name\n1,Ada\n", id="Matr")
+
+
+def test_names_become_one_line_without_hidden_marks(tmp_path):
+    text = 'id,name\n1,"O\'Neil ""Bo""\n=cmd()"\n2,\u202eevil\u202c\u0007\n3,রুবাইয়াত হোসেন\n4,=1+1\n'
+    assert [one.name for one in roster(tmp_path, text)] == [
+        "O'Neil \"Bo\" =cmd()", "evil", "রুবাইয়াত হোসেন", "=1+1"
+    ]  # fmt: skip
+
+
+HOSTILE = (
+    "../../etc/passwd",
+    "a/b",
+    "a\\b",
+    ".hidden",
+    "con",
+    "NUL.txt",
+    "-rf",
+    "রোল-১",
+    "x" * 90,
+    "..",
+    "a b",
+    "=1",
+)
+
+
+def test_no_id_leaves_the_folder_by_its_file(tmp_path):
+    files = [Student(one).file for one in HOSTILE]
+    assert len(set(files)) == len(HOSTILE)
+    for file in files:
+        made = tmp_path / f"{file}.pdf"
+        made.write_bytes(b"")
+        assert made.resolve().parent == tmp_path.resolve()
+        assert file.isascii()
+        assert file[0] not in ".-"
+    assert Student("1234567").file == "1234567"
+    assert Student("con").file != "con"
+
+
+def test_seats_are_counted_and_groups_apart(tmp_path):
+    text = "id,group,seat\na,H2,1\nb,H1,10\nc,H1,9\nd,H1,A2\ne,H1,8\n"
+    found = roster(tmp_path, text)
+    assert [one.id for one in found] == ["d", "e", "c", "b", "a"]
+    assert neighbours(found) == {"d": ["e"], "e": ["d", "c"], "c": ["e", "b"], "b": ["c"], "a": []}
+
+
+def test_a_roster_written_is_inert_and_reads_back(tmp_path):
+    students = [Student("=1+1", '@Ada, "B"', "bn", "25%", "H1", "-3"), Student("'q", "+49")]
+    path = tmp_path / "again.csv"
+    path.write_bytes(roster_bytes(students))
+    assert "\n'=1+1," in path.read_text(encoding="utf-8-sig")
+    assert sorted(read_roster(path), key=lambda one: one.id) == sorted(
+        students, key=lambda one: one.id
+    )
+
+
+@pytest.mark.parametrize(
+    ("extra", "more"), [("", 0), ("25%", 30), ("30", 30), ("15 min", 15), ("33 %", 40)]
+)
+def test_extra_time_is_a_share_or_minutes(extra, more):
+    assert Student("1", extra=extra).more(120) == more
