@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import io
 import os
 import re
 import secrets
@@ -21,11 +22,37 @@ from quizgen.outside import parse_json, parse_toml, read_text
 STALE = 3600.0
 """Seconds after which what a killed run left behind is swept away."""
 
+_DAY = (1980, 1, 1, 0, 0, 0)
+"""The date of everything in an archive."""
+
 _LEFT_BEHIND = re.compile(r"\..*\.\d+-[0-9a-f]{8}\.part", re.DOTALL)
 
 
 USUAL = 0o666
 """Mode of a new file, less what the process takes away."""
+
+
+def zipped(contents: Mapping[str, bytes], *, packed: bool = True) -> bytes:
+    """Files as a zip archive, in their order: the same bytes on any day.
+
+    Parameters
+    ----------
+    contents : mapping of str to bytes
+        Path in the archive to content.
+    packed : bool
+        Whether they are made smaller, which another version of zlib may do otherwise.
+    """
+    import zipfile
+
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w") as archive:
+        for name, data in contents.items():
+            entry = zipfile.ZipInfo(name, _DAY)
+            entry.compress_type = zipfile.ZIP_DEFLATED if packed else zipfile.ZIP_STORED
+            entry.external_attr = 0o644 << 16
+            entry.create_system = 3
+            archive.writestr(entry, data)
+    return out.getvalue()
 
 
 def write_all(folder: Path, contents: Mapping[str, bytes], mode: int = USUAL) -> list[Path]:

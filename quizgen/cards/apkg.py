@@ -9,11 +9,9 @@ database is taken out of its header.
 from __future__ import annotations
 
 import hashlib
-import io
 import json
 import re
 import sqlite3
-import zipfile
 from collections.abc import Iterator
 from html import unescape
 from typing import Any
@@ -23,10 +21,10 @@ from quizgen.cards.deck import Deck
 from quizgen.cards.looks import FONT, NAMES, identity, note_type
 from quizgen.cards.note import Note
 from quizgen.cards.versions import BASE, modified
+from quizgen.files import zipped
 from quizgen.locale import FIRST
 
 ROOT = "Quizgen"
-_ZIP_TIME = (1980, 1, 1, 0, 0, 0)
 _TAGS = re.compile(r"<[^>]*>")
 _HEADER_VERSION = slice(96, 100)
 _SQLITE = (3_040_000).to_bytes(4, "big")
@@ -72,26 +70,16 @@ def package(deck: Deck) -> bytes:
     """
     media = {FONT: _font(), **deck.media}
     names = sorted(media)
-    out = io.BytesIO()
-    with zipfile.ZipFile(out, "w", zipfile.ZIP_STORED) as archive:
-        _add(archive, "collection.anki2", database(deck))
-        _add(archive, "media", json.dumps({str(i): n for i, n in enumerate(names)}).encode())
-        for index, name in enumerate(names):
-            _add(archive, str(index), media[name])
-    return out.getvalue()
+    listed = json.dumps({str(index): name for index, name in enumerate(names)})
+    contents = {"collection.anki2": database(deck), "media": listed.encode()}
+    contents |= {str(index): media[name] for index, name in enumerate(names)}
+    return zipped(contents, packed=False)
 
 
 def _font() -> bytes:
     from quizgen.render import fonts
 
     return fonts.web_font(fonts.BANGLA["Regular"])
-
-
-def _add(archive: zipfile.ZipFile, name: str, data: bytes) -> None:
-    entry = zipfile.ZipInfo(name, _ZIP_TIME)
-    entry.external_attr = 0o644 << 16
-    entry.create_system = 3
-    archive.writestr(entry, data)
 
 
 def database(deck: Deck) -> bytes:
