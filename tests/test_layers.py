@@ -32,7 +32,7 @@ LAYERS = {
     "practice": "errors outside files locale maths bank marking question paper",
     "render": "errors outside files locale typeset bank question paper",
     "cards": "errors outside files locale maths typeset bank figures question paper render",
-    "export": "errors locale maths bank figures marking question paper render",
+    "export": "errors files locale maths bank figures marking question paper render",
     "tradeoff": "errors outside files locale maths arrays typeset bank figures render",
     "classes": "errors outside files locale maths bank marking question paper render",
     "web": "errors outside files png locale maths typeset bank camera figures marking question paper practice render "

@@ -63,8 +63,9 @@ class Options(BankOptions):
 def export(**options: Unpack[Options]) -> None:
     """Write questions for a system for courses, with variants to draw from.
 
-    FORMAT is moodle (Moodle XML) or gift (plain text of Moodle). Parts that the system cannot mark
-    become essays; which and why is told, and stands in a file beside it.
+    FORMAT is moodle (Moodle XML), gift (plain text of Moodle), qti21 or qti3 (packages of QTI 2.1
+    and 3.0). Parts that the system cannot mark become essays; which and why is told, and stands in
+    a file beside it.
     """
     from quizgen.files import write_all
 

@@ -15,7 +15,12 @@ from quizgen.errors import one_of
 if TYPE_CHECKING:
     from quizgen.export.items import Item
 
-FORMATS = {"moodle": "moodle.xml", "gift": "gift.txt"}
+FORMATS = {
+    "moodle": "moodle.xml",
+    "gift": "gift.txt",
+    "qti21": "qti21.zip",
+    "qti3": "qti3.zip",
+}
 """The formats there are, and what their files are called."""
 
 
@@ -43,7 +48,18 @@ def exporter(name: str) -> Exporter:
             from quizgen.export import gift
 
             return Exporter(gift.write, gift.by_hand)
+        case "qti21":
+            from quizgen.export.items import by_hand
+            from quizgen.export.qti.package import write_qti21
+
+            return Exporter(write_qti21, by_hand)
+        case "qti3":
+            from quizgen.export.items import by_hand
+            from quizgen.export.qti.package import write_qti3
+
+            return Exporter(write_qti3, by_hand)
         case _:
             from quizgen.export import moodle
+            from quizgen.export.items import by_hand
 
-            return Exporter(moodle.write, moodle.by_hand)
+            return Exporter(moodle.write, by_hand)

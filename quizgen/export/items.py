@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from quizgen.bank.folder import Bank
-from quizgen.export.asks import Ask, asks
+from quizgen.export.asks import Ask, Write, asks
 from quizgen.paper.blueprint import Blueprint
 from quizgen.paper.paper import Item as PaperItem
 from quizgen.paper.paper import Progress, build, silent
@@ -65,6 +65,12 @@ class Item:
         lines = (line for part in self.key.solution.parts for line in part.lines)
         cited = dict.fromkeys(line.formula for line in lines if line.formula)
         return (self.question.topic, f"tier {self.question.tier}", *cited)
+
+
+def by_hand(item: Item) -> Iterator[tuple[str, str]]:
+    """Field and why, of each part that a person marks."""
+    for part, found in item.parts:
+        yield from ((part.field.id, ask.why) for ask in found if isinstance(ask, Write))
 
 
 def by_slot(items: Iterable[Item]) -> list[Item]:

@@ -81,12 +81,6 @@ def write(items: Iterable[Item]) -> bytes:
     return page.render(slots=slots).encode()
 
 
-def by_hand(item: Item) -> Iterator[tuple[str, str]]:
-    """Field and why, of each part that a person marks."""
-    for part, found in item.parts:
-        yield from ((part.field.id, ask.why) for ask in found if isinstance(ask, Write))
-
-
 @cache
 def _layouts() -> jinja2.Environment:
     layouts = environment("quizgen.export")

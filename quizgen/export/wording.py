@@ -119,7 +119,7 @@ def image(source: str, figure: Figure | None) -> Markup:
     """A picture with its words, if there is one."""
     if figure is None:
         return Markup("")
-    tag = Markup('<p><img src="{}" alt="{}" width="{:.0f}" height="{:.0f}"></p>')
+    tag = Markup('<p><img src="{}" alt="{}" width="{:.0f}" height="{:.0f}"/></p>')
     return tag.format(source, figure.alt, figure.width_pt * 4 / 3, figure.height_pt * 4 / 3)
 
 

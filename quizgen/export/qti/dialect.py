@@ -1,0 +1,104 @@
+"""The words of QTI 2.1 and of QTI 3.0, which say the same: ``itemBody`` is ``qti-item-body``."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+
+from markupsafe import Markup, escape
+
+Attributes = Mapping[str, str | float]
+
+_INSTANCE = "http://www.w3.org/2001/XMLSchema-instance"
+_HUMP = re.compile(r"(?<=[a-z])(?=[A-Z])")
+
+
+def element(name: str, attributes: Attributes, *inside: str) -> Markup:
+    """An element of XML; texts that are not markup are escaped."""
+    listed = "".join(f' {key}="{escape(value)}"' for key, value in attributes.items())
+    body = Markup("").join(inside)
+    end = f">{body}</{name}>" if body else "/>"
+    return Markup(f"<{name}{listed}{end}")  # noqa: S704 - made of escaped pieces
+
+
+def file(name: str, space: str, attributes: Attributes, *inside: str) -> bytes:
+    """A file with this element, in a namespace given with the place of its schema."""
+    spaces = {"xmlns": space.partition(" ")[0], "xmlns:xsi": _INSTANCE}
+    made = element(name, {**spaces, "xsi:schemaLocation": space, **attributes}, *inside)
+    return f'<?xml version="1.0" encoding="UTF-8"?>\n{made}\n'.encode()
+
+
+@dataclass(frozen=True)
+class Dialect:
+    """A version of QTI.
+
+    Parameters
+    ----------
+    version : str
+        As types of resources name it.
+    items, packages : str
+        Namespaces of items and tests, and of manifests, each with the place of its schema.
+    schema : tuple of str
+        What a manifest says of itself: schema and its version.
+    prefixed : bool
+        Whether names begin with ``qti-`` and have hyphens.
+    """
+
+    version: str
+    items: str
+    packages: str
+    schema: tuple[str, str]
+    prefixed: bool
+
+    def tag(self, name: str, attributes: Attributes, *inside: str) -> Markup:
+        """An element by its name in QTI 2.1."""
+        return element(self._element(name), self._all(attributes), *inside)
+
+    def file(self, name: str, attributes: Attributes, *inside: str) -> bytes:
+        """An item or a test as a file."""
+        return file(self._element(name), self.items, self._all(attributes), *inside)
+
+    def flow(self, name: str, attributes: Attributes, content: Markup) -> Markup:
+        """Feedback, or a note for somebody: QTI 3.0 has one element more around what is said."""
+        inside = self.tag("contentBody", {}, content) if self.prefixed else content
+        return self.tag(name, attributes, inside)
+
+    def outcome(self, name: str, kind: str, more: Attributes, *inside: Markup) -> Markup:
+        """The declaration of an outcome, of a kind as ``single float``."""
+        cardinality, base = kind.split()
+        named = {"identifier": name, "cardinality": cardinality, "baseType": base, **more}
+        return self.tag("outcomeDeclaration", named, *inside)
+
+    def _element(self, name: str) -> str:
+        return f"qti-{_hyphened(name)}" if self.prefixed else name
+
+    def _all(self, attributes: Attributes) -> Attributes:
+        if not self.prefixed:
+            return attributes
+        return {_hyphened(name): value for name, value in attributes.items()}
+
+
+@lru_cache
+def _hyphened(name: str) -> str:
+    return _HUMP.sub("-", name).lower()
+
+
+_PLACE = "http://www.imsglobal.org/xsd"
+_LATER = "https://purl.imsglobal.org/spec/qti/v3p0/schema/xsd"
+
+QTI21 = Dialect(
+    "v2p1",
+    f"{_PLACE}/imsqti_v2p1 {_PLACE}/qti/qtiv2p1/imsqti_v2p1.xsd",
+    f"{_PLACE}/imscp_v1p1 {_PLACE}/qti/qtiv2p1/qtiv2p1_imscpv1p2_v1p0.xsd",
+    ("QTIv2.1 Package", "1.0.0"),
+    prefixed=False,
+)
+QTI3 = Dialect(
+    "v3p0",
+    f"{_PLACE}/imsqtiasi_v3p0 {_LATER}/imsqti_asiv3p0_v1p0.xsd",
+    f"{_PLACE}/qti/qtiv3p0/imscp_v1p1 {_LATER}/imsqtiv3p0_imscpv1p2_v1p0.xsd",
+    ("QTI Package", "3.0.0"),
+    prefixed=True,
+)

@@ -1,0 +1,146 @@
+"""A question as an item."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+from markupsafe import Markup
+
+from quizgen.export.asks import Ask, Write
+from quizgen.export.items import Item
+from quizgen.export.qti.dialect import Dialect
+from quizgen.export.qti.place import Place
+from quizgen.export.qti.played import Played, played
+from quizgen.export.wording import body, image, solution, stem
+from quizgen.figures import Figure
+from quizgen.locale import word
+from quizgen.question.markup import inline
+
+Source = Callable[[Figure], str]
+"""Where an item finds a figure."""
+
+SOLVED, WORKED = "SOLUTION", "worked"
+"""Outcome and value that show the worked solution."""
+
+_OTHER = re.compile(r"[^A-Za-z0-9_-]")
+_DRAWING = re.compile(r"<figure.*?</figure>", re.DOTALL)
+_MATHS = re.compile(r"<math(?=[ >])")
+
+
+class Row(NamedTuple):
+    """An ask, where it stands, and what it becomes."""
+
+    ask: Ask
+    at: Place
+    played: Played
+
+
+def name_of(item: Item) -> str:
+    """What an item is called in a package: its id without points, which have a meaning there."""
+    name = _OTHER.sub("_", item.id)
+    return name if name[0].isalpha() else f"Q{name}"
+
+
+def item_file(item: Item, dialect: Dialect, source: Source) -> bytes:
+    """A question as the file of an item."""
+    groups = [
+        [Row(ask, at, played(ask, at)) for ask, at in group] for group in _asked(item, dialect)
+    ]
+    rows = [row for group in groups for row in group]
+    named = {
+        "identifier": name_of(item),
+        "title": f"{item.question.title} ({item.number})",
+        "xml:lang": item.lang,
+        "adaptive": "false",
+        "timeDependent": "false",
+        "toolName": "quizgen",
+    }
+    inside = [*_declared(item, rows, dialect), _body(item, groups, dialect, source)]
+    inside += [_processing(rows, dialect), *_feedback(item, rows, dialect, source)]
+    return dialect.file("assessmentItem", named, *map(_xml, inside))
+
+
+def _asked(item: Item, dialect: Dialect) -> Iterator[list[tuple[Ask, Place]]]:
+    """What each part asks, with the places of it."""
+    for part, asks in item.parts:
+        label = f"_{part.label}" if part.label else ""
+        suffixes = [f"{label}_{i}" for i in range(1, len(asks) + 1)] if len(asks) > 1 else [label]
+        worth = float(part.points / len(asks))
+        places = (Place(dialect, suffix, worth, item.lang) for suffix in suffixes)
+        yield list(zip(asks, places, strict=True))
+
+
+def _declared(item: Item, rows: list[Row], dialect: Dialect) -> Iterator[Markup]:
+    """Responses, then outcomes: the marks of each ask, of all of them, and what is shown."""
+    total = float(item.question.points)
+    yield from (row.played.response for row in rows)
+    yield from (_marks(row.at.score, row.at.worth, row.ask, dialect) for row in rows)
+    if not _alone(rows):
+        yield _marks("SCORE", total, None, dialect)
+    yield dialect.outcome("MAXSCORE", "single float", {}, _start(total, dialect))
+    yield dialect.outcome(SOLVED, "single identifier", {})
+    yield from (row.played.outcomes for row in rows)
+
+
+def _alone(rows: list[Row]) -> bool:
+    """Whether an item asks one thing, whose marks are those of the item."""
+    return [row.at.score for row in rows] == ["SCORE"]
+
+
+def _marks(name: str, most: float, ask: Ask | None, dialect: Dialect) -> Markup:
+    """An outcome of marks; QTI 3.0 says if a person gives them."""
+    by_hand = dialect.prefixed and isinstance(ask, Write)
+    human = {"externalScored": "human"} if by_hand else {}
+    return dialect.outcome(
+        name, "single float", {"normalMaximum": most, **human}, _start(0, dialect)
+    )
+
+
+def _start(value: float, dialect: Dialect) -> Markup:
+    return dialect.tag("defaultValue", {}, dialect.tag("value", {}, str(value)))
+
+
+def _body(item: Item, groups: list[list[Row]], dialect: Dialect, source: Source) -> Markup:
+    shown = stem(item, _picture(item.question.figure, source))
+    for (part, asks), group in zip(item.parts, groups, strict=True):
+        shown += body(part, asks, item.lang)
+        shown += Markup("").join(row.played.shown for row in group)
+    return dialect.tag("itemBody", {}, shown)
+
+
+def _processing(rows: list[Row], dialect: Dialect) -> Markup:
+    """Rules for each response that was given, then the sum of marks, then the solution."""
+    rules = [row.at.if_given(row.played.rules) for row in rows if row.played.rules]
+    if not _alone(rows):
+        scores = [dialect.tag("variable", {"identifier": row.at.score}) for row in rows]
+        rules.append(rows[0].at.sets("SCORE", dialect.tag("sum", {}, *scores)))
+    rules.append(rows[0].at.says(SOLVED, WORKED))
+    return dialect.tag("responseProcessing", {}, *rules)
+
+
+def _feedback(item: Item, rows: list[Row], dialect: Dialect, source: Source) -> Iterator[Markup]:
+    """What is said of each mistake, and the worked solution."""
+    for one in (one for row in rows for one in row.played.feedback):
+        yield _modal(dialect, one.outcome, one.value, inline(one.said, item.lang))
+    told = solution(item, _picture(item.key.figure, source))
+    drawn = (part.drawing.figure for part in item.key.solution.parts if part.drawing)
+    for figure in drawn:
+        told = Markup(_DRAWING.sub(_picture(figure, source), told, count=1))  # noqa: S704
+    yield _modal(dialect, SOLVED, WORKED, told, word(item.lang, "solution.steps"))
+
+
+def _modal(dialect: Dialect, outcome: str, value: str, said: Markup, title: str = "") -> Markup:
+    named = {"outcomeIdentifier": outcome, "identifier": value, "showHide": "show"}
+    return dialect.flow("modalFeedback", {**named, **({"title": title} if title else {})}, said)
+
+
+def _picture(figure: Figure | None, source: Source) -> Markup:
+    return image(source(figure), figure) if figure else Markup("")
+
+
+def _xml(page: Markup) -> Markup:
+    """HTML that is well formed as XML says the same."""
+    shown = _MATHS.sub('<math xmlns="http://www.w3.org/1998/Math/MathML"', page)
+    return Markup(shown.replace(' lang="', ' xml:lang="'))  # noqa: S704 - a rewritten page

@@ -1,0 +1,93 @@
+"""Items as a package: their files, figures shared by equal content, tests and a manifest."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterable, Iterator
+from functools import partial
+from itertools import groupby
+from pathlib import PurePosixPath
+from typing import NamedTuple
+
+from markupsafe import Markup
+
+from quizgen.export.items import Item, by_slot
+from quizgen.export.qti.assessment import assessment
+from quizgen.export.qti.dialect import QTI3, QTI21, Dialect, element, file
+from quizgen.export.qti.item import item_file, name_of
+from quizgen.figures import Figure
+from quizgen.files import zipped
+
+
+class Resource(NamedTuple):
+    """A file of a package, its type as the manifest names it, and the files it needs."""
+
+    kind: str
+    path: str
+    data: bytes
+    needs: tuple[str, ...] = ()
+
+
+def write_qti21(items: Iterable[Item]) -> bytes:
+    """The questions as a package of QTI 2.1: the same bytes for the same questions."""
+    return zipped(contents(items, QTI21))
+
+
+def write_qti3(items: Iterable[Item]) -> bytes:
+    """The questions as a package of QTI 3.0: the same bytes for the same questions."""
+    return zipped(contents(items, QTI3))
+
+
+def contents(items: Iterable[Item], dialect: Dialect) -> dict[str, bytes]:
+    """The files of a package by their paths, the manifest first."""
+    found = list(_resources(items, dialect))
+    manifest = _manifest(found, dialect)
+    return {"imsmanifest.xml": manifest, **{one.path: one.data for one in found}}
+
+
+def _resources(items: Iterable[Item], dialect: Dialect) -> Iterator[Resource]:
+    """A test for each language, its items, and the figures of all of them."""
+    figures: dict[str, bytes] = {}
+    for lang, group in groupby(by_slot(items), key=lambda item: item.lang):
+        of_lang = list(group)
+        paths = {f"items/{name_of(item)}.xml": item for item in of_lang}
+        test = assessment(lang, of_lang, dialect)
+        yield Resource(f"imsqti_test_xml{dialect.version}", f"test-{lang}.xml", test, (*paths,))
+        for path, item in paths.items():
+            shown: dict[str, bytes] = {}
+            data = item_file(item, dialect, partial(_figure, shown))
+            yield Resource(f"imsqti_item_xml{dialect.version}", path, data, (*shown,))
+            figures |= shown
+    yield from (Resource("webcontent", path, data) for path, data in figures.items())
+
+
+def _figure(shown: dict[str, bytes], figure: Figure) -> str:
+    """Where an item finds a figure; those that look the same are one file."""
+    path = f"figures/{hashlib.sha256(figure.svg).hexdigest()[:16]}.svg"
+    shown[path] = figure.svg
+    return f"../{path}"
+
+
+def _manifest(resources: list[Resource], dialect: Dialect) -> bytes:
+    schema, version = dialect.schema
+    named = element("schema", {}, schema) + element("schemaversion", {}, version)
+    return file(
+        "manifest",
+        dialect.packages,
+        {"identifier": "quizgen"},
+        element("metadata", {}, named),
+        element("organizations", {}),
+        element("resources", {}, *map(_listed, resources)),
+    )
+
+
+def _listed(one: Resource) -> Markup:
+    named = {"identifier": _named(one.path), "type": one.kind, "href": one.path}
+    needs = [element("dependency", {"identifierref": _named(path)}) for path in one.needs]
+    return element("resource", named, element("file", {"href": one.path}), *needs)
+
+
+def _named(path: str) -> str:
+    """What a file is called in the manifest; a figure has no letter in front."""
+    pure = PurePosixPath(path)
+    return f"figure-{pure.stem}" if pure.suffix == ".svg" else pure.stem
