@@ -28,8 +28,8 @@ _DAY = (1980, 1, 1, 0, 0, 0)
 _LEFT_BEHIND = re.compile(r"\..*\.\d+-[0-9a-f]{8}\.part", re.DOTALL)
 
 
-USUAL = 0o666
-"""Mode of a new file, less what the process takes away."""
+USUAL, PRIVATE = 0o666, 0o600
+"""Mode of a new file, less what the process takes away; that of one which only its owner reads."""
 
 
 def zipped(contents: Mapping[str, bytes], *, packed: bool = True) -> bytes:

@@ -180,13 +180,23 @@ def read_text(path: Path, error: Failure, most: int = LARGEST_FILE) -> str:
     QuizgenError
         Of the kind asked for, naming the file.
     """
-    data = read_bytes(path, error, most)
+    return decoded(read_bytes(path, error, most), path, error)
+
+
+def decoded(data: bytes, where: object, error: Failure) -> str:
+    """Text from bytes, UTF-8 unless they say they are UTF-16, with any line ends.
+
+    Raises
+    ------
+    QuizgenError
+        Of the kind asked for, naming the file.
+    """
     try:
         text = data.decode("utf-16" if data.startswith(_MARKS) else "utf-8-sig")
     except UnicodeDecodeError as found:
-        raise error(f"{path}: not UTF-8 text (byte {found.start}); save it as UTF-8") from None
+        raise error(f"{where}: not UTF-8 text (byte {found.start}); save it as UTF-8") from None
     if "\0" in text:
-        raise error(f"{path}: not UTF-8 text (a zero byte); save it as UTF-8")
+        raise error(f"{where}: not UTF-8 text (a zero byte); save it as UTF-8")
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
 

@@ -18,13 +18,12 @@ import msgspec
 from quizgen.classes.roster import Student, read_roster, roster_bytes
 from quizgen.classes.secret import code_of
 from quizgen.errors import ClassError
-from quizgen.files import write_all
+from quizgen.files import PRIVATE, write_all
 from quizgen.outside import parse_json, parse_toml, read_text
 from quizgen.paper.key import Key, digest_of_key, load_key
 
 SETTINGS, ROSTER, KEYS = "class.toml", "roster.csv", "keys.jsonl"
 PAPERS, SOLUTIONS, FORMS, ANSWERS = "papers", "solutions", "forms", "answers"
-PRIVATE = 0o600
 
 
 class Settings(msgspec.Struct, frozen=True):

@@ -23,7 +23,6 @@ from quizgen.classes.executors import run
 from quizgen.classes.folder import (
     FORMS,
     PAPERS,
-    PRIVATE,
     SOLUTIONS,
     ClassFolder,
     Head,
@@ -33,7 +32,7 @@ from quizgen.classes.folder import (
 from quizgen.classes.roster import Student, neighbours
 from quizgen.classes.secret import code_of, new_secret, seal_of, seed_of
 from quizgen.errors import ClassError
-from quizgen.files import write_all
+from quizgen.files import PRIVATE, write_all
 from quizgen.paper.blueprint import Blueprint
 from quizgen.paper.choose import choose, families, levels
 from quizgen.paper.code import Code, digest_of

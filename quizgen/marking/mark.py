@@ -94,10 +94,11 @@ def judge(spec: Kind, typed: str, options: Options) -> Verdict:
     try:
         return spec.judge(typed, options)
     except ReadError as error:
-        return _asked_back(error)
+        return unread(error)
 
 
-def _asked_back(error: ReadError) -> Verdict:
+def unread(error: ReadError) -> Verdict:
+    """The verdict on an answer that could not be read."""
     note = error.code
     if error.code == "unknown-unit" and error.expected:
         note = "unknown-unit-case"

@@ -13,9 +13,10 @@ import msgspec
 from quizgen.errors import one_of
 from quizgen.locale import languages
 from quizgen.marking.kinds.contract import Kind
-from quizgen.marking.mark import explained, judge, load_spec
+from quizgen.marking.mark import explained, judge, load_spec, unread
 from quizgen.marking.options import DECIMALS, Options
 from quizgen.marking.verdict import Verdict
+from quizgen.maths.notation import ReadError
 from quizgen.maths.precision import working_precision
 from quizgen.maths.units import factor
 from quizgen.paper.key import Key, KeyPart, KeyQuestion, load_key
@@ -179,6 +180,11 @@ class Marker:
         if self.question.chain is not None:
             _remember(self.question, spec, verdict, self.earlier)
         return _result(self.question, part, typed, explained(spec, verdict, self.options.lang))
+
+    def asked_back(self, part: KeyPart, typed: str, why: ReadError) -> PartResult:
+        """A part whose answer did not arrive as it was given; it counts as one not read."""
+        verdict = explained(load_spec(part.in_order()), unread(why), self.options.lang)
+        return _result(self.question, part, typed, verdict)
 
 
 def _verdict(

@@ -120,7 +120,7 @@ def _class_row(result: PaperResult) -> list[str]:
     totals = [points_text(result.marks), points_text(result.points)]
     counts = [str(result.asked_back), str(result.to_decide)]
     marks = ["" if part.marks is None else points_text(part.marks) for part in result.parts]
-    notes = [_note(part) for part in result.parts]
+    notes = map(note, result.parts)
     return [*totals, *counts, *marks, *map(_cell, notes)]
 
 
@@ -129,5 +129,6 @@ def _cell(text: str) -> str:
     return defused(visible(text))
 
 
-def _note(part: PartResult) -> str:
+def note(part: PartResult) -> str:
+    """What is to be said of a part in one word."""
     return part.status if part.blank else part.verdict.note or part.verdict.verdict
