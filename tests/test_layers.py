@@ -30,16 +30,17 @@ LAYERS = {
     "question": "errors outside locale maths typeset bank figures marking",
     "paper": "errors outside files locale maths bank figures marking question",
     "practice": "errors outside files locale maths bank marking question paper",
+    "responses": "errors outside files locale maths marking question paper practice",
     "render": "errors outside files locale typeset bank question paper",
     "cards": "errors outside files locale maths typeset bank figures question paper render",
-    "export": "errors files locale maths bank figures marking question paper render",
+    "export": "errors files locale maths bank figures marking question paper responses render",
     "tradeoff": "errors outside files locale maths arrays typeset bank figures render",
-    "classes": "errors outside files locale maths bank marking question paper render",
+    "classes": "errors outside files locale maths bank marking question paper responses render",
     "web": "errors outside files png locale maths typeset bank camera figures marking question paper practice render "
     "cards tradeoff classes",
     "audit": "errors outside files locale maths bank figures marking question paper render",
     "cli": "errors outside files png locale maths bank camera figures marking question paper practice render cards "
-    "export tradeoff classes audit web",
+    "responses export tradeoff classes audit web",
 }
 """Package to the packages below it that it may use. Solvers use ``maths.model`` alone."""
 

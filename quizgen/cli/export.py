@@ -65,9 +65,12 @@ def export(**options: Unpack[Options]) -> None:
 
     FORMAT is moodle (Moodle XML), gift (plain text of Moodle), qti21 or qti3 (packages of QTI 2.1
     and 3.0). Parts that the system cannot mark become essays; which and why is told, and stands in
-    a file beside it.
+    a file beside it. Another file beside it holds what quizgen check needs to mark the responses;
+    it has all the answers.
     """
-    from quizgen.files import write_all
+    from quizgen.export.kept import kept
+    from quizgen.files import PRIVATE, write_all
+    from quizgen.responses.keys import SUFFIX, written
 
     target = options["target"]
     path = options["out"] or Path("export") / FORMATS[target]
@@ -80,10 +83,12 @@ def export(**options: Unpack[Options]) -> None:
         for item in items
         for field, why in made.by_hand(item)
     ]
-    report = f"{path.name}.report.txt"
-    contents = {report: _text(lines), path.name: data} if lines else {path.name: data}
-    for written in write_all(path.parent, contents):
-        click.echo(f"  {written}")
+    keys = path.name + SUFFIX
+    contents = {keys: written(kept(item, made.kept(item)) for item in items), path.name: data}
+    if lines:
+        contents = {f"{path.name}.report.txt": _text(lines), **contents}
+    for file in write_all(path.parent, contents, PRIVATE):
+        click.echo(f"  {file}")
     _summary(items, lines)
 
 

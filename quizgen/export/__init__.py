@@ -14,6 +14,7 @@ from quizgen.errors import one_of
 
 if TYPE_CHECKING:
     from quizgen.export.items import Item
+    from quizgen.responses.keys import Entry
 
 FORMATS = {
     "moodle": "moodle.xml",
@@ -28,11 +29,13 @@ class Exporter(NamedTuple):
     """What a format's module offers.
 
     ``write`` gives the bytes of a file, the same for the same questions; ``by_hand`` the fields of
-    a question that a person marks there, each with the reason.
+    a question that a person marks there, each with the reason; ``kept`` the questions that one
+    becomes, so that their responses can be read.
     """
 
     write: Callable[[Iterable[Item]], bytes]
     by_hand: Callable[[Item], Iterator[tuple[str, str]]]
+    kept: Callable[[Item], Iterator[Entry]]
 
 
 def exporter(name: str) -> Exporter:
@@ -47,19 +50,21 @@ def exporter(name: str) -> Exporter:
         case "gift":
             from quizgen.export import gift
 
-            return Exporter(gift.write, gift.by_hand)
+            return Exporter(gift.write, gift.by_hand, gift.kept)
         case "qti21":
             from quizgen.export.items import by_hand
+            from quizgen.export.kept import whole
             from quizgen.export.qti.package import write_qti21
 
-            return Exporter(write_qti21, by_hand)
+            return Exporter(write_qti21, by_hand, whole)
         case "qti3":
             from quizgen.export.items import by_hand
+            from quizgen.export.kept import whole
             from quizgen.export.qti.package import write_qti3
 
-            return Exporter(write_qti3, by_hand)
+            return Exporter(write_qti3, by_hand, whole)
         case _:
             from quizgen.export import moodle
             from quizgen.export.items import by_hand
 
-            return Exporter(moodle.write, by_hand)
+            return Exporter(moodle.write, by_hand, moodle.kept)

@@ -18,10 +18,12 @@ from markupsafe import Markup
 from quizgen.export.answers import Answer, answers, lettered
 from quizgen.export.asks import Ask, Choose, Fill, Numeric, Order, Pairs, Truth, Write, as_pairs
 from quizgen.export.items import Item, by_slot
-from quizgen.export.wording import body, image, marked, solution, stem, targets
+from quizgen.export.kept import asked
+from quizgen.export.wording import body, image, marked, signed, solution, stem, targets
 from quizgen.figures import Figure
 from quizgen.question.compose import Part
 from quizgen.question.markup import inline
+from quizgen.responses import keys
 
 _SIGNS = {ord(sign): f"\\{sign}" for sign in "\\~=#{}:"} | {ord("\n"): "\\n", ord("\r"): ""}
 
@@ -49,12 +51,24 @@ def by_hand(item: Item) -> Iterator[tuple[str, str]]:
             yield part.field.id, ask.why
 
 
+def kept(item: Item) -> Iterator[keys.Entry]:
+    """How the one field of each part is read back."""
+    for part, found in item.parts:
+        ask, suffix = _only(found), _suffix(part)
+        fields = [asked(ask, part, item.lang)]
+        yield keys.Entry(item.mark(suffix), f"{item.id}{suffix}", fields)
+
+
+def _suffix(part: Part) -> str:
+    return f".{part.label}" if part.label else ""
+
+
 def _blocks(items: Iterable[Item]) -> Iterator[str]:
     for slot, found in groupby(by_slot(items), key=lambda item: item.category):
         yield f"$CATEGORY: $course$/top/quizgen/{slot}"
         for item in found:
-            for part, asked in item.parts:
-                yield _question(item, part, _only(asked))
+            for part, asks in item.parts:
+                yield _question(item, part, _only(asks))
 
 
 def _only(found: tuple[Ask, ...]) -> Ask:
@@ -63,8 +77,9 @@ def _only(found: tuple[Ask, ...]) -> Ask:
 
 
 def _question(item: Item, part: Part, ask: Ask) -> str:
-    suffix = f".{part.label}" if part.label else ""
+    suffix = _suffix(part)
     text = stem(item, _picture(item.question.figure)) + body(part, (ask,), item.lang)
+    text += signed(item, suffix)
     told = solution(item, _picture(item.key.figure))
     tags = "".join(f" [tag:{tag}]" for tag in item.tags)
     name = _text(f"{item.question.title} ({item.number}{suffix})")

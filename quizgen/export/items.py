@@ -6,12 +6,16 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+import msgspec
+
 from quizgen.bank.folder import Bank
 from quizgen.export.asks import Ask, Write, asks
 from quizgen.paper.blueprint import Blueprint
+from quizgen.paper.key import KeyQuestion, key_question
 from quizgen.paper.paper import Item as PaperItem
 from quizgen.paper.paper import Progress, build, silent
 from quizgen.question.compose import Key, Part, Question, compose
+from quizgen.responses.keys import mark
 
 
 @dataclass(frozen=True)
@@ -58,6 +62,15 @@ class Item:
         """Each part with what it asks."""
         rows = zip(self.question.parts, self.key.specs, self.key.solution.parts, strict=True)
         return tuple((part, asks(part, spec, solved, self.lang)) for part, spec, solved in rows)
+
+    @cached_property
+    def key_question(self) -> KeyQuestion:
+        """What marks it, as it is written to a file."""
+        return key_question(self.paper_item)
+
+    def mark(self, suffix: str = "") -> str:
+        """What stands in its text, so that a response to it is known."""
+        return mark(f"{self.id}{suffix}\n{msgspec.json.encode(self.key_question).decode()}")
 
     @property
     def tags(self) -> tuple[str, ...]:

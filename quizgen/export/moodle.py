@@ -35,7 +35,8 @@ from quizgen.export.asks import (
     by_person,
 )
 from quizgen.export.items import Item, by_slot
-from quizgen.export.wording import body, hints, image, marked, solution, stem, targets
+from quizgen.export.kept import asked
+from quizgen.export.wording import body, hints, image, marked, signed, solution, stem, targets
 from quizgen.figures import Figure
 from quizgen.locale import word
 from quizgen.maths.units import shown as shown_unit
@@ -43,22 +44,45 @@ from quizgen.question.compose import Part
 from quizgen.question.markup import inline
 from quizgen.question.shown import named
 from quizgen.render.layouts import environment
+from quizgen.responses import keys
+
+Asking = tuple[Part, tuple[Ask, ...]]
 
 
 @dataclass(frozen=True)
 class Entry:
     """A question as Moodle has it.
 
-    ``kind`` is Moodle's name of its type, ``ask`` what it asks if it asks one thing.
+    ``kind`` is Moodle's name of its type, ``suffix`` tells it from others of its item, ``parts`` is
+    what it asks, ``ask`` the same if it is one thing.
     """
 
     item: Item
     kind: str
-    id: str
-    name: str
-    points: Fraction
-    text: Markup
+    suffix: str
+    body: Markup
+    parts: Sequence[Asking]
     ask: Ask | None = None
+
+    @property
+    def id(self) -> str:
+        """The same for the same question whenever it is exported."""
+        return f"{self.item.id}{self.suffix}"
+
+    @property
+    def name(self) -> str:
+        """What a course lists it by."""
+        return f"{self.item.question.title} ({self.item.number}{self.suffix})"
+
+    @property
+    def points(self) -> Fraction:
+        """Marks of its parts."""
+        return sum((part.points for part, _ in self.parts), Fraction(0))
+
+    @property
+    def text(self) -> Markup:
+        """What it says, and behind it what tells its responses from those to others."""
+        return self.body + signed(self.item, self.suffix)
 
 
 def write(items: Iterable[Item]) -> bytes:
@@ -79,6 +103,13 @@ def write(items: Iterable[Item]) -> bytes:
     ]
     page = _layouts().get_template("moodle.xml.j2")
     return page.render(slots=slots).encode()
+
+
+def kept(item: Item) -> Iterator[keys.Entry]:
+    """How the fields of what an item becomes are read back."""
+    for entry in entries(item):
+        fields = [asked(ask, part, item.lang) for part, found in entry.parts for ask in found]
+        yield keys.Entry(item.mark(entry.suffix), entry.id, fields, entry.kind == "cloze")
 
 
 @cache
@@ -113,14 +144,7 @@ def entries(item: Item) -> Iterator[Entry]:
             if isinstance(ask, Write):
                 suffix = f".{part.label}" if part.label else ""
                 text = above + body(part, found, item.lang)
-                yield _entry(item, "essay", suffix, part.points, text, ask)
-
-
-def _entry(
-    item: Item, kind: str, suffix: str, points: Fraction, text: Markup, ask: Ask | None
-) -> Entry:
-    name = f"{item.question.title} ({item.number}{suffix})"
-    return Entry(item, kind, f"{item.id}{suffix}", name, points, text, ask)
+                yield Entry(item, "essay", suffix, text, [(part, found)], ask)
 
 
 def _one(item: Item, above: Markup) -> Entry | None:
@@ -132,7 +156,7 @@ def _one(item: Item, above: Markup) -> Entry | None:
     if isinstance(ask, Order) and not ask.whole:
         ask = as_pairs(ask, item.lang)
     text = above + body(part, found, item.lang)
-    return _entry(item, _kind(ask), "", part.points, text, ask)
+    return Entry(item, _kind(ask), "", text, item.parts, ask)
 
 
 @singledispatch
@@ -148,7 +172,7 @@ _kind.register(Order, lambda _ask: "ordering")
 _kind.register(Fill, lambda _ask: "shortanswer")
 
 
-def _cloze(item: Item, above: Markup, parts: Sequence[tuple[Part, tuple[Ask, ...]]]) -> Entry:
+def _cloze(item: Item, above: Markup, parts: Sequence[Asking]) -> Entry:
     """One question with a field in its text for each value."""
     shares = [part.points / _fields(found, item.lang) for part, found in parts]
     scale = lcm(*(share.denominator for share in shares))
@@ -157,8 +181,7 @@ def _cloze(item: Item, above: Markup, parts: Sequence[tuple[Part, tuple[Ask, ...
         text += body(part, found, item.lang)
         for ask in found:
             text += _embedded(ask, int(share * scale), item.lang)
-    points = sum((part.points for part, _ in parts), Fraction(0))
-    return _entry(item, "cloze", "", points, text, None)
+    return Entry(item, "cloze", "", text, parts)
 
 
 def _fields(found: Sequence[Ask], lang: str) -> int:

@@ -69,6 +69,11 @@ def targets(pairs: Pairs) -> dict[str, str]:
     }
 
 
+def signed(item: Item, suffix: str) -> Markup:
+    """The mark of a question, which reports of a course carry with its text."""
+    return Markup("<p><small>[{}]</small></p>").format(item.mark(suffix))
+
+
 def _told(part: Part, found: Sequence[Ask], lang: str) -> Iterable[Markup]:
     """Sentences that say what to type, each once."""
     if by_person(found):
