@@ -14,6 +14,7 @@ from quizgen.errors import KeyFileError
 from quizgen.locale import FIRST, languages
 from quizgen.marking.echo import safe
 from quizgen.outside import visible
+from quizgen.responses.keys import SUFFIX
 
 if TYPE_CHECKING:
     from quizgen.paper.form import Answers
@@ -49,12 +50,18 @@ class Marked(NamedTuple):
 def check(key: Path, answers: tuple[Path, ...], lang: str | None, **flags: bool) -> None:
     """Mark ANSWERS (answers.toml, .csv or .json, one or many) with KEY (key.json).
 
+    With the keys of an export (moodle.xml.keys.jsonl) as KEY, ANSWERS are responses that a system
+    for courses collected: Moodle's report "Responses" as CSV or JSON, or archives of them (.zip).
+
     One form prints a table with the mistake found in each part; several forms print CSV: marks and
     notes per part, one line per student. A form that cannot be read is named and the others are
     marked. Exit codes: 0 every form was marked, 1 some were, 2 none.
     """
+    from quizgen.cli import responses
     from quizgen.paper.key import read_key
 
+    if key.name.endswith(SUFFIX):
+        sys.exit(responses.check(key, answers, lang, flags))
     paper = read_key(key)
     _belongs(key.parent / PAGE, paper)
     marked = list(_all_marked(paper, answers, lang, settle=not flags["no_settle"]))

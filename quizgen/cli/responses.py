@@ -1,0 +1,60 @@
+"""``quizgen check`` of responses that a system for courses collected."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from quizgen.outside import visible
+
+if TYPE_CHECKING:
+    from quizgen.responses.marks import Marked
+
+
+def check(path: Path, files: Sequence[Path], lang: str | None, flags: Mapping[str, bool]) -> int:
+    """Mark the responses in files, print them, and give the code to leave with.
+
+    Raises
+    ------
+    KeyFileError
+        If the keys cannot be read.
+    """
+    from quizgen.responses.files import attempts
+    from quizgen.responses.keys import read
+    from quizgen.responses.marks import marked
+
+    keys = read(path)
+    lost: list[str] = []
+    found = list(marked(keys, attempts(files, keys.found, lost.append), lang))
+    for line in (*lost, *_untold(found)):
+        click.echo(f"quizgen: {visible(' '.join(line.split()))}", err=True)
+    there = [one for one in found if one.attempt.responses]
+    if there:
+        _print(there, flags)
+    return (1 if there else 2) if lost else 0
+
+
+def _untold(found: Sequence[Marked]) -> Iterator[str]:
+    """What is no error, but not marked either."""
+    for one in found:
+        who = one.attempt.name or one.attempt.who[0]
+        if not one.attempt.responses:
+            yield f"{one.attempt.where}: {who}: no attempt"
+        for number in one.foreign:
+            yield f"{one.attempt.where}: {who}: question {number} is not in the keys; not marked"
+
+
+def _print(found: Sequence[Marked], flags: Mapping[str, bool]) -> None:
+    from quizgen.responses.report import as_csv, as_json, lines
+
+    if flags["as_json"]:
+        click.echo(json.dumps([as_json(one) for one in found], ensure_ascii=False, indent=1))
+    elif flags["as_csv"]:
+        click.echo(as_csv(found), nl=False)
+    else:
+        for line in lines(found):
+            click.echo(line)

@@ -1,0 +1,121 @@
+"""Marking attempts: what was responded as it would have been typed, judged part by part."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+
+from quizgen.marking.options import Options
+from quizgen.maths.notation import ReadError
+from quizgen.paper.marking import Marker, PaperResult, PartResult
+from quizgen.practice.boxes import joined
+from quizgen.question.contract import Box, Control
+from quizgen.responses.attempts import Attempt, Response
+from quizgen.responses.keys import Entry, Kept, Keys, Shape
+from quizgen.responses.summaries import Values, fields
+
+Typed = str | ReadError
+
+
+@dataclass(frozen=True, slots=True)
+class Marked:
+    """An attempt with its marks.
+
+    Parameters
+    ----------
+    attempt : Attempt
+    number : int
+        Which attempt of that person it is, from 1.
+    result : PaperResult
+    questions : mapping
+        The id of the question that stood at each number of the quiz.
+    foreign : tuple of str
+        Numbers of questions that are not in the keys.
+    """
+
+    attempt: Attempt
+    number: int
+    result: PaperResult
+    questions: Mapping[str, str]
+    foreign: tuple[str, ...]
+
+
+def marked(keys: Keys, attempts: Iterable[Attempt], lang: str | None = None) -> Iterator[Marked]:
+    """Mark attempts one after another.
+
+    Parameters
+    ----------
+    keys : Keys
+    attempts : iterable of Attempt
+    lang : str, optional
+        Language of the remarks; else that of each question.
+
+    Raises
+    ------
+    KeyFileError
+        If a key is wrong (never because of what was responded).
+    """
+    seen = Counter[tuple[str, str]]()
+    for attempt in attempts:
+        seen[attempt.who] += 1
+        yield _marked(keys, attempt, seen[attempt.who], lang)
+
+
+def _marked(keys: Keys, attempt: Attempt, number: int, lang: str | None) -> Marked:
+    known: dict[str, tuple[Kept, list[tuple[Response, Entry]]]] = {}
+    for response in attempt.responses:
+        if response.question in keys.found:
+            kept, entry = keys.found[response.question]
+            known.setdefault(kept.id, (kept, []))[1].append((response, entry))
+    parts = [part for kept, given in known.values() for part in _parts(kept, given, lang)]
+    numbers = [response.number for response in attempt.responses]
+    parts.sort(key=lambda part: numbers.index(part.number))
+    questions = {
+        r.number: keys.found[r.question][1].id
+        for r in attempt.responses
+        if r.question in keys.found
+    }
+    foreign = tuple(r.number for r in attempt.responses if r.question not in keys.found)
+    return Marked(attempt, number, PaperResult("", tuple(parts)), questions, foreign)
+
+
+def _parts(
+    kept: Kept, given: Iterable[tuple[Response, Entry]], lang: str | None
+) -> Iterator[PartResult]:
+    """The parts of one question, which a system may have asked as several."""
+    typed: dict[str, tuple[str, Typed]] = {}
+    for response, entry in given:
+        for name, text in _typed(kept, entry, response).items():
+            typed[name] = (response.number, text)
+    marker = Marker(kept.key, Options(lang or kept.lang))
+    for part in kept.key.parts:
+        if part.id in typed:
+            number, text = typed[part.id]
+            done = (
+                marker.asked_back(part, text.found, text)
+                if isinstance(text, ReadError)
+                else marker.mark(part, text)
+            )
+            label = part.id.removeprefix(kept.key.number)
+            yield replace(done, id=f"{number}{label}", number=number)
+
+
+def _typed(kept: Kept, entry: Entry, response: Response) -> dict[str, Typed]:
+    """Part to what it was answered with, in one line."""
+    found: dict[str, list[Values | ReadError]] = {}
+    stems: dict[str, list[str]] = {}
+    for ask, values in zip(entry.asks, fields(entry, response.text), strict=True):
+        found.setdefault(ask.part, []).append(values)
+        stems[ask.part] = list(ask.options)
+    return {part: _line(kept.shapes[part], values, stems[part]) for part, values in found.items()}
+
+
+def _line(shape: Shape, values: list[Values | ReadError], stems: list[str]) -> Typed:
+    filled: list[str] = []
+    for one in values:
+        if isinstance(one, ReadError):
+            return one
+        filled += one if len(values) == 1 else one or [""]
+    control = Control(shape.form, boxes=tuple(map(Box, shape.names)), named=shape.named)
+    return joined(control, filled, stems)

@@ -1,0 +1,171 @@
+"""Showing marked attempts: a line for each and a line for each question, CSV and JSON."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from statistics import correlation, fmean
+
+from quizgen.outside import defused, visible
+from quizgen.paper.marking import PartResult
+from quizgen.paper.report import note, points_text, width
+from quizgen.responses.marks import Marked
+
+HEAD = ("where", "name", "id", "email", "attempt", "marks", "points", "asked_back", "to_decide")
+USUAL_NOTES = 3
+"""Mistakes of a question that are named."""
+FEWEST = 3
+"""Attempts below which no correlation is told."""
+
+
+@dataclass(frozen=True, slots=True)
+class Statistics:
+    """A question of a quiz over all attempts, whichever variants they had.
+
+    Parameters
+    ----------
+    number : str
+    count : int
+        Attempts in which it was asked.
+    share : float
+        Marks that were given for it, of those that could be had.
+    apart : float, optional
+        How well it tells those apart who are good at the other questions: the correlation of its
+        marks with all others.
+    notes : list
+        What went wrong most often, and how often.
+    """
+
+    number: str
+    count: int
+    share: float
+    apart: float | None
+    notes: list[tuple[str, int]]
+
+
+def by_question(one: Marked) -> dict[str, list[PartResult]]:
+    """The parts of each question of an attempt."""
+    found: dict[str, list[PartResult]] = {}
+    for part in one.result.parts:
+        found.setdefault(part.number, []).append(part)
+    return found
+
+
+def statistics(marked: Sequence[Marked]) -> Iterator[Statistics]:
+    """The questions of a quiz in their order."""
+    split = [by_question(one) for one in marked]
+    for number in dict.fromkeys(number for one in split for number in one):
+        asked = [(one, found[number]) for one, found in zip(marked, split, strict=True)
+                 if number in found]  # fmt: skip
+        shares = [_share(parts) for _, parts in asked]
+        others = [float(one.result.marks - _marks(parts)) for one, parts in asked]
+        wrong = (note(part) for _, parts in asked for part in parts if _missed(part))
+        notes = Counter(wrong).most_common(USUAL_NOTES)
+        yield Statistics(number, len(asked), fmean(shares), _correlated(shares, others), notes)
+
+
+def _missed(part: PartResult) -> bool:
+    return part.marks is not None and part.verdict.credit < 1 and not part.blank
+
+
+def _marks(parts: Sequence[PartResult]) -> Fraction:
+    return sum((part.marks or Fraction(0) for part in parts), Fraction(0))
+
+
+def _share(parts: Sequence[PartResult]) -> float:
+    return float(_marks(parts) / sum(part.points for part in parts))
+
+
+def _correlated(shares: Sequence[float], others: Sequence[float]) -> float | None:
+    """The correlation, where there is one: not for few, nor for all the same."""
+    if len(shares) < FEWEST or len({*shares}) < 2 or len({*others}) < 2:
+        return None
+    return correlation(shares, others)
+
+
+def as_csv(marked: Sequence[Marked]) -> str:
+    """One row for each attempt: which question stood where, marks and notes of every part."""
+    numbers = list(dict.fromkeys(number for one in marked for number in one.questions))
+    parts = list(dict.fromkeys(part.id for one in marked for part in one.result.parts))
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    titles = [f"{number} question" for number in numbers]
+    titles += [f"{part} {what}" for what in ("typed", "marks", "note") for part in parts]
+    writer.writerow(map(_cell, (*HEAD, *titles)))
+    for one in marked:
+        found = {part.id: part for part in one.result.parts}
+        row = [*_person(one), *(one.questions.get(number, "") for number in numbers)]
+        for shown in (_typed, _given, note):
+            row += [shown(found[part]) if part in found else "" for part in parts]
+        writer.writerow(map(_cell, row))
+    return out.getvalue()
+
+
+def _person(one: Marked) -> list[str]:
+    attempt, result = one.attempt, one.result
+    totals = (points_text(result.marks), points_text(result.points))
+    counts = (one.number, result.asked_back, result.to_decide)
+    number, asked_back, to_decide = map(str, counts)
+    known = [attempt.where, attempt.name, attempt.id, attempt.email, number]
+    return [*known, *totals, asked_back, to_decide]
+
+
+def _typed(part: PartResult) -> str:
+    return part.typed
+
+
+def _given(part: PartResult) -> str:
+    return "" if part.marks is None else points_text(part.marks)
+
+
+def _cell(text: str) -> str:
+    """A text that a spreadsheet does not run and a terminal does not obey."""
+    return defused(visible(text))
+
+
+def as_json(one: Marked) -> dict[str, object]:
+    """Plain values for JSON."""
+    attempt = one.attempt
+    return {
+        "where": attempt.where,
+        "name": attempt.name,
+        "id": attempt.id,
+        "email": attempt.email,
+        "attempt": one.number,
+        "questions": dict(one.questions),
+        "foreign": list(one.foreign),
+        **one.result.as_json(),
+    }
+
+
+def lines(marked: Sequence[Marked]) -> Iterator[str]:
+    """A table of attempts and one of questions."""
+    yield from _table([("name", "id", "marks", "asked back", "to decide"), *map(_row, marked)])
+    yield ""
+    found = [_question(one) for one in statistics(marked)]
+    yield from _table([("question", "asked", "marks", "r", "most often"), *found])
+
+
+def _row(one: Marked) -> tuple[str, ...]:
+    result = one.result
+    again = f" ({one.number})" if one.number > 1 else ""
+    marks = f"{points_text(result.marks)} / {points_text(result.points)}"
+    name = visible(one.attempt.name) + again
+    return (name, visible(one.attempt.who[0]), marks, str(result.asked_back), str(result.to_decide))
+
+
+def _question(one: Statistics) -> tuple[str, ...]:
+    apart = "" if one.apart is None else f"{one.apart:.2f}"
+    notes = ", ".join(f"{count} {name}" for name, count in one.notes)
+    return (visible(one.number), str(one.count), f"{one.share:.0%}", apart, notes)
+
+
+def _table(rows: Sequence[tuple[str, ...]]) -> Iterator[str]:
+    sizes = [max(map(width, column)) for column in zip(*rows, strict=True)]
+    for row in rows:
+        cells = (cell + " " * (size - width(cell)) for cell, size in zip(row, sizes, strict=True))
+        yield "  ".join(cells).rstrip()

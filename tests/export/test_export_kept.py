@@ -1,0 +1,95 @@
+"""What an export leaves behind reads the responses that Moodle makes of its questions.
+
+Right responses are taken from the file for Moodle by a reader of its own, and made into text as
+Moodle's documents and code describe it.
+"""
+
+from __future__ import annotations
+
+import html
+import re
+from xml.etree import ElementTree as ET
+
+import pytest
+from cloze import fields
+
+from quizgen.export.items import of_templates
+from quizgen.export.kept import kept
+from quizgen.export.moodle import kept as entries
+from quizgen.export.moodle import write
+from quizgen.responses.attempts import Attempt, Response
+from quizgen.responses.keys import Keys
+from quizgen.responses.marks import marked
+
+
+def plain(text) -> str:
+    return html.unescape(re.sub(r"<[^>]+>", "", text)).upper()
+
+
+def texts(elements, path="text"):
+    return [plain(one.findtext(path)) for one in elements]
+
+
+def right(question) -> str:
+    """What Moodle would make of the right response."""
+    answers = question.findall("answer")
+    best = [one for one in answers if float(one.get("fraction")) > 0]
+    match question.get("type"):
+        case "cloze":
+            pieces = [embedded(one) for one in fields(question.findtext("questiontext/text"))]
+            return "; ".join(f"part {place}: {piece}" for place, piece in enumerate(pieces, 1))
+        case "numerical" | "shortanswer":
+            return best[0].findtext("text").replace("\\*", "*")
+        case "multichoice" | "truefalse":
+            return "; ".join(texts(best))
+        case "ordering":
+            return "; ".join(f"{text[:7]}..." for text in texts(answers))
+        case "matching":
+            pairs = [one for one in question.findall("subquestion") if one.findtext("text")]
+            rows = zip(texts(pairs), texts(pairs, "answer/text"), strict=True)
+            return "; ".join(f"{stem} -> {choice}" for stem, choice in rows)
+    raise AssertionError(question.get("type"))
+
+
+def embedded(field) -> str:
+    best = [one.typed for one in field.alternatives if one.percent > 0]
+    match field.kind:
+        case "NUMERICAL":
+            return best[0].partition(":")[0].replace(".", ",", 1)
+        case "MULTIRESPONSE":
+            return "; ".join(map(plain, best))
+    return best[0].replace("\\*", "*") if field.kind.startswith("SHORT") else plain(best[0])
+
+
+def missed(items) -> dict[str, list[str]]:
+    """Parts of which the right response does not have all the marks."""
+    found = {}
+    keys = Keys(kept(item, entries(item)) for item in items)
+    for question in ET.fromstring(write(items)).iter("question"):
+        if question.get("type") in {"category", "essay"}:
+            continue
+        (mark,) = re.findall(
+            r"\[([a-z2-9]{4}-[a-z2-9]{4})\]", question.findtext("questiontext/text")
+        )
+        name = question.findtext("idnumber")
+        attempt = Attempt("", "", name, "", (Response("1", mark, right(question)),))
+        (one,) = marked(keys, [attempt])
+        assert one.questions == {"1": name}
+        wrong = [f"{p.typed!r} {p.verdict.note}" for p in one.result.parts if p.marks != p.points]
+        found |= {name: wrong} if wrong or not one.result.parts else {}
+    return found
+
+
+def test_right_responses_come_back_right(items):
+    assert missed(items) == {}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("lang", ["en", "bn"])
+def test_those_of_all_templates(bank, lang):
+    assert missed(list(of_templates(bank, list(bank.paths), 7, 1, [lang]))) == {}
+
+
+def test_marks_are_apart(items):
+    marks = [entry.mark for item in items for entry in entries(item)]
+    assert len(marks) == len({*marks})

@@ -1,0 +1,111 @@
+"""Files of responses that nobody should believe: each a clear line that names the place."""
+
+from __future__ import annotations
+
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from quizgen.errors import KeyFileError
+from quizgen.responses.files import LARGEST, attempts
+from quizgen.responses.keys import FORMAT, read
+
+GOOD = Path(__file__).parent / "moodle" / "responses.csv"
+KEYS = Path(__file__).parent / "moodle" / "quiz.keys.jsonl"
+HEAD = "Last name,First name,Question 1,Response 1\n"
+KNOWN = {"abcd-2345"}
+
+
+def refused(path, known=KNOWN):
+    lost = []
+    assert list(attempts([path], known, lost.append)) == []
+    (told,) = lost
+    return told
+
+
+@pytest.mark.parametrize(
+    ("name", "data", "told"),
+    [
+        ("a.csv", b"", "no column"),
+        ("a.csv", b"\0\0", "a zero byte"),
+        ("a.csv", HEAD.encode("utf-16-le"), "a zero byte"),
+        ("a.csv", (HEAD + "\u00d6z,Cem,[abcd-2345],1").encode("latin-1"), "save it as UTF-8"),
+        ("a.csv", (HEAD + 'Oz,Cem,[abcd-2345],"1').encode(), "line 2"),
+        ("a.csv", b"Last name,Question 1\nOz,[abcd-2345]", "tick 'response'"),
+        ("a.json", b"[[{]]", "line 1"),
+        ("a.json", b"[" * 100_000, "within each other"),
+        ("a.json", b'{"question1": "[abcd-2345]"}', "a list of attempts"),
+        ("a.json", b'[[{"question1": "", "question1": ""}]]', "stands twice"),
+        ("a.zip", b"PK\x03\x04 and no more", "not an archive"),
+        ("a.pdf", b"%PDF", "no file of responses"),
+    ],
+)  # fmt: skip
+def test_a_file_that_is_none(tmp_path, name, data, told):
+    path = tmp_path / name
+    path.write_bytes(data)
+    message = refused(path)
+    assert told in message
+    assert str(path) in message
+
+
+@pytest.mark.parametrize(
+    ("name", "data", "told"),
+    [
+        ("a.csv", HEAD + "Oz,Cem,[abcd-2345],1\nOz,[abcd-2345]\nLi,Su,[abcd-2345],2,3\n", ": line "),
+        ("a.json", '[[{"question1": "[abcd-2345]", "response1": "1"}, {"x": "1"}, {}]]', ": attempt "),
+    ],
+)  # fmt: skip
+def test_a_row_that_cannot_be_read_stops_no_other(tmp_path, name, data, told):
+    path, lost = tmp_path / name, []
+    path.write_text(data, encoding="utf-8")
+    (found,) = attempts([path], KNOWN, lost.append)
+    assert [one.text for one in found.responses] == ["1"]
+    assert [line.startswith(f"{path}{told}") for line in lost] == [True, True]
+
+
+def test_a_bomb_is_not_unpacked(tmp_path):
+    path = tmp_path / "bomb.zip"
+    with (
+        zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive,
+        archive.open("a.csv", "w") as stream,
+    ):
+        for _ in range(80):
+            stream.write(b"a\n" * 500_000)
+    assert path.stat().st_size < 200_000
+    assert "60 MB unpacked" in refused(path)
+
+
+def test_a_file_of_a_hundred_megabytes(tmp_path):
+    path = tmp_path / "long.csv"
+    with path.open("wb") as stream:
+        stream.truncate(100_000_000)
+    assert f"larger than {LARGEST // 10**6} MB" in refused(path)
+
+
+def test_an_archive_of_reports(tmp_path):
+    path = tmp_path / "all.zip"
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.write(GOOD, "group/responses.csv")
+        archive.writestr("readme.md", "no report")
+        archive.writestr("bad.csv", b"\xff")
+    lost = []
+    found = list(attempts([path], read(KEYS).found, lost.append))
+    assert [line.split(":")[0] for line in lost] == [f"{path}/bad.csv"]
+    assert [one.id for one in found] == ["78", "1815", "0042", "77", "77"]
+    assert found[0].where == f"{path}/group/responses.csv: line 2"
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("{}", "not the keys of an export"),
+        (f'{{"format":"{FORMAT}"}}\n{{"id":1}}', "line 2"),
+        (f'{{"format":"{FORMAT}"}}\n' + "[" * 10_000, "line 2"),
+    ],
+)
+def test_keys_that_are_none(tmp_path, text, told):
+    path = tmp_path / "x.keys.jsonl"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(KeyFileError, match=told):
+        read(path)
