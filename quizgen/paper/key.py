@@ -72,6 +72,12 @@ def _chain(units: tuple[tuple[str, str], ...], steps: tuple[tuple[str, str, str]
     return Chain(dict(units), built)
 
 
+@lru_cache(maxsize=256)
+def _points(text: str) -> Fraction:
+    """Points as an exact number; a class has few different ones."""
+    return written(text)
+
+
 class KeyPart(msgspec.Struct):
     """One answer field.
 
@@ -86,7 +92,7 @@ class KeyPart(msgspec.Struct):
 
     def worth(self) -> Fraction:
         """Points as an exact number."""
-        return written(self.points)
+        return _points(self.points)
 
     def in_order(self) -> dict[str, Any]:
         """The specification with its mappings in their order.

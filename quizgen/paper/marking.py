@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
@@ -21,8 +20,8 @@ from quizgen.maths.precision import working_precision
 from quizgen.maths.units import factor
 from quizgen.paper.key import Key, KeyPart, KeyQuestion, load_key
 
-QUARTER = Fraction(1, 4)
-"""Marks are given in quarters of a point."""
+QUARTERS = 4
+"""Parts of a point that marks are given in."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -220,4 +219,5 @@ def _result(question: KeyQuestion, part: KeyPart, typed: str, verdict: Verdict) 
 
 def in_quarters(marks: Fraction) -> Fraction:
     """Round marks to the nearest quarter of a point, halves up."""
-    return Fraction(math.floor(marks / QUARTER + Fraction(1, 2))) * QUARTER
+    above, below = marks.numerator, marks.denominator
+    return Fraction((2 * QUARTERS * above + below) // (2 * below), QUARTERS)
