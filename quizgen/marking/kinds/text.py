@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 from quizgen.marking.echo import safe
 from quizgen.marking.judging.wording import budget, fold, slips
@@ -58,6 +58,14 @@ class Spec(Worded, kw_only=True, frozen=True):
             missing=tuple(missing),
         )
 
+    def spots(self, typed: str) -> tuple[tuple[int, int], ...]:
+        """Where words of key points stand in a text: first character, and the one behind."""
+        found = list(_WORD.finditer(typed))
+        folded = [fold(match[0]) for match in found]
+        terms = [term for group in self.groups().values() for term in group]
+        places = {place for term in terms for place in _places(term, folded)}
+        return tuple((found[place].start(), found[place].end()) for place in sorted(places))
+
     def show(self) -> str:
         """Return the key points."""
         return "; ".join(self.groups())
@@ -68,12 +76,15 @@ _WORD = re.compile(r"[^\s.,;:!?()\"।/]+")
 
 def _occurs(term: str, words: list[str]) -> bool:
     """Whether a term's words occur in a row, endings and small slips aside."""
+    return any(True for _ in _places(term, words))
+
+
+def _places(term: str, words: list[str]) -> Iterator[int]:
+    """Where a term's words occur in a row."""
     wanted = [fold(word) for word in _WORD.findall(term)]
-    last = len(words) - len(wanted)
-    return bool(wanted) and any(
-        all(_alike(words[start + i], word) for i, word in enumerate(wanted))
-        for start in range(last + 1)
-    )
+    for start in range(len(words) - len(wanted) + 1 if wanted else 0):
+        if all(_alike(words[start + i], word) for i, word in enumerate(wanted)):
+            yield from range(start, start + len(wanted))
 
 
 def _alike(word: str, wanted: str) -> bool:
