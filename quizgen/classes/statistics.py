@@ -1,0 +1,168 @@
+"""What is known of a test from its points: reliability, discrimination, agreement, differences.
+
+Quantiles and probabilities come from FLINT's incomplete beta and gamma functions. A value that the
+points do not determine (one item, one student, no spread) is None.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Hashable, Sequence
+
+import numpy as np
+from flint import arb
+from numpy.typing import NDArray
+
+from quizgen.maths.precision import working_precision
+
+Table = NDArray[np.float64]
+"""A row for each student, a column for each item; NaN where there are no points."""
+
+HALVINGS = 60
+"""Of the interval in which a quantile lies."""
+
+
+def covariance(scores: Table) -> Table:
+    """Covariances of the columns, each over the students who have both (pairwise)."""
+    known = ~np.isnan(scores)
+    filled = np.where(known, scores, 0.0)
+    there = known.astype(float)
+    both = there.T @ there
+    with np.errstate(invalid="ignore", divide="ignore"):
+        products = filled.T @ filled - (filled.T @ there) * (there.T @ filled) / both
+        return np.where(both > 1, products / (both - 1), np.nan)
+
+
+def alpha(scores: Table) -> float | None:
+    """Cronbach's alpha."""
+    items = scores.shape[1]
+    if items < 2 or scores.shape[0] < 2:
+        return None
+    found = covariance(scores)
+    total = float(found.sum())
+    if not math.isfinite(total) or total <= 0:
+        return None
+    return items / (items - 1) * (1 - float(np.trace(found)) / total)
+
+
+def alpha_interval(
+    value: float, students: int, items: int, confidence: float = 0.95
+) -> tuple[float, float]:
+    """Feldt's interval of Cronbach's alpha.
+
+    Parameters
+    ----------
+    value : float
+        The alpha that was found.
+    students, items : int
+        From how many.
+    confidence : float
+    """
+    first, second = students - 1, (students - 1) * (items - 1)
+    tail = (1 - confidence) / 2
+    ends = (f_quantile(share, first, second) for share in (1 - tail, tail))
+    lower, upper = (1 - (1 - value) * end for end in ends)
+    return lower, upper
+
+
+def rest_correlation(scores: Table, column: int) -> float | None:
+    """Correlation of an item with the sum of all others (corrected item-total correlation)."""
+    rest = np.nansum(np.delete(scores, column, axis=1), axis=1)
+    return correlation(scores[:, column], rest)
+
+
+def correlation(first: Table, second: Table) -> float | None:
+    """Pearson's correlation over the students who have both."""
+    both = ~(np.isnan(first) | np.isnan(second))
+    x, y = first[both], second[both]
+    if len(x) < 2:
+        return None
+    x, y = x - x.mean(), y - y.mean()
+    spread = math.sqrt(float(x @ x) * float(y @ y))
+    return float(x @ y) / spread if spread > 1e-12 else None
+
+
+def kappa(pairs: Sequence[tuple[Hashable, Hashable]]) -> float | None:
+    """Cohen's kappa of two markers.
+
+    Parameters
+    ----------
+    pairs : sequence
+        What each of them said of one answer.
+    """
+    if not pairs:
+        return None
+    agreed = sum(a == b for a, b in pairs) / len(pairs)
+    one, other = Counter(a for a, _ in pairs), Counter(b for _, b in pairs)
+    by_chance = sum(count * other[said] for said, count in one.items()) / len(pairs) ** 2
+    return None if by_chance == 1 else (agreed - by_chance) / (1 - by_chance)
+
+
+def ranks(values: Table) -> Table:
+    """Ranks from 1; equal values share theirs."""
+    _, place, counts = np.unique(values, return_inverse=True, return_counts=True)
+    last = np.cumsum(counts)
+    return (last - (counts - 1) / 2)[place]
+
+
+def kruskal(groups: Sequence[Table]) -> float | None:
+    """Probability of so great a difference between groups by chance (Kruskal and Wallis)."""
+    values = np.concatenate(groups)
+    count = len(values)
+    placed = ranks(values)
+    _, ties = np.unique(values, return_counts=True)
+    unequal = 1 - float((ties.astype(float) ** 3 - ties).sum()) / (count**3 - count)
+    if unequal <= 0:
+        return None
+    pieces = np.split(placed, np.cumsum([len(group) for group in groups])[:-1])
+    between = sum(float(piece.sum()) ** 2 / len(piece) for piece in pieces)
+    found = (12 / (count * (count + 1)) * between - 3 * (count + 1)) / unequal
+    return chi_square_tail(max(found, 0.0), len(groups) - 1)
+
+
+def spearman(first: Table, second: Table) -> tuple[float, float] | None:
+    """Spearman's rank correlation, and the probability of one so far from 0 by chance."""
+    found = correlation(ranks(first), ranks(second))
+    free = len(first) - 2
+    if found is None or free < 1:
+        return None
+    left = max(1 - found**2, 1e-15)
+    return found, f_tail(found**2 * free / left, 1, free)
+
+
+def holm(chances: Sequence[float]) -> list[float]:
+    """Probabilities of several tests, corrected so that one in all is wrong as often as one was."""
+    order = sorted(range(len(chances)), key=chances.__getitem__)
+    adjusted, least = [0.0] * len(chances), 0.0
+    for place, index in enumerate(order):
+        least = max(least, min(1.0, (len(chances) - place) * chances[index]))
+        adjusted[index] = least
+    return adjusted
+
+
+@working_precision()
+def chi_square_tail(value: float, free: int) -> float:
+    """Probability of more than a value under the chi-square distribution."""
+    return float(arb(value / 2).gamma_upper(arb(free) / 2, regularized=1).mid())
+
+
+@working_precision()
+def f_tail(value: float, first: int, second: int) -> float:
+    """Probability of more than a value under the F distribution."""
+    share = arb(second) / (second + first * arb(value))
+    return float(share.beta_lower(arb(second) / 2, arb(first) / 2, regularized=1).mid())
+
+
+def f_quantile(share: float, first: int, second: int) -> float:
+    """The value below which a share of the F distribution lies."""
+    low, high = 0.0, 1.0
+    while f_tail(high, first, second) > 1 - share:
+        low, high = high, 2 * high
+    for _ in range(HALVINGS):
+        middle = (low + high) / 2
+        if f_tail(middle, first, second) > 1 - share:
+            low = middle
+        else:
+            high = middle
+    return high
