@@ -1,0 +1,221 @@
+"""What came back: forms (TOML, JSON, CSV), and tables with a row for each student or each answer.
+
+A file or a row that cannot be read, is of another paper, or contradicts itself becomes a problem
+with its place and reason; it never stops the others, and nothing of it is marked.
+"""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+
+from quizgen.classes.folder import ANSWERS
+from quizgen.classes.keys import Keys
+from quizgen.classes.mark import Sheet
+from quizgen.errors import KeyFileError, QuizgenError
+from quizgen.files import write_all
+from quizgen.locale import languages
+from quizgen.marking.echo import safe
+from quizgen.marking.options import DECIMALS
+from quizgen.outside import LARGEST_PICTURE, read_bytes, visible
+from quizgen.paper.form import read_answers
+
+FORMS = (".toml", ".json", ".csv")
+PRIVATE = 0o600
+ABOUT = ("id", "name", "lang", "decimal", "minutes", "code")
+"""Columns of a table that are no answers."""
+MARKS = {b"\xff\xfe": "utf-16", b"\xfe\xff": "utf-16"}
+
+
+def keep(folder: Path, paths: Iterable[Path]) -> list[str]:
+    """Copy what came back into the folder of a class, never over what is there; say what failed."""
+    problems = []
+    for path in paths:
+        try:
+            data = read_bytes(path, KeyFileError, LARGEST_PICTURE)
+        except KeyFileError as error:
+            problems.append(str(error))
+            continue
+        name = _free(folder / ANSWERS, path, data)
+        if name:
+            write_all(folder / ANSWERS, {name: data}, PRIVATE)
+    return problems
+
+
+def _free(folder: Path, path: Path, data: bytes) -> str:
+    """A name that is free; empty if the same stands there already."""
+    name, number = path.name, 1
+    while (folder / name).exists():
+        if (folder / name).read_bytes() == data:
+            return ""
+        number += 1
+        name = f"{path.stem}-{number}{path.suffix}"
+    return name
+
+
+class Collected:
+    """What came back of a class, sheet by sheet; problems are listed as they are met.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        That of the class.
+    keys : Keys
+    """
+
+    def __init__(self, folder: Path, keys: Keys) -> None:
+        self.folder, self.keys = folder / ANSWERS, keys
+        self.problems: list[str] = []
+        self._seen: dict[str, tuple[bytes, str]] = {}
+        self._codes = {head.code: head.id for head, _ in keys.places.values()}
+
+    def __iter__(self) -> Iterator[Sheet]:
+        for path in sorted(self.folder.rglob("*"), key=lambda one: (one.stem, one.suffix)):
+            if path.is_dir() or path.name.startswith("."):
+                continue
+            for sheet in self._sheets(path):
+                if self._first(sheet):
+                    yield sheet
+
+    def _sheets(self, path: Path) -> Iterator[Sheet]:
+        """What a file holds."""
+        if path.suffix.lower() not in FORMS:
+            self._problem(path, f"no form ({', '.join(FORMS)})")
+            return
+        try:
+            table = _Table.found(path)
+            if table is None:
+                yield self._form(path)
+            else:
+                yield from self._rows(table)
+        except QuizgenError as error:
+            self._problem(path, str(error).removeprefix(f"{path}: "))
+        except (csv.Error, UnicodeError, OSError) as error:
+            self._problem(path, str(error))
+
+    def _form(self, path: Path) -> Sheet:
+        form = read_answers(path)
+        about = form.student
+        student = self._whose(form.code, str(about.matriculation))
+        paper = self.keys.key(student).paper
+        if form.paper and form.paper != paper:
+            raise KeyFileError(f"is for other questions than the paper of {safe(student)}")
+        return Sheet(student, form.typed(), about.lang, about.decimal, path.name)
+
+    def _whose(self, code: str, student: str) -> str:
+        """Whose answers they are: by the code, else by the id, which must agree."""
+        student = student.strip()
+        owner = self._codes.get(code.strip().upper(), "")
+        if code and not owner:
+            raise KeyFileError(f"code {safe(code)} is of no paper of this class")
+        if owner and student and student != owner:
+            raise KeyFileError(
+                f"has the code of {safe(owner)}'s paper, but the number of {safe(student)}"
+            )
+        if not (owner or student in self.keys.places):
+            raise KeyFileError(f"nobody of this class has the number {safe(student)!r}")
+        return owner or student
+
+    def _rows(self, table: _Table) -> Iterator[Sheet]:
+        """The students of a table; a row that is wrong is left out."""
+        for line, cells, answers in table.students():
+            try:
+                student = self._whose(cells.get("code", ""), cells.get("id", ""))
+                yield Sheet(student, answers, *_habits(cells), table.path.name, _minutes(cells))
+            except KeyFileError as error:
+                self._problem(table.path, f"line {line}: {error}")
+
+    def _first(self, sheet: Sheet) -> bool:
+        """Whether nothing else came from this student."""
+        answers = sorted((part, text) for part, text in sheet.answers.items() if text.strip())
+        digest = hashlib.sha256(repr(answers).encode()).digest()[:8]
+        before = self._seen.get(sheet.student)
+        if before is None:
+            self._seen[sheet.student] = digest, sheet.file
+            return True
+        if before[0] != digest:
+            self.problems.append(
+                f"{safe(sheet.student)} handed in twice, {safe(before[1])} and "
+                f"{safe(sheet.file)}: the first counts; remove the one that shall not"
+            )
+        return False
+
+    def _problem(self, path: Path, reason: str) -> None:
+        self.problems.append(visible(f"{path.name}: {reason}", ""))
+
+
+def _habits(cells: Mapping[str, str]) -> tuple[str, str]:
+    """Language and decimal sign, where they are named rightly."""
+    lang, decimal = cells.get("lang", "").strip(), cells.get("decimal", "").strip()
+    return lang if lang in languages() else "", decimal if decimal in DECIMALS else DECIMALS[0]
+
+
+def _minutes(cells: Mapping[str, str]) -> float | None:
+    text = cells.get("minutes", "").strip().replace(",", ".")
+    return float(text) if text.replace(".", "", 1).isdecimal() and text.isascii() else None
+
+
+class _Table:
+    """A CSV file with a row for each student, or for each answer; read as it goes.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+    encoding, separator : str
+    head : list of str
+    """
+
+    def __init__(self, path: Path, encoding: str, separator: str, head: list[str]) -> None:
+        self.path, self.encoding, self.separator, self.head = path, encoding, separator, head
+
+    @classmethod
+    def found(cls, path: Path) -> _Table | None:
+        """The table in a file; None if it is no table of students."""
+        if path.suffix.lower() != ".csv":
+            return None
+        with path.open("rb") as stream:
+            encoding = MARKS.get(stream.read(2), "utf-8-sig")
+        with path.open(encoding=encoding, newline="") as text:
+            first = text.readline(100_000)
+        separator = max(",;\t", key=first.count)
+        cells = next(csv.reader([first], delimiter=separator), [])
+        head = [cell.strip() for cell in cells]
+        known = [
+            cell.lower() if cell.lower() in (*ABOUT, "part", "answer") else cell for cell in head
+        ]
+        if not {"id", "code"} & {*known}:
+            return None
+        return cls(path, encoding, separator, known)
+
+    def students(self) -> Iterator[tuple[int, dict[str, str], dict[str, str]]]:
+        """Line, what is said of the student, and the answers by part."""
+        long = {"part", "answer"} <= {*self.head}
+        yield from self._long() if long else self._wide()
+
+    def _cells(self) -> Iterator[tuple[int, dict[str, str]]]:
+        with self.path.open(encoding=self.encoding, newline="") as stream:
+            reader = csv.reader(stream, delimiter=self.separator, strict=True)
+            next(reader)
+            for row in reader:
+                if any(map(str.strip, row)):
+                    if len(row) > len(self.head):
+                        raise KeyFileError(f"line {reader.line_num}: more cells than columns")
+                    yield reader.line_num, dict(zip(self.head, row, strict=False))
+
+    def _wide(self) -> Iterator[tuple[int, dict[str, str], dict[str, str]]]:
+        for line, cells in self._cells():
+            answers = {name: text for name, text in cells.items() if name not in ABOUT}
+            yield line, cells, answers
+
+    def _long(self) -> Iterator[tuple[int, dict[str, str], dict[str, str]]]:
+        """Rows of one student may stand anywhere."""
+        found: dict[tuple[str, str], tuple[int, dict[str, str], dict[str, str]]] = {}
+        for line, cells in self._cells():
+            who = cells.get("id", ""), cells.get("code", "")
+            _, _, answers = found.setdefault(who, (line, cells, {}))
+            if cells["part"].strip() in answers:
+                raise KeyFileError(f"line {line}: {safe(cells['part'])} stands there twice")
+            answers[cells["part"].strip()] = cells.get("answer", "")
+        yield from found.values()

@@ -1,0 +1,352 @@
+"""What a person has to decide, equal and similar answers together, so that one decision does.
+
+Answers are equal when they are the same but for blanks and, in sentences, capitals. Sentences are
+similar, and one decision may settle them, when they differ only by slips in spelling and by words
+that say nothing: never by a number, a negation or an opposite. What is nearest stands next. Nothing
+here gives points: key points that were found are a suggestion.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import lru_cache
+from pathlib import Path
+
+from quizgen.classes.mark import Marks, item_of
+from quizgen.classes.rulings import DECIDE, SECOND, Ruling, alike, undefused
+from quizgen.classes.statistics import kappa
+from quizgen.errors import ClassError, FormulaError
+from quizgen.files import write_all
+from quizgen.marking.judging.wording import another_word, budget, fold, slips
+from quizgen.marking.kinds.text import Spec as Text
+from quizgen.marking.mark import explained, judge, load_spec
+from quizgen.marking.options import Options
+from quizgen.maths.numbers import written
+from quizgen.outside import defused, parse_csv, read_text, visible
+from quizgen.paper.key import Key
+from quizgen.paper.marking import in_quarters
+
+FILE = "decisions.csv"
+SIMILAR = 85
+"""Of 100, how alike the letters of two sentences are at least, before their words are compared."""
+MOST_CHAINED = 2000
+"""Groups of one item that are put beside the nearest."""
+COLUMNS = ("item", "together", "answer", "students", "key", "seen", "suggestion", "worth",
+           "points", "second", "comment", "who", "group")  # fmt: skip
+"""``points`` is for the one who marks, ``second`` for a second marker, where there is one."""
+
+_WORD = re.compile(r"[^\s.,;:!?()\"'।/-]+")
+_FILLERS = frozenset(
+    ("a", "an", "the", "is", "are", "was", "were", "it", "its", "this", "that", "and", "so", "also")
+)
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What some students typed alike.
+
+    Parameters
+    ----------
+    group : str
+        Its name, by which rulings know it.
+    item : str
+    typed : str
+        As one of them typed it.
+    student : str
+        The id of that one.
+    part : str
+        Its name on the paper of that one.
+    worth : float
+        The points that can be had.
+    students : int
+        How many.
+    marks : float or None
+        What has been decided.
+    """
+
+    group: str
+    item: str
+    typed: str
+    student: str
+    part: str
+    worth: float
+    students: int = 1
+    marks: float | None = None
+
+
+@dataclass(frozen=True)
+class Case:
+    """An answer with what helps to decide.
+
+    Parameters
+    ----------
+    answer : Answer
+    key : str
+        The right answer.
+    seen : str
+        Key points that were found, or why it was asked back.
+    suggestion : Fraction or None
+        Points that the key points found would give.
+    sentence : bool
+        Whether sentences are asked for.
+    spots : tuple of (int, int)
+        Where in the answer the key points stand.
+    """
+
+    answer: Answer
+    key: str
+    seen: str
+    suggestion: Fraction | None = None
+    sentence: bool = False
+    spots: tuple[tuple[int, int], ...] = ()
+
+
+def waiting(marked: Iterable[Marks], *, decided: bool = False) -> list[Answer]:
+    """The answers of a class that nobody has decided on; those of most students first.
+
+    Parameters
+    ----------
+    marked : iterable of Marks
+    decided : bool
+        Those that somebody has decided on instead, for a second marker.
+    """
+    found: dict[str, Answer] = {}
+    for one in marked:
+        for part in one.parts:
+            if not part.group or part.undecided == decided or not part.points:
+                continue
+            before = found.get(part.group)
+            found[part.group] = (
+                replace(before, students=before.students + 1)
+                if before
+                else Answer(part.group, part.item, part.typed, one.student, part.id,
+                            part.points, 1, part.marks)
+            )  # fmt: skip
+    return sorted(found.values(), key=lambda one: (one.item, -one.students, one.typed))
+
+
+def cases(answers: Iterable[Answer], key_of: Callable[[str], Key], lang: str) -> list[Case]:
+    """The answers with what helps to decide them.
+
+    Parameters
+    ----------
+    answers : iterable of Answer
+    key_of : callable
+        The key of a student's paper.
+    lang : str
+        Of what is said about them.
+    """
+    key = lru_cache(maxsize=8)(key_of)
+    return [_case(answer, key(answer.student), lang) for answer in answers]
+
+
+def _case(answer: Answer, key: Key, lang: str) -> Case:
+    parts = (
+        (item_of(question, part), part) for question in key.questions for part in question.parts
+    )
+    spec = load_spec(next(part for item, part in parts if item == answer.item).in_order())
+    verdict = explained(spec, judge(spec, answer.typed, Options(lang)), lang)
+    if not isinstance(spec, Text):
+        return Case(answer, spec.show_in(lang), verdict.message)
+    found = tuple(map(str, _names(verdict.fields.get("found"))))
+    needed = spec.needed or len(spec.groups())
+    suggested = in_quarters(Fraction(answer.worth) * min(Fraction(len(found), needed), Fraction(1)))
+    shown = f"{len(found)} / {needed}: {', '.join(found)}" if found else f"0 / {needed}"
+    return Case(
+        answer, spec.show_in(lang), shown, suggested, sentence=True, spots=spec.spots(answer.typed)
+    )
+
+
+def _names(found: object) -> tuple[object, ...]:
+    return found if isinstance(found, tuple) else ()
+
+
+def grouped(found: Iterable[Case]) -> list[list[Case]]:
+    """Cases that can be decided together; what many typed comes first, then what is nearest."""
+    groups: dict[tuple[object, ...], dict[str, list[Case]]] = {}
+    for case in found:
+        words = _words(case)
+        about = (case.answer.item, case.key, case.seen if case.sentence else "")
+        leaders = groups.setdefault(about, {})
+        leaders.setdefault(_leader(words, leaders.keys()) if case.sentence else words, []).append(
+            case
+        )
+    items: dict[str, list[list[Case]]] = {}
+    for (item, *_), leaders in groups.items():
+        items.setdefault(str(item), []).extend(leaders.values())
+    return [group for _, own in sorted(items.items()) for group in _chained(own)]
+
+
+def _words(case: Case) -> str:
+    """What is compared: the words that say something; all of what is no sentence."""
+    text = alike(case.answer.typed, words=case.sentence)
+    if not case.sentence:
+        return text
+    return " ".join(word for word in _WORD.findall(text) if word not in _FILLERS)
+
+
+def _leader(words: str, leaders: Iterable[str]) -> str:
+    """The first answer of the group that some words belong to; the words if there is none."""
+    from rapidfuzz import fuzz, process
+
+    near = process.extract(words, leaders, scorer=fuzz.ratio, score_cutoff=SIMILAR, limit=5)
+    return next((other for other, *_ in near if _slips_only(words, other)), words)
+
+
+def _slips_only(one: str, other: str) -> bool:
+    """Whether two sentences differ by slips in spelling alone, word by word."""
+    pairs = list(zip(one.split(), other.split(), strict=False))
+    same_length = len(one.split()) == len(other.split())
+    return same_length and all(a == b or _misspelt(a, b) for a, b in pairs)
+
+
+def _misspelt(one: str, other: str) -> bool:
+    most = min(budget(fold(one)), budget(fold(other)))
+    return slips(fold(one), fold(other), most) <= most and not another_word(one, other, ())
+
+
+def _chained(groups: list[list[Case]]) -> list[list[Case]]:
+    """Groups of one item: that of most students first, then always the nearest to the last one."""
+    from rapidfuzz import fuzz, process
+
+    left = sorted(groups, key=lambda group: -_students(group))
+    if len(left) > MOST_CHAINED:
+        return left
+    texts = dict(enumerate(_words(group[0]) for group in left))
+    order = [0]
+    while len(order) < len(left):
+        text = texts.pop(order[-1])
+        order.append(process.extractOne(text, texts, scorer=fuzz.token_sort_ratio)[2])
+    return [left[at] for at in order]
+
+
+def _students(group: Iterable[Case]) -> int:
+    return sum(case.answer.students for case in group)
+
+
+def write_queue(folder: Path, groups: Iterable[list[Case]], kept: Mapping[str, str]) -> Path:
+    """Write what is to be decided, for a spreadsheet.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        That of the class.
+    groups : iterable of list of Case
+    kept : mapping of str to str
+        Comments that stand there already, by group.
+    """
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(COLUMNS)
+    for number, group in enumerate(groups, 1):
+        for case in group:
+            answer = case.answer
+            suggested = "" if case.suggestion is None else f"{float(case.suggestion):g}"
+            cells = [answer.item, str(number), answer.typed, str(answer.students), case.key,
+                     case.seen, suggested, f"{answer.worth:g}", "", "",
+                     kept.get(answer.group, ""), "", answer.group]  # fmt: skip
+            writer.writerow([defused(visible(cell)) for cell in cells])
+    return write_all(folder, {FILE: out.getvalue().encode("utf-8-sig")}, mode=0o600)[0]
+
+
+def read_queue(folder: Path) -> tuple[list[Ruling], dict[str, str]]:
+    """What was filled in there, as rulings; and comments on what is still open, by group.
+
+    Points in the first row of what stands together hold for its rows that are empty.
+
+    Raises
+    ------
+    ClassError
+        Naming file, line and column.
+    """
+    path = folder / FILE
+    if not path.exists():
+        return [], {}
+    rows = parse_csv(read_text(path, ClassError), path, ClassError)
+    head = [cell.strip().lower() for cell in rows[0][1]] if rows else []
+    if missing := {"item", "together", "points", "group"} - {*head}:
+        raise ClassError(f"{path}: the first row names no column {min(missing)!r}")
+    tables = [(at, dict(zip(head, map(undefused, row), strict=False))) for at, row in rows[1:]]
+    found = [one for column in ("points", "second") for one in _filled(tables, column, path)]
+    settled = {one.group for one in found}
+    kept = {c["group"]: c.get("comment", "") for _, c in tables if c["group"] not in settled}
+    return found, kept
+
+
+def _filled(
+    tables: Iterable[tuple[int, Mapping[str, str]]], column: str, path: Path
+) -> Iterator[Ruling]:
+    """The rulings of one column."""
+    first: dict[str, Mapping[str, str]] = {}
+    for at, cells in tables:
+        said = cells if cells.get(column, "").strip() else first.get(cells["together"], cells)
+        first.setdefault(cells["together"], cells)
+        points = said.get(column, "").strip().replace(",", ".")
+        if not points or points == "-":
+            continue
+        what = DECIDE if column == "points" else SECOND
+        made = Ruling(
+            what,
+            cells["item"],
+            cells.get("answer", ""),
+            points,
+            who=said.get("who", ""),
+            comment=said.get("comment", ""),
+            group=cells["group"],
+        )
+        try:
+            made.check()
+            within(made, cells.get("worth", ""))
+        except (ClassError, FormulaError) as error:
+            raise ClassError(f"{path}: line {at}: {column}: {error}") from None
+        yield made
+
+
+def within(ruling: Ruling, worth: str) -> None:
+    """Refuse more points than there are.
+
+    Raises
+    ------
+    ClassError
+        If there are more.
+    """
+    points = ruling.points
+    if points is not None and worth and points > written(worth):
+        raise ClassError(f"{float(points):g} points of {worth}")
+
+
+@dataclass(frozen=True)
+class Agreement:
+    """How far two markers agree.
+
+    Parameters
+    ----------
+    answers : int
+        Groups of answers that both have marked.
+    kappa : float or None
+        Cohen's, unweighted, over points.
+    apart : tuple of (Ruling, Ruling)
+        Where they differ.
+    """
+
+    answers: int
+    kappa: float | None
+    apart: tuple[tuple[Ruling, Ruling], ...]
+
+
+def agreement(rulings: Iterable[Ruling]) -> Agreement:
+    """Compare the first and the second marker, by their last word on each group."""
+    last = {(one.what, one.group): one for one in rulings if one.what in {DECIDE, SECOND}}
+    both = [
+        (one, last[SECOND, group])
+        for (what, group), one in last.items()
+        if what == DECIDE and (SECOND, group) in last and one.value
+    ]
+    said = [(a.points, b.points) for a, b in both]
+    apart = tuple(pair for pair, (a, b) in zip(both, said, strict=True) if a != b)
+    return Agreement(len(both), kappa(said), apart)

@@ -1,0 +1,221 @@
+"""Every mark that was ever given: ``marks/001.jsonl``, ``002.jsonl``, ... and ``changes.csv``.
+
+The first run writes a line for each student, every later one a line for each student whose marks
+changed. Nothing is ever written over: a student's last line counts, the others are the history.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import csv
+import io
+import os
+from collections.abc import Iterable, Iterator
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import NamedTuple
+
+import msgspec
+
+from quizgen.classes.mark import Marks, PartMark
+from quizgen.errors import ClassError
+from quizgen.outside import defused, visible
+
+FOLDER, CHANGES = "marks", "changes.csv"
+PRIVATE = 0o600
+HEAD = ("run", "when", "student", "part", "item", "answer", "before", "after", "why")
+
+_ENCODE = msgspec.json.Encoder().encode
+_DECODE = msgspec.json.Decoder(Marks).decode
+
+
+class Change(NamedTuple):
+    """A mark that is another one now; None where there was none or nobody has decided."""
+
+    student: str
+    part: str
+    item: str
+    answer: str
+    before: float | None
+    after: float | None
+    why: str
+
+
+class Outcome(NamedTuple):
+    """What a run of marking did."""
+
+    students: int
+    new: int
+    undecided: int
+    changes: list[Change]
+
+
+class History:
+    """The marks of a class.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        That of the class.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+
+    def runs(self) -> list[Path]:
+        """The files, oldest first."""
+        found = (self.folder / FOLDER).glob("[0-9]*.jsonl")
+        return sorted(found, key=lambda path: int(path.stem))
+
+    def places(self) -> dict[str, tuple[Path, int]]:
+        """Where the last line of each student begins."""
+        found: dict[str, tuple[Path, int]] = {}
+        for path in self.runs():
+            at = 0
+            with path.open("rb") as stream:
+                for line in stream:
+                    found[_student(line, path)] = path, at
+                    at += len(line)
+        return found
+
+    def current(self) -> Iterator[Marks]:
+        """The marks of each student, one after the other; none is kept in memory."""
+        places = self.places()
+        with _Lines() as lines:
+            for path, at in places.values():
+                yield _marks(lines.at(path, at), path)
+
+    def of(self, student: str) -> list[tuple[str, Marks]]:
+        """All marks that a student ever had, each with its run."""
+        found = []
+        for path in self.runs():
+            with path.open("rb") as stream:
+                marked = (_marks(line, path) for line in stream if _student(line, path) == student)
+                found += [(path.stem, one) for one in marked]
+        return found
+
+    def write(self, marked: Iterable[Marks]) -> Outcome:
+        """Keep what changed, and say what did.
+
+        Parameters
+        ----------
+        marked : iterable of Marks
+            At most one for each student.
+
+        Raises
+        ------
+        ClassError
+            If the history cannot be read.
+        """
+        places, number = self.places(), len(self.runs()) + 1
+        (self.folder / FOLDER).mkdir(mode=0o700, exist_ok=True)
+        final = self.folder / FOLDER / f"{number:03}.jsonl"
+        fresh = final.with_suffix(".part")
+        students = new = undecided = written = 0
+        changes: list[Change] = []
+        with _Lines() as lines, _private(fresh) as stream:
+            for one in marked:
+                students, undecided = students + 1, undecided + one.undecided
+                line = _ENCODE(one) + b"\n"
+                before = places.get(one.student)
+                old = lines.at(*before) if before else b""
+                if old == line:
+                    continue
+                stream.write(line)
+                written += 1
+                new += not before
+                changes += _changes(_marks(old, final), one) if before else []
+        if written:
+            fresh.replace(final)
+            self._note(changes, number)
+        else:
+            fresh.unlink()
+        return Outcome(students, new, undecided, changes)
+
+    def _note(self, changes: list[Change], number: int) -> None:
+        """Add to the list of all differences."""
+        if not changes:
+            return
+        now = datetime.now(UTC).strftime("%Y-%m-%d %H:%M:%S")
+        path = self.folder / CHANGES
+        out = io.StringIO()
+        writer = csv.writer(out, lineterminator="\n")
+        writer.writerows([] if path.exists() else [HEAD])
+        for change in changes:
+            writer.writerow([number, now, *(_cell(value) for value in change)])
+        with os.fdopen(os.open(path, os.O_WRONLY | os.O_APPEND | os.O_CREAT, PRIVATE), "ab") as to:
+            to.write(out.getvalue().encode())
+
+
+class _Lines(contextlib.AbstractContextManager["_Lines"]):
+    """Lines of files that stay open meanwhile."""
+
+    def __init__(self) -> None:
+        self.open = contextlib.ExitStack()
+        self.streams: dict[Path, io.BufferedReader] = {}
+
+    def at(self, path: Path, start: int) -> bytes:
+        """The line that begins somewhere."""
+        if path not in self.streams:
+            self.streams[path] = self.open.enter_context(path.open("rb"))
+        stream = self.streams[path]
+        stream.seek(start)
+        return stream.readline()
+
+    def __exit__(self, *_: object) -> None:
+        self.open.close()
+
+
+class _Who(msgspec.Struct):
+    student: str
+
+
+_WHO = msgspec.json.Decoder(_Who).decode
+
+
+def _student(line: bytes, path: Path) -> str:
+    try:
+        return _WHO(line).student
+    except msgspec.DecodeError as error:
+        raise ClassError(f"{path}: {error}") from None
+
+
+def _marks(line: bytes, path: Path) -> Marks:
+    try:
+        return _DECODE(line)
+    except msgspec.DecodeError as error:
+        raise ClassError(f"{path}: {error}") from None
+
+
+def _private(path: Path) -> io.BufferedWriter:
+    flags = os.O_WRONLY | os.O_CREAT | os.O_TRUNC
+    return os.fdopen(os.open(path, flags, PRIVATE), "wb")
+
+
+def _changes(old: Marks, new: Marks) -> Iterator[Change]:
+    """The parts of a student whose marks are others."""
+    before = {part.id: part for part in old.parts}
+    for part in new.parts:
+        was = before.get(part.id)
+        if was is None or (was.marks, was.points) != (part.marks, part.points):
+            yield Change(
+                new.student,
+                part.id,
+                part.item,
+                part.typed,
+                was.marks if was else None,
+                part.marks,
+                _why(was, part),
+            )
+
+
+def _why(was: PartMark | None, now: PartMark) -> str:
+    if was is not None and was.typed != now.typed:
+        return "another answer came in"
+    return now.by or (f"without {was.by}" if was and was.by else "marked anew")
+
+
+def _cell(value: str | float | None) -> str:
+    if isinstance(value, str):
+        return defused(visible(value))
+    return "" if value is None else f"{value:g}"

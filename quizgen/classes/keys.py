@@ -1,0 +1,120 @@
+"""The keys of a class where many are needed at once: found without reading, read without proving.
+
+``folder`` checks each specification of a key as that of a stranger; these are our own, and a wrong
+one still ends marking with a ``KeyFileError``.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+import msgspec
+
+from quizgen.classes.analysis import Outline
+from quizgen.classes.folder import KEYS, ClassFolder, Head
+from quizgen.errors import ClassError
+from quizgen.paper.key import Key
+
+
+class _Line(msgspec.Struct):
+    """A line of the keys."""
+
+    id: str
+    key: Key
+
+
+class _ShortSpec(msgspec.Struct):
+    options: tuple[str, ...] = ()
+
+
+class _ShortPart(msgspec.Struct):
+    id: str
+    spec: _ShortSpec
+
+
+class _ShortQuestion(msgspec.Struct):
+    number: str
+    template: str
+    identity: str
+    parts: list[_ShortPart]
+
+    def items(self) -> Iterator[tuple[str, tuple[str, ...]]]:
+        """Each part's item, and its options."""
+        for part in self.parts:
+            label = part.id.removeprefix(self.number)
+            name = f"{self.template}/{label}" if label else self.template
+            yield name, part.spec.options
+
+
+class _ShortKey(msgspec.Struct):
+    questions: list[_ShortQuestion]
+
+
+class _ShortLine(msgspec.Struct):
+    key: _ShortKey
+
+
+_KEY = msgspec.json.Decoder(_Line).decode
+_SHORT = msgspec.json.Decoder(_ShortLine).decode
+
+
+class Keys:
+    """The keys of a class.
+
+    Parameters
+    ----------
+    folder : ClassFolder
+    """
+
+    def __init__(self, folder: ClassFolder) -> None:
+        self.path, self.folder = folder.path / KEYS, folder
+        self.places: dict[str, tuple[Head, int]] = folder.places()
+
+    def key(self, student: str) -> Key:
+        """The key of a student's paper."""
+        return key_at(self.path, self.places[student][1])
+
+    def outline(self, student: str) -> Outline:
+        """What a student's paper asks, for the analysis."""
+        try:
+            found = _SHORT(_line(self.path, self.places[student][1])).key
+        except msgspec.DecodeError as error:
+            raise ClassError(f"{self.path}: {student}: {error}") from None
+        return Outline(
+            {question.template: question.identity for question in found.questions},
+            {item: options for question in found.questions for item, options in question.items()},
+        )
+
+    def items(self) -> set[str]:
+        """What the papers ask: templates, with the letters of their parts."""
+        missing = {name for family in self.folder.settings.templates for name in family}
+        found: set[str] = set()
+        for student in self.places:
+            outline = self.outline(student)
+            found |= outline.options.keys()
+            missing -= outline.identities.keys()
+            if not missing:
+                break
+        return found
+
+
+def key_at(path: Path, at: int) -> Key:
+    """The key in a line that begins somewhere.
+
+    Raises
+    ------
+    ClassError
+        If it is none.
+    """
+    try:
+        return _KEY(_line(path, at)).key
+    except msgspec.DecodeError as error:
+        raise ClassError(f"{path}: byte {at}: {error}") from None
+
+
+def _line(path: Path, at: int) -> bytes:
+    with path.open("rb") as stream:
+        stream.seek(at, os.SEEK_SET)
+        return stream.readline()

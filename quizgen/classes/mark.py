@@ -1,0 +1,236 @@
+"""Marking what came back: every part by machine, then what people decided of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+import msgspec
+
+from quizgen.classes.rulings import (
+    ACCEPT,
+    DECIDE,
+    DROP,
+    GIVE,
+    TOLERANCE,
+    Book,
+    Ruling,
+    alike,
+    group_of,
+)
+from quizgen.errors import ClassError, KeyFileError
+from quizgen.locale import known
+from quizgen.marking.kinds.choice import LETTERS
+from quizgen.marking.mark import load_spec
+from quizgen.marking.options import Options
+from quizgen.maths.tolerance import RULES
+from quizgen.paper.key import Key, KeyPart, KeyQuestion
+from quizgen.paper.marking import Marker, PartResult
+
+TO_DECIDE = frozenset({"open", "unreadable", "ambiguous"})
+"""What a person is asked about."""
+DROPPED = "dropped"
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """What a student handed in.
+
+    Parameters
+    ----------
+    student : str
+        The id.
+    answers : mapping of str to str
+        Part to what was typed.
+    lang, decimal : str
+        How the student writes.
+    file : str
+        Where it stands.
+    minutes : float, optional
+        Time that was taken, where it is known.
+    """
+
+    student: str
+    answers: Mapping[str, str]
+    lang: str = ""
+    decimal: str = "auto"
+    file: str = ""
+    minutes: float | None = None
+
+
+class PartMark(msgspec.Struct, frozen=True, omit_defaults=True):
+    """The mark of one part.
+
+    ``marks`` is None while nobody has decided. ``by`` says which ruling gave the marks, ``group``
+    with which answers it is decided together, ``chosen`` which options were ticked.
+    """
+
+    id: str
+    item: str
+    typed: str
+    status: str
+    points: float
+    marks: float | None
+    note: str = ""
+    by: str = ""
+    group: str = ""
+    chosen: tuple[str, ...] = ()
+
+    @property
+    def share(self) -> float | None:
+        """Marks as a share of the points; None while open, or where it does not count."""
+        return None if self.marks is None or not self.points else self.marks / self.points
+
+    @property
+    def undecided(self) -> bool:
+        """Whether a person is asked about it."""
+        return self.marks is None
+
+
+class Marks(msgspec.Struct, frozen=True, omit_defaults=True):
+    """All marks of one student, as a line of the history keeps them."""
+
+    student: str
+    parts: tuple[PartMark, ...]
+    lang: str = ""
+    decimal: str = "auto"
+    file: str = ""
+    minutes: float | None = None
+    unknown: tuple[str, ...] = ()
+
+    @property
+    def marks(self) -> float:
+        """Marks so far."""
+        return sum(part.marks or 0.0 for part in self.parts)
+
+    @property
+    def points(self) -> float:
+        """Marks that can be had."""
+        return sum(part.points for part in self.parts)
+
+    @property
+    def undecided(self) -> int:
+        """Parts that a person is asked about."""
+        return sum(part.undecided for part in self.parts)
+
+
+def item_of(question: KeyQuestion, part: KeyPart) -> str:
+    """What a part is called in all papers of a class: its template, and its letter if any."""
+    label = part.id.removeprefix(question.number)
+    return f"{question.template}/{label}" if label else question.template
+
+
+def mark_sheet(key: Key, sheet: Sheet, book: Book) -> Marks:
+    """Mark what a student handed in.
+
+    Parameters
+    ----------
+    key : Key
+        Of the student's own paper.
+    sheet : Sheet
+    book : Book
+        What was decided.
+
+    Raises
+    ------
+    ClassError
+        If a tolerance was ruled where there is none.
+    KeyFileError
+        If the key is wrong.
+    """
+    lang = known(sheet.lang or key.langs[0])
+    options = Options(lang, sheet.decimal)
+    parts = [one for question in key.questions for one in _question(question, sheet, book, options)]
+    mine = {part.id for part in parts}
+    unknown = tuple(n for n, text in sheet.answers.items() if n not in mine and text.strip())
+    return Marks(
+        sheet.student, tuple(parts), lang, sheet.decimal, sheet.file, sheet.minutes, unknown
+    )
+
+
+def _question(
+    question: KeyQuestion, sheet: Sheet, book: Book, options: Options
+) -> Iterator[PartMark]:
+    marker = Marker(question, options)
+    for part in question.parts:
+        item, typed = item_of(question, part), sheet.answers.get(part.id, "")
+        rulings = book.of(item, sheet.student)
+        if not typed.strip():
+            blank = PartMark(part.id, item, typed, "blank", float(part.worth()), 0.0)
+            yield _settled(blank, [one for one in rulings if one.what in {DROP, GIVE}])
+            continue
+        ruled = _with_tolerance(part, rulings)
+        try:
+            found = marker.mark(ruled, typed)
+        except KeyFileError as error:
+            if ruled is part:
+                raise
+            raise ClassError(f"rulings: {item}: no tolerance holds there: {error}") from None
+        yield _ruled(found, part, item, rulings)
+
+
+def _with_tolerance(part: KeyPart, rulings: Iterable[Ruling]) -> KeyPart:
+    """The part with the tolerance that was ruled last."""
+    stated = [one.tolerance() for one in rulings if one.what == TOLERANCE]
+    if not stated:
+        return part
+    kept = {name: value for name, value in part.spec.items() if name not in {*RULES, "within"}}
+    return msgspec.structs.replace(part, spec={**kept, **stated[-1]})
+
+
+def _ruled(found: PartResult, part: KeyPart, item: str, rulings: list[Ruling]) -> PartMark:
+    """The mark of an answer after all that was decided of it."""
+    asked = found.status in TO_DECIDE
+    words = part.spec["kind"] == "text"
+    group = ""
+    if asked or rulings:
+        group = group_of(item, load_spec(part.in_order()).show(), found.typed, words=words)
+    plain = PartMark(
+        found.id,
+        item,
+        found.typed,
+        found.status,
+        float(found.points),
+        None if asked else float(found.marks or 0),
+        found.verdict.note,
+        group=group if asked else "",
+        chosen=_chosen(part, found),
+    )
+    return _settled(plain, [one for one in rulings if _about(one, found, group, words=words)])
+
+
+def _settled(plain: PartMark, rulings: list[Ruling]) -> PartMark:
+    """A mark after the rulings about it: what holds for the whole item goes before its answers."""
+    replace = msgspec.structs.replace
+    whole = [one for one in rulings if one.what in {DROP, GIVE}]
+    answers = [one for one in rulings if one.what in {DECIDE, ACCEPT}]
+    tolerances = [one for one in rulings if one.what == TOLERANCE]
+    if whole and whole[-1].what == DROP:
+        return replace(plain, marks=0.0, points=0.0, status=DROPPED, by=whole[-1].said)
+    if whole:
+        return replace(plain, marks=plain.points, by=whole[-1].said)
+    if answers and not answers[-1].undone:
+        given = answers[-1].points
+        marks = plain.points if given is None else min(float(given), plain.points)
+        return replace(plain, marks=marks, by=answers[-1].said)
+    return replace(plain, by=tolerances[-1].said) if tolerances else plain
+
+
+def _about(ruling: Ruling, found: PartResult, group: str, *, words: bool) -> bool:
+    """Whether a ruling is about this answer."""
+    if ruling.what in {DROP, GIVE, TOLERANCE}:
+        return True
+    if ruling.group:
+        return ruling.group == group
+    if ruling.answer.startswith("trap:"):
+        return found.verdict.note == ruling.answer
+    return alike(ruling.answer, words=words) == alike(found.typed, words=words)
+
+
+def _chosen(part: KeyPart, found: PartResult) -> tuple[str, ...]:
+    """The options that were ticked, by their words: letters differ from paper to paper."""
+    options: list[str] = part.spec.get("options", [])
+    if part.spec["kind"] not in {"choice", "multi"} or not found.verdict.graded:
+        return ()
+    letters = [letter for letter in found.verdict.read_as if letter in LETTERS]
+    return tuple(options[LETTERS.index(letter)] for letter in letters)

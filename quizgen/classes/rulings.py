@@ -1,0 +1,236 @@
+"""What people decided: ``rulings.csv``, a line for each decision, only ever added to.
+
+Later lines count. ``item`` is a part of a template (``blur-and-light-factors/b``), which all papers
+of a class share whatever their numbers.
+
+========== ============================== ==========================================
+what       of                             and
+========== ============================== ==========================================
+decide     a group of equal answers       its points; none: nobody has decided after all
+second     the same, by a second marker   the points that this one would give
+accept     an answer, or ``trap:NAME``    its points, all if left out
+tolerance  an item                        ``rel=0.05``, ``abs=0.1``, ``decimals=2``, ``sigfigs=3``
+drop       an item                        counts for nobody
+give       an item                        all the points for everybody who had it
+restore    an item                        undoes these four; decisions on its answers stay
+========== ============================== ==========================================
+
+With a student's id in ``student`` a line is about that student alone.
+"""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+import io
+import os
+import re
+import unicodedata
+from collections.abc import Iterable, Mapping
+from datetime import UTC, datetime
+from fractions import Fraction
+from pathlib import Path
+
+import msgspec
+
+from quizgen.errors import ClassError, FormulaError
+from quizgen.maths.numbers import written
+from quizgen.outside import defused, parse_csv, read_text, visible
+from quizgen.paper.marking import QUARTERS
+
+FILE = "rulings.csv"
+DECIDE, SECOND, ACCEPT, TOLERANCE, DROP, GIVE, RESTORE = WHAT = (
+    "decide", "second", "accept", "tolerance", "drop", "give", "restore"
+)  # fmt: skip
+LONGEST = 10_000
+"""Characters of a cell."""
+_ENDS = " .,;:!?।"
+_TOLERANCE = re.compile(r"(decimals|sigfigs)\s*=\s*(\d{1,2})|(rel|abs)\s*=\s*(\d+(?:[./]\d+)?)")
+
+
+class Ruling(msgspec.Struct, frozen=True):
+    """A line of the file.
+
+    Parameters
+    ----------
+    what : str
+        One of ``WHAT``.
+    item : str
+    answer : str
+        As it was typed, or the name of a mistake.
+    value : str
+        Points, or a tolerance.
+    student : str
+        The id of the one whom it is about; empty for all.
+    who, when, comment : str
+    group : str
+        The group of equal answers, as the queue names it.
+    """
+
+    what: str
+    item: str
+    answer: str = ""
+    value: str = ""
+    student: str = ""
+    who: str = ""
+    when: str = ""
+    comment: str = ""
+    group: str = ""
+
+    @property
+    def points(self) -> Fraction | None:
+        """The points that it gives, if it says so."""
+        return written(self.value) if self.value else None
+
+    @property
+    def undone(self) -> bool:
+        """Whether it says that nobody has decided after all."""
+        return self.what == DECIDE and not self.value
+
+    @property
+    def said(self) -> str:
+        """What it is, and by whom, for the history of a mark."""
+        return f"{self.what} ({self.who})" if self.who else self.what
+
+    def check(self) -> None:
+        """Check what types cannot say.
+
+        Raises
+        ------
+        ClassError
+            Naming the column.
+        """
+        if self.what not in WHAT:
+            raise ClassError(f"what: {self.what[:40]!r} (there are {', '.join(WHAT)})")
+        if not self.item:
+            raise ClassError("item: missing")
+        if self.what == TOLERANCE and not _TOLERANCE.fullmatch(self.value):
+            raise ClassError(f"value: {self.value[:40]!r} (rel=0.05, abs=0.1, decimals=2, ...)")
+        if self.what in {DECIDE, SECOND, ACCEPT}:
+            self._check_points()
+
+    def _check_points(self) -> None:
+        if not (self.answer or self.group):
+            raise ClassError("answer: missing")
+        try:
+            points = self.points
+        except FormulaError as error:
+            raise ClassError(f"value: {error}") from None
+        if points is not None and (points < 0 or points * QUARTERS % 1):
+            raise ClassError(f"value: {self.value[:40]!r} (points, in quarters)")
+
+    def tolerance(self) -> dict[str, int | str]:
+        """The rule of marking that it states."""
+        found = _TOLERANCE.fullmatch(self.value)
+        if found is None:
+            return {}
+        return {found[1]: int(found[2])} if found[1] else {found[3]: found[4]}
+
+
+COLUMNS = ("when", "who", "what", "item", "answer", "value", "student", "comment", "group")
+
+
+def read_rulings(folder: Path) -> list[Ruling]:
+    """Read all rulings of a class, in order.
+
+    Raises
+    ------
+    ClassError
+        Naming file, line and column.
+    """
+    path = folder / FILE
+    if not path.exists():
+        return []
+    rows = parse_csv(read_text(path, ClassError), path, ClassError)
+    head = [cell.strip().lower() for cell in rows[0][1]] if rows else []
+    if missing := {"what", "item"} - {*head}:
+        raise ClassError(f"{path}: the first row names no column {min(missing)!r}")
+    return [
+        _ruling(dict(zip(head, row, strict=False)), f"{path}: line {at}") for at, row in rows[1:]
+    ]
+
+
+def _ruling(cells: Mapping[str, str], where: str) -> Ruling:
+    known = {name: undefused(cells.get(name, "")).strip()[:LONGEST] for name in COLUMNS}
+    found = Ruling(**known)
+    try:
+        found.check()
+    except ClassError as error:
+        raise ClassError(f"{where}: {error}") from None
+    return found
+
+
+def append_rulings(folder: Path, rulings: Iterable[Ruling]) -> list[Ruling]:
+    """Add rulings to those of a class, in one piece, with the time.
+
+    Raises
+    ------
+    ClassError
+        If one of them says nothing that can be done.
+    """
+    now = datetime.now(UTC).strftime("%Y-%m-%d %H:%M:%S")
+    added = [msgspec.structs.replace(one, when=one.when or now) for one in rulings]
+    for one in added:
+        one.check()
+    path = folder / FILE
+    rows = [[defused(visible(getattr(one, name))) for name in COLUMNS] for one in added]
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerows(rows if path.exists() else [COLUMNS, *rows])
+    number = os.open(path, os.O_WRONLY | os.O_APPEND | os.O_CREAT, 0o600)
+    with os.fdopen(number, "ab") as stream:  # one write at the end: two at once do not mix
+        stream.write(out.getvalue().encode())
+    return added
+
+
+def undefused(cell: str) -> str:
+    """A cell as it was before it was made inert for spreadsheets."""
+    bare = cell.removeprefix("'")
+    return bare if bare != cell and defused(bare) == cell else cell
+
+
+def alike(answer: str, *, words: bool) -> str:
+    """What equal answers have in common.
+
+    Parameters
+    ----------
+    answer : str
+    words : bool
+        Whether it is a sentence, in which case capitals and the sign at the end do not matter.
+    """
+    text = " ".join(unicodedata.normalize("NFKC", answer).split())
+    return text.casefold().strip(_ENDS) if words else text
+
+
+def group_of(item: str, key: str, answer: str, *, words: bool) -> str:
+    """The name of a group of equal answers: to one item, where the same would be right."""
+    whole = "\0".join((item, key, alike(answer, words=words)))
+    return f"g{hashlib.sha256(whole.encode()).hexdigest()[:10]}"
+
+
+class Book:
+    """All rulings, ready to be asked.
+
+    Parameters
+    ----------
+    rulings : iterable of Ruling
+        In order.
+    """
+
+    def __init__(self, rulings: Iterable[Ruling]) -> None:
+        self.items: dict[str, list[Ruling]] = {}
+        for one in rulings:
+            if one.what != SECOND:
+                self.items.setdefault(one.item, []).append(one)
+
+    def of(self, item: str, student: str) -> list[Ruling]:
+        """What holds of an item, for a student; the last line last."""
+        found: list[Ruling] = []
+        for one in self.items.get(item, ()):
+            if one.student not in {"", student}:
+                continue
+            if one.what == RESTORE:
+                found = [kept for kept in found if kept.what == DECIDE]
+            else:
+                found.append(one)
+        return found
