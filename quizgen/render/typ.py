@@ -145,11 +145,11 @@ def _fonts() -> Any:
 
 
 @cache
-def _layout(name: str) -> str:
-    return (files("quizgen.render") / "pages" / name).read_text(encoding="utf-8")
+def _layout(name: str, package: str) -> str:
+    return (files(package) / "pages" / name).read_text(encoding="utf-8")
 
 
-def document(layout: str, body: str) -> str:
+def document(layout: str, body: str, package: str = "quizgen.render") -> str:
     """Source of a document.
 
     Parameters
@@ -158,9 +158,12 @@ def document(layout: str, body: str) -> str:
         The page layout, a file of ``pages``.
     body : str
         What calls its functions.
+    package : str
+        Whose ``pages``.
     """
     bangla = "".join(f"{string(lang)}," for lang in in_script("Beng"))
-    return f"#let bangla = ({bangla})\n{_layout('common.typ')}\n{_layout(layout)}\n{body}"
+    pages = f"{_layout('common.typ', 'quizgen.render')}\n{_layout(layout, package)}"
+    return f"#let bangla = ({bangla})\n{pages}\n{body}"
 
 
 def compiled(text: str, pictures: Mapping[str, bytes]) -> bytes:

@@ -1,0 +1,279 @@
+"""What a student gets back: answers, marks, mistakes by name, what to revise; HTML and PDF."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+
+import jinja2
+from markupsafe import Markup
+
+from quizgen.classes.grades import Graded
+from quizgen.classes.mark import DROPPED, Marks, PartMark, item_of
+from quizgen.classes.rulings import Ruling
+from quizgen.locale import FIRST, in_script, known, line_heights, table
+from quizgen.marking.mark import show
+from quizgen.marking.options import Options
+from quizgen.outside import visible
+from quizgen.paper.key import Key, KeyQuestion
+from quizgen.paper.marking import Marker
+from quizgen.render.fonts import bangla_uri
+from quizgen.render.layouts import environment
+from quizgen.render.typ import compiled, document, string
+
+MOST_TO_REVISE = 5
+PACKAGE = "quizgen.classes"
+
+
+@dataclass(frozen=True)
+class Row:
+    """One part: what was typed, what is right, what it got, and why.
+
+    Parameters
+    ----------
+    label, typed, right : str
+    marks : str
+        As they are printed; a dash while nobody has decided.
+    message : str
+        What the checker says of the answer.
+    said : str
+        What people decided of it.
+    """
+
+    label: str
+    typed: str
+    right: str
+    marks: str
+    message: str
+    said: str
+
+
+@dataclass(frozen=True)
+class Section:
+    """One question."""
+
+    number: str
+    title: str
+    marks: float
+    points: float
+    undecided: float
+    rows: tuple[Row, ...]
+    topic: str
+    lang: str
+
+    @property
+    def name(self) -> str:
+        """Number and title."""
+        return f"{self.number}. {self.title}"
+
+    @property
+    def practise(self) -> str:
+        """The command that asks more of the same."""
+        own = "" if self.lang == FIRST else f" --lang {self.lang}"
+        return f"quizgen practice --topic {self.topic}{own}"
+
+    def told(self, words: Mapping[str, str]) -> str:
+        """How much was lost."""
+        return words["lost"].format(lost=f"{self.lost:g}", points=f"{self.points:g}")
+
+    @property
+    def lost(self) -> float:
+        """Points that were not reached."""
+        return self.points - self.marks - self.undecided
+
+
+@dataclass(frozen=True)
+class Report:
+    """All of it, in the student's language.
+
+    Parameters
+    ----------
+    who : str
+        Name and id; empty where the code alone says whose it is.
+    """
+
+    lang: str
+    title: str
+    who: str
+    code: str
+    grade: str
+    marks: Marks
+    sections: tuple[Section, ...]
+
+    @property
+    def words(self) -> Mapping[str, str]:
+        """The sentences around."""
+        found: dict[str, str] = table(self.lang, "classes")["report"]
+        return found
+
+    @property
+    def revise(self) -> list[Section]:
+        """Where points were lost; most first."""
+        lost = [section for section in self.sections if section.lost > 0]
+        return sorted(lost, key=lambda section: -section.lost)[:MOST_TO_REVISE]
+
+    @property
+    def provisional(self) -> str:
+        """That something is still to be decided; empty if nothing is."""
+        count = self.marks.undecided
+        name = "provisional_one" if count == 1 else "provisional"
+        return self.words[name].format(count=count) if count else ""
+
+
+def report_of(
+    line: Graded, key: Key, remarks: Mapping[str, Ruling], *, anonymous: bool = False
+) -> Report:
+    """What a student is told.
+
+    Parameters
+    ----------
+    line : Graded
+        Somebody whose answers came back.
+    key : Key
+        Of the student's paper.
+    remarks : mapping of str to Ruling
+        What was decided last, by group of answers.
+    anonymous : bool
+        Leave name and id out.
+    """
+    assert line.marks is not None  # noqa: S101 - see above
+    marks = line.marks
+    lang = known(marks.lang)
+    who = "" if anonymous else ", ".join(filter(None, (line.student.name, line.student.id)))
+    sections = tuple(_section(question, marks, remarks) for question in key.questions)
+    title = key.title.get(lang) or next(iter(key.title.values()), "")
+    return Report(lang, title, visible(who, ""), line.code, line.grade, marks, sections)
+
+
+def _section(question: KeyQuestion, marks: Marks, remarks: Mapping[str, Ruling]) -> Section:
+    given = {part.id: part for part in marks.parts}
+    mine = [given[part.id] for part in question.parts if part.id in given]
+    rows = tuple(_rows(question, marks, remarks))
+    title = question.title.get(marks.lang) or next(iter(question.title.values()), "")
+    return Section(
+        question.number,
+        title,
+        sum(part.marks or 0.0 for part in mine),
+        sum(part.points for part in mine),
+        sum(part.points for part in mine if part.undecided),
+        rows,
+        question.topic,
+        known(marks.lang),
+    )
+
+
+def _rows(question: KeyQuestion, marks: Marks, remarks: Mapping[str, Ruling]) -> Iterator[Row]:
+    """The parts, each said of in the student's language what the checker says of it."""
+    words = table(known(marks.lang), "classes")["report"]
+    marker = Marker(question, Options(known(marks.lang), marks.decimal))
+    given = {part.item: part for part in marks.parts}
+    for part in question.parts:
+        found = given.get(item_of(question, part))
+        if found is None:
+            continue
+        again = marker.mark(part, found.typed)
+        message = "" if again.blank or found.marks == found.points else again.verdict.message
+        remark = remarks.get(found.group)
+        yield Row(
+            part.id.removeprefix(question.number),
+            visible(found.typed, "") if found.typed.strip() else words["blank"],
+            show(part.in_order(), known(marks.lang)),
+            _points(found, words),
+            message,
+            _said(found, remark, words),
+        )
+
+
+def _points(part: PartMark, words: Mapping[str, str]) -> str:
+    if part.status == DROPPED:
+        return words["dropped"]
+    if part.marks is None:
+        return words["undecided"]
+    return f"{part.marks:g} / {part.points:g}"
+
+
+def _said(part: PartMark, remark: Ruling | None, words: Mapping[str, str]) -> str:
+    """That a person decided, and the remark that goes with it."""
+    if not part.by or part.status == DROPPED:
+        return ""
+    comment = visible(remark.comment, "") if remark else ""
+    return f"{words['remark']}: {comment}" if comment else words["decided"]
+
+
+def report_html(report: Report) -> bytes:
+    """A report as one self-contained page."""
+    bangla = report.lang in in_script("Beng")
+    made = (
+        layouts()
+        .get_template("report.html.j2")
+        .render(
+            report=report,
+            words=report.words,
+            style=Markup(line_heights(":lang({})") + style()),
+            faces={400: bangla_uri(), 700: bangla_uri("Bold")} if bangla else {},
+        )
+    )
+    return made.encode()
+
+
+@cache
+def layouts() -> jinja2.Environment:
+    """The layouts of pages of a class."""
+    return environment(PACKAGE)
+
+
+@cache
+def style() -> str:
+    """How they look."""
+    return (files(PACKAGE) / "pages" / "report.css").read_text(encoding="utf-8")
+
+
+def report_pdf(report: Report) -> bytes:
+    """A report as a tagged PDF.
+
+    Raises
+    ------
+    RenderError
+        If it cannot be typeset.
+    """
+    words = report.words
+    title = f"{words['title']} - {report.title}"
+    total = words["total"].format(
+        marks=f"{report.marks.marks:g}", points=f"{report.marks.points:g}"
+    )
+    head = (
+        f"#show: report.with(title: {string(title)}, lang: {string(report.lang)}, "
+        f"who: {string(report.who)}, code: {string(words['code'] + ': ' + report.code)}, "
+        f"grade: {string(words['grade'] + ': ' + report.grade)}, total: {string(total)}, "
+        f"provisional: {string(report.provisional)})"
+    )
+    heads = ", ".join(string(words[name]) for name in ("part", "yours", "right", "points"))
+    body = "\n".join(_question(section, heads) for section in report.sections)
+    return compiled(document("report.typ", f"{head}\n{_revise(report)}\n{body}\n", PACKAGE), {})
+
+
+def _revise(report: Report) -> str:
+    words = report.words
+    if not report.revise:
+        return f"#nothing({string(words['nothing'])})"
+    rows = ", ".join(
+        f"({string(one.name)}, {string(one.told(words))}, {string(one.practise)})"
+        for one in report.revise
+    )
+    sentences = (words["revise"], words["revise_about"], words["practise"])
+    return f"#revise({', '.join(map(string, sentences))}, ({rows},))"
+
+
+def _question(section: Section, heads: str) -> str:
+    rows = "".join(_typst(row) for row in section.rows)
+    worth = f"{section.marks:g} / {section.points:g}"
+    return f"#answered({string(section.name)}, {string(worth)}, ({heads}), ({rows}))"
+
+
+def _typst(row: Row) -> str:
+    """A row of the table: four cells, and what is said below them."""
+    cells = ", ".join(map(string, (row.label, row.typed, row.right, row.marks)))
+    below = "".join(f"{string(text)}, " for text in (row.message, row.said) if text)
+    return f"({cells}, ({below})), "

@@ -1,0 +1,74 @@
+"""From marks to what is handed out: grades, and a report for each student."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from quizgen.classes.folder import ClassFolder
+from quizgen.classes.grades import FOLDER, PRIVATE, Graded, graded, write_grades
+from quizgen.classes.history import History
+from quizgen.classes.keys import Keys
+from quizgen.classes.reports import report_html, report_of, report_pdf
+from quizgen.classes.rulings import ACCEPT, DECIDE, read_rulings
+from quizgen.classes.scale import read_scale
+from quizgen.errors import ClassError
+from quizgen.files import write_all
+
+REPORTS = "reports"
+CHUNK = 50
+"""Reports that are written at once."""
+
+
+def grade(
+    folder: ClassFolder, formats: Sequence[str], *, anonymous: bool = False
+) -> tuple[list[Graded], list[Path]]:
+    """Write grades and reports.
+
+    Parameters
+    ----------
+    folder : ClassFolder
+    formats : sequence of str
+        ``html``, ``pdf``: of the reports.
+    anonymous : bool
+        Reports bear the code instead of the name, also as the name of their file.
+
+    Raises
+    ------
+    ClassError
+        If nothing has been marked.
+    RenderError
+        If something cannot be written.
+    """
+    marked = {one.student: one for one in History(folder.path).current()}
+    if not marked:
+        raise ClassError(f"{folder.path}: nothing has been marked yet (quizgen class mark)")
+    scale = read_scale(folder.path)
+    lines = graded(folder.students(), folder.heads(), marked, scale)
+    files = write_grades(folder.path, lines, scale)
+    for chunk in _chunks([one for one in lines if one.marks] if formats else []):
+        write_all(
+            folder.path / FOLDER / REPORTS, _reports(folder, chunk, formats, anonymous), PRIVATE
+        )
+    return lines, [*files, *([folder.path / FOLDER / REPORTS] if formats else [])]
+
+
+def _chunks(lines: Sequence[Graded]) -> Iterator[Sequence[Graded]]:
+    for at in range(0, len(lines), CHUNK):
+        yield lines[at : at + CHUNK]
+
+
+def _reports(
+    folder: ClassFolder, lines: Sequence[Graded], formats: Sequence[str], anonymous: bool
+) -> dict[str, bytes]:
+    """Name of each file and its bytes."""
+    keys = Keys(folder)
+    rulings = read_rulings(folder.path)
+    remarks = {one.group: one for one in rulings if one.what in {DECIDE, ACCEPT} and one.group}
+    render = {"html": report_html, "pdf": report_pdf}
+    made: dict[str, bytes] = {}
+    for line in lines:
+        report = report_of(line, keys.key(line.student.id), remarks, anonymous=anonymous)
+        name = line.code if anonymous else line.student.file
+        made |= {f"{name}.{form}": render[form](report) for form in formats}
+    return made
