@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Unpack
 
 import click
@@ -21,6 +22,7 @@ class Options(BankOptions):
     invite: bool
     database: str
     author: bool
+    classroom: Path | None
 
 
 @click.command()
@@ -54,6 +56,12 @@ class Options(BankOptions):
 @click.option(
     "--author", is_flag=True, help="Show every template with its solution, as it is saved."
 )
+@click.option(
+    "--class",
+    "classroom",
+    type=click.Path(path_type=Path, file_okay=False, exists=True),
+    help="Folder of a class: decide there what no program can.",
+)
 @bank_options
 def serve(**options: Unpack[Options]) -> None:
     """Practise and sit the exam in a browser: alone, or with everybody in the network."""
@@ -67,9 +75,12 @@ def serve(**options: Unpack[Options]) -> None:
         names=tuple(name.lower() for name in options["names"]),
         behind_proxy=options["behind_proxy"],
         examine=problems_of if options["author"] else None,
+        classroom=options["classroom"],
     )
     if settings.accounts and options["author"]:
         raise click.UsageError("--author shows every solution: on this machine alone")
+    if settings.accounts and options["classroom"]:
+        raise click.UsageError("--class shows names and keys: on this machine alone")
     if options["invite"] and not settings.accounts:
         raise click.UsageError("--invite: nobody signs in; see --host")
     from quizgen.web.server import run

@@ -25,6 +25,7 @@ from quizgen.web import (
     anki,
     author,
     camera,
+    classroom,
     exam,
     formulas,
     practice,
@@ -86,6 +87,7 @@ def _routes(settings: Settings) -> list[BaseRoute]:
     return [
         *PAGES,
         *(author.ROUTES if settings.examine else ()),
+        *(classroom.ROUTES if settings.classroom else ()),
         *(accounts.ROUTES if settings.accounts else ()),
         Route("/settings", settle, methods=["POST"]),
         Route("/static/languages.css", language_sheet),

@@ -40,6 +40,8 @@ class Settings:
         before keeps its own.
     workers : int
         Processes that make questions.
+    classroom : pathlib.Path, optional
+        Folder of a class whose examiner asks; without it there are no pages for decisions.
     examine : callable, optional
         Says what is wrong with a template; without it there are no pages for authors.
     """
@@ -52,6 +54,7 @@ class Settings:
     behind_proxy: bool = False
     token: str = field(default_factory=lambda: secrets.token_urlsafe(24), repr=False)
     workers: int = 2
+    classroom: Path | None = None
     examine: Callable[[Bank, str], list[str]] | None = None
 
     @property

@@ -54,6 +54,7 @@ def _menu(site: Site, learner: Learner) -> list[tuple[str, str]]:
     shown += [("/formulas", "formulas")] if "formulas" in site.bank.cards else []
     shown += [("/camera", "camera"), ("/tradeoff", "tradeoff")]
     shown += [("/author", "author")] if here.examine else []
+    shown += [("/class", "class")] if here.classroom else []
     shown += [("/people", "people")] if learner.manages else []
     return shown + ([("/account", "account")] if here.accounts else [])
 

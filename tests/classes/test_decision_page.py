@@ -1,0 +1,127 @@
+"""The page on which an examiner decides: groups, one decision for all that is ticked, a second marker."""
+
+from __future__ import annotations
+
+import csv
+import json
+import re
+
+import pytest
+from made import made, run
+from starlette.testclient import TestClient
+
+from quizgen.web.app import application
+from quizgen.web.door import form_token
+from quizgen.web.settings import Settings
+
+ADDRESS = "http://127.0.0.1:8000"
+SENTENCES = {
+    "1": "The cone of rays is narrower <b>now</b>",
+    "2": "the cone of rays is narrower <b>now</b>.",
+    "3": "the cone of rays is not narrower",
+}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Three students, of whom two say the same and one the contrary; two right answers to the rest."""
+    found = made(
+        tmp_path_factory.mktemp("class"), [("1", "A", "en"), ("2", "B", "en"), ("3", "C", "bn")]
+    )
+    (found / "answers").mkdir()
+    for line in (found / "keys.jsonl").read_text("utf-8").splitlines():
+        about = json.loads(line)
+        form = {"code": about["code"], "answers": {"3b": SENTENCES[about["id"]]}}
+        (found / "answers" / f"{about['id']}.json").write_text(json.dumps(form), "utf-8")
+    assert run("class", "mark", found) == 0
+    return found
+
+
+@pytest.fixture(scope="module")
+def asked(folder, tmp_path_factory):
+    """A browser on the page, and the token of its forms."""
+    settings = Settings(
+        f"sqlite:///{tmp_path_factory.mktemp('d') / 'l.sqlite3'}", workers=1, classroom=folder
+    )
+    app = application(settings)
+    with TestClient(app, ADDRESS) as client:
+        token = app.state.site.settings.token
+        client.get(f"/enter?key={token}")
+        yield client, form_token(token)
+
+
+def groups(page: str) -> list[list[str]]:
+    """The names of the answers of each group on the page."""
+    forms = re.findall(r'action="/class/decide".*?</form>', page, re.DOTALL)
+    return [re.findall(r'type="checkbox" name="group" value="(g\w+)"', form) for form in forms]
+
+
+def test_equal_answers_are_one_group_and_the_contrary_is_another(asked):
+    client, _ = asked
+    page = client.get("/class").text
+    assert [len(group) for group in groups(page)] == [1, 1]
+    assert "2 ×" in page
+    assert "&lt;b&gt;now&lt;/b&gt;" in page
+    assert "<b>now" not in page
+    assert "<mark>cone</mark>" in page
+    assert "Key points found: 1 / 2: cone" in page
+    assert "Suggestion: 0.5" in page
+
+
+def test_one_decision_settles_a_group_and_marking_counts_it(asked, folder):
+    client, token = asked
+    first = groups(client.get("/class").text)[0]
+    form = {
+        "token": token,
+        "item": "blur-and-light-factors/b",
+        "worth": "1",
+        "who": "AM",
+        "group": first,
+        "comment": "good",
+    }
+    for points, kept in (("1.3", "quarters"), ("2", "2 points of 1"), ("", "points?")):
+        page = client.post("/class/decide", data={**form, "points": points}).text
+        assert kept in page
+    page = client.post("/class/decide", data={**form, "points": "0,75"}).text
+    assert len(groups(page)) == 1
+    assert (
+        "Marks that changed: 2"
+        in client.post("/class/mark", data={"token": token, "who": "AM"}).text
+    )
+    assert run("class", "grade", folder, "--reports", "none") == 0
+    with (folder / "results" / "grades.csv").open(encoding="utf-8-sig", newline="") as stream:
+        marks = {row["id"]: row["blur-and-light-factors/b"] for row in csv.DictReader(stream)}
+    assert marks == {"1": "0.75", "2": "0.75", "3": ""}
+
+
+def test_a_second_marker_does_not_see_the_first_and_changes_no_mark(asked, folder):
+    client, token = asked
+    page = client.get("/class?second=1").text
+    assert [len(group) for group in groups(page)] == [1]
+    assert "0.75" not in page.replace('step="0.25"', "")
+    form = {
+        "token": token,
+        "item": "blur-and-light-factors/b",
+        "worth": "1",
+        "who": "BN",
+        "second": "1",
+        "points": "0.5",
+    }
+    page = client.post("/class/decide", data={**form, "group": groups(page)[0]}).text
+    assert "different points: 1" in page
+    assert groups(page) == []
+    assert (
+        "Marks that changed: 0"
+        in client.post("/class/mark", data={"token": token, "who": "AM"}).text
+    )
+
+
+def test_there_is_no_such_page_without_a_class_and_no_form_without_its_token(asked):
+    client, _ = asked
+    assert client.post("/class/decide", data={"group": "g1", "points": "1"}).status_code == 403
+    assert "/class" in client.get("/").text
+
+
+def test_others_never_reach_it(folder, capsys):
+    assert run("serve", "--class", folder, "--host", "0.0.0.0", "--no-open") == 2
+    assert "on this machine alone" in capsys.readouterr().err
