@@ -10,6 +10,7 @@ import multiprocessing
 import os
 import signal
 import threading
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import (
     FIRST_COMPLETED,
@@ -155,3 +156,16 @@ def run(executor: Executor, work: Callable[[J], T], jobs: Iterable[J], ahead: in
     while waiting:
         done, waiting = wait(waiting, return_when=FIRST_COMPLETED)
         yield from (one.result() for one in done)
+
+
+def in_order(
+    executor: Executor, work: Callable[[J], T], jobs: Iterable[J], ahead: int
+) -> Iterator[T]:
+    """Do jobs, and give the results in the order of the jobs."""
+    waiting: deque[Future[T]] = deque()
+    for job in jobs:
+        waiting.append(executor.submit(work, job))
+        if len(waiting) >= ahead:
+            yield waiting.popleft().result()
+    while waiting:
+        yield waiting.popleft().result()

@@ -152,7 +152,7 @@ class ClassFolder:
 
     def heads(self) -> dict[str, Head]:
         """Student's id to what was printed last."""
-        return {head.id: head for head, _ in self._index().values()}
+        return {head.id: head for head, _ in self.places().values()}
 
     def whose(self, code: str) -> Record:
         """The paper with a printed code, whose key is still that which the code was made from.
@@ -163,7 +163,7 @@ class ClassFolder:
             If no paper has it, or the paper's key has been changed.
         """
         wanted = code.strip().upper()
-        places = [place for head, place in self._index().values() if head.code == wanted]
+        places = [place for head, place in self.places().values() if head.code == wanted]
         if not places:
             raise ClassError(f"{self.path}: no paper of this class has the code {wanted!r}")
         found = self._record(places[0])
@@ -194,7 +194,7 @@ class ClassFolder:
 
     def settle(self, order: Sequence[str]) -> None:
         """Keep each student's last line: those of the roster in its order, then those who left."""
-        index = self._index()
+        index = self.places()
         ids = [one for one in dict.fromkeys((*order, *index)) if one in index]
         fresh = self.path / f".{KEYS}.new"
         flags = os.O_WRONLY | os.O_CREAT | os.O_TRUNC
@@ -209,7 +209,7 @@ class ClassFolder:
             os.fsync(stream.fileno())
         fresh.replace(self.path / KEYS)
 
-    def _index(self) -> dict[str, tuple[Head, int]]:
+    def places(self) -> dict[str, tuple[Head, int]]:
         """Student's id to the last whole line about it, and where that begins."""
         found: dict[str, tuple[Head, int]] = {}
         at = 0

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Unpack
 
 import click
 
+from quizgen.cli.class_marks import COMMANDS
 from quizgen.cli.options import BankOptions, Whole, bank_options, open_bank, split
 from quizgen.cli.terminal import Progress, one_line, tell
 from quizgen.errors import ClassError
@@ -155,3 +156,7 @@ def _comparison(report: Report) -> str:
     points = (f"{float(one.points):g} points" for one in report.made)
     minutes = (f"{one.minutes} min" for one in report.made)
     return "; ".join(" or ".join(sorted({*each})) for each in (tiers, points, minutes))
+
+
+for _command in COMMANDS:
+    class_.add_command(_command)
