@@ -61,8 +61,9 @@ class Sheet:
 class PartMark(msgspec.Struct, frozen=True, omit_defaults=True):
     """The mark of one part.
 
-    ``marks`` is None while nobody has decided. ``by`` says which ruling gave the marks, ``group``
-    with which answers it is decided together, ``chosen`` which options were ticked.
+    ``marks`` is None while nobody has decided. ``by`` says which ruling gave the marks, ``remark``
+    what it tells the student, ``group`` with which answers it is decided together, ``chosen`` which
+    options were ticked.
     """
 
     id: str
@@ -73,6 +74,7 @@ class PartMark(msgspec.Struct, frozen=True, omit_defaults=True):
     marks: float | None
     note: str = ""
     by: str = ""
+    remark: str = ""
     group: str = ""
     chosen: tuple[str, ...] = ()
 
@@ -201,19 +203,24 @@ def _ruled(found: PartResult, part: KeyPart, item: str, rulings: list[Ruling]) -
 
 def _settled(plain: PartMark, rulings: list[Ruling]) -> PartMark:
     """A mark after the rulings about it: what holds for the whole item goes before its answers."""
-    replace = msgspec.structs.replace
     whole = [one for one in rulings if one.what in {DROP, GIVE}]
     answers = [one for one in rulings if one.what in {DECIDE, ACCEPT}]
     tolerances = [one for one in rulings if one.what == TOLERANCE]
     if whole and whole[-1].what == DROP:
-        return replace(plain, marks=0.0, points=0.0, status=DROPPED, by=whole[-1].said)
+        return _by(whole[-1], plain, marks=0.0, points=0.0, status=DROPPED)
     if whole:
-        return replace(plain, marks=plain.points, by=whole[-1].said)
+        return _by(whole[-1], plain, marks=plain.points)
     if answers and not answers[-1].undone:
         given = answers[-1].points
         marks = plain.points if given is None else min(float(given), plain.points)
-        return replace(plain, marks=marks, by=answers[-1].said)
-    return replace(plain, by=tolerances[-1].said) if tolerances else plain
+        return _by(answers[-1], plain, marks=marks)
+    return _by(tolerances[-1], plain) if tolerances else plain
+
+
+def _by(ruling: Ruling, plain: PartMark, **changed: float | str) -> PartMark:
+    """A mark that follows from a ruling."""
+    known = {"by": ruling.said, "remark": ruling.comment, **changed}
+    return msgspec.structs.replace(plain, **known)
 
 
 def _about(ruling: Ruling, found: PartResult, group: str, *, words: bool) -> bool:

@@ -12,7 +12,6 @@ from markupsafe import Markup
 
 from quizgen.classes.grades import Graded
 from quizgen.classes.mark import DROPPED, Marks, PartMark, item_of
-from quizgen.classes.rulings import Ruling
 from quizgen.locale import FIRST, in_script, known, line_heights, table
 from quizgen.marking.mark import show
 from quizgen.marking.options import Options
@@ -122,9 +121,7 @@ class Report:
         return self.words[name].format(count=count) if count else ""
 
 
-def report_of(
-    line: Graded, key: Key, remarks: Mapping[str, Ruling], *, anonymous: bool = False
-) -> Report:
+def report_of(line: Graded, key: Key, *, anonymous: bool = False) -> Report:
     """What a student is told.
 
     Parameters
@@ -133,8 +130,6 @@ def report_of(
         Somebody whose answers came back.
     key : Key
         Of the student's paper.
-    remarks : mapping of str to Ruling
-        What was decided last, by group of answers.
     anonymous : bool
         Leave name and id out.
     """
@@ -142,15 +137,15 @@ def report_of(
     marks = line.marks
     lang = known(marks.lang)
     who = "" if anonymous else ", ".join(filter(None, (line.student.name, line.student.id)))
-    sections = tuple(_section(question, marks, remarks) for question in key.questions)
+    sections = tuple(_section(question, marks) for question in key.questions)
     title = key.title.get(lang) or next(iter(key.title.values()), "")
     return Report(lang, title, visible(who, ""), line.code, line.grade, marks, sections)
 
 
-def _section(question: KeyQuestion, marks: Marks, remarks: Mapping[str, Ruling]) -> Section:
+def _section(question: KeyQuestion, marks: Marks) -> Section:
     given = {part.id: part for part in marks.parts}
     mine = [given[part.id] for part in question.parts if part.id in given]
-    rows = tuple(_rows(question, marks, remarks))
+    rows = tuple(_rows(question, marks))
     title = question.title.get(marks.lang) or next(iter(question.title.values()), "")
     return Section(
         question.number,
@@ -164,7 +159,7 @@ def _section(question: KeyQuestion, marks: Marks, remarks: Mapping[str, Ruling])
     )
 
 
-def _rows(question: KeyQuestion, marks: Marks, remarks: Mapping[str, Ruling]) -> Iterator[Row]:
+def _rows(question: KeyQuestion, marks: Marks) -> Iterator[Row]:
     """The parts, each said of in the student's language what the checker says of it."""
     words = table(known(marks.lang), "classes")["report"]
     marker = Marker(question, Options(known(marks.lang), marks.decimal))
@@ -175,14 +170,13 @@ def _rows(question: KeyQuestion, marks: Marks, remarks: Mapping[str, Ruling]) ->
             continue
         again = marker.mark(part, found.typed)
         message = "" if again.blank or found.marks == found.points else again.verdict.message
-        remark = remarks.get(found.group)
         yield Row(
             part.id.removeprefix(question.number),
             visible(found.typed, "") if found.typed.strip() else words["blank"],
             show(part.in_order(), known(marks.lang)),
             _points(found, words),
             message,
-            _said(found, remark, words),
+            _said(found, words),
         )
 
 
@@ -194,12 +188,12 @@ def _points(part: PartMark, words: Mapping[str, str]) -> str:
     return f"{part.marks:g} / {part.points:g}"
 
 
-def _said(part: PartMark, remark: Ruling | None, words: Mapping[str, str]) -> str:
+def _said(part: PartMark, words: Mapping[str, str]) -> str:
     """That a person decided, and the remark that goes with it."""
     if not part.by or part.status == DROPPED:
         return ""
-    comment = visible(remark.comment, "") if remark else ""
-    return f"{words['remark']}: {comment}" if comment else words["decided"]
+    remark = visible(part.remark, "")
+    return f"{words['remark']}: {remark}" if remark else words["decided"]
 
 
 def report_html(report: Report) -> bytes:

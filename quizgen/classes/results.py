@@ -10,7 +10,6 @@ from quizgen.classes.grades import FOLDER, PRIVATE, Graded, graded, write_grades
 from quizgen.classes.history import History
 from quizgen.classes.keys import Keys
 from quizgen.classes.reports import report_html, report_of, report_pdf
-from quizgen.classes.rulings import ACCEPT, DECIDE, read_rulings
 from quizgen.classes.scale import read_scale
 from quizgen.errors import ClassError
 from quizgen.files import write_all
@@ -63,12 +62,10 @@ def _reports(
 ) -> dict[str, bytes]:
     """Name of each file and its bytes."""
     keys = Keys(folder)
-    rulings = read_rulings(folder.path)
-    remarks = {one.group: one for one in rulings if one.what in {DECIDE, ACCEPT} and one.group}
     render = {"html": report_html, "pdf": report_pdf}
     made: dict[str, bytes] = {}
     for line in lines:
-        report = report_of(line, keys.key(line.student.id), remarks, anonymous=anonymous)
+        report = report_of(line, keys.key(line.student.id), anonymous=anonymous)
         name = line.code if anonymous else line.student.file
         made |= {f"{name}.{form}": render[form](report) for form in formats}
     return made
