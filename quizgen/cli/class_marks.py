@@ -88,7 +88,7 @@ def _changed(change: Change) -> str:
 @click.option("--value", default="", help="Points, or a tolerance: rel=0.05.")
 @click.option("--student", default="", help="Id of the one whom it is about. [default: all]")
 @click.option("--who", default="", help="Who says so. [default: the name of the account]")
-@click.option("--comment", default="")
+@click.option("--comment", default="", help="Why; students read it.")
 def rule(folder: Path, what: str, item: str, **said: str) -> None:
     """Add a line to rulings.csv of the class in FOLDER: drop, give, accept, tolerance, restore.
 
