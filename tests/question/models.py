@@ -29,7 +29,9 @@ def solved(drawn, wrong=(), **scaled):
     env = given(drawn, **scaled)
     swapped = {step.symbol: step.expr for step in wrong}
     for step in model(drawn.template).steps:
-        env[step.symbol] = sympy.N(swapped.get(step.symbol, step.expr).subs(env), DIGITS)
+        env[step.symbol] = sympy.N(
+            sympy.S(swapped.get(step.symbol, step.expr)).xreplace(env), DIGITS
+        )
     return {symbol.name: value for symbol, value in env.items()}
 
 
@@ -44,7 +46,7 @@ def mistaken(drawn, values, trap, name):
     wrong = model(drawn.template).traps[trap]
     steps = wrong if isinstance(wrong, tuple) else (wrong,)
     expr = next(step.expr for step in steps if step.symbol.name == name)
-    return sympy.N(sympy.S(expr).subs(symbols(drawn, values)), DIGITS)
+    return sympy.N(sympy.S(expr).xreplace(symbols(drawn, values)), DIGITS)
 
 
 def near(a, b):

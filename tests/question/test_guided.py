@@ -14,21 +14,34 @@ from quizgen.paper.key import key_question
 from quizgen.paper.marking import Marker
 from quizgen.paper.paper import Item
 from quizgen.question.compose import put_into_words
-from quizgen.question.levels import LEVELS
 from quizgen.question.levels.asking import shared_out
 from quizgen.question.levels.guided import stages
 
-CALCULATING = [name for name in builtin().paths if builtin().rules(name).solver]
+CALCULATING = [
+    name for name in builtin().paths
+    if builtin().rules(name).solver and "guided" in builtin().rules(name).levels
+]  # fmt: skip
+SEEDS = [1, pytest.param(0, marks=pytest.mark.slow)]
+
+
+@pytest.fixture(scope="module", params=CALCULATING)
+def template(request):
+    return builtin().template(request.param)
+
+
+@pytest.fixture(scope="module", params=SEEDS)
+def drawn(request, template):
+    """Drawn once, used by all tests of a template."""
+    return draw(template, request.param)
 
 
 def guided(drawn, lang="en"):
     return put_into_words(drawn, lang, level="guided", figures=False)
 
 
-def marker_of(drawn, lang="en"):
-    question, key = guided(drawn, lang)
+def marker_of(question, key):
     keyed = key_question(Item("1", (question,), (key,)))
-    return Marker(keyed, Options(lang)), {part.id: part for part in keyed.parts}
+    return Marker(keyed, Options(question.lang)), {part.id: part for part in keyed.parts}
 
 
 def lens():
@@ -49,7 +62,7 @@ def test_the_steps_of_a_lens_come_in_their_order_with_the_values_of_the_notes():
 
 def test_a_mistake_is_named_at_the_step_where_it_happens_and_only_there():
     drawn = draw(builtin().template("blur-disc-diameter"), 0)  # f = 50 mm, N_1 = 8, image at 50 mm
-    marker, parts = marker_of(drawn)
+    marker, parts = marker_of(*guided(drawn))
     assert marker.mark(parts["1a1"], "12.5 mm").verdict.verdict == "wrong"  # twice the diameter
     carried = marker.mark(parts["1a3"], "500 um").verdict
     assert (carried.note, carried.credit) == ("carried-forward", 1)
@@ -58,7 +71,7 @@ def test_a_mistake_is_named_at_the_step_where_it_happens_and_only_there():
 def test_a_known_mistake_of_an_intermediate_step_is_told_with_its_sentence():
     drawn = reference(builtin().template("rgb-to-hsv"))
     question, key = guided(drawn)
-    marker, parts = marker_of(drawn)
+    marker, parts = marker_of(question, key)
     red, green, blue = (Fraction(str(drawn.shown[name])) for name in "RGB")
     place = next(i for i, spec in enumerate(key.specs) if spec.of == ["V"])
     first = question.parts[place].field.id
@@ -72,7 +85,7 @@ def test_a_wrong_formula_is_answered_with_the_sentence_of_its_mistake():
     drawn = lens()
     question, key = guided(drawn)
     place = next(i for i, part in enumerate(question.parts) if part.field.options)
-    marker, parts = marker_of(drawn)
+    marker, parts = marker_of(*guided(drawn))
     for reason in key.solution.parts[place].reasons:
         verdict = marker.mark(parts[question.parts[place].field.id], reason.value).verdict
         told = (
@@ -85,32 +98,23 @@ def test_a_wrong_formula_is_answered_with_the_sentence_of_its_mistake():
         assert told[0].text.split("$")[0][:20] in verdict.message
 
 
-@pytest.mark.parametrize("name", CALCULATING)
 @pytest.mark.parametrize("lang", ["en", "bn"])
-def test_what_the_solution_prints_gets_the_marks_of_the_exam(name, lang):
-    template = builtin().template(name)
-    for seed in range(2):
-        drawn = draw(template, seed)
-        if not LEVELS["guided"].fits(drawn):
-            continue
-        question, key = guided(drawn, lang)
-        marker, parts = marker_of(drawn, lang)
-        marks = Fraction(0)
-        for part, solved in zip(question.parts, key.solution.parts, strict=True):
-            result = marker.mark(parts[part.field.id], solved.answer)
-            # sentences have no answer to copy: a person marks them
-            marks += (result.marks or 0) if solved.answer else part.points
-        exam, _ = put_into_words(drawn, lang, figures=False)
-        assert marks == question.points == exam.points
+def test_what_the_solution_prints_gets_the_marks_of_the_exam(drawn, lang):
+    question, key = guided(drawn, lang)
+    marker, parts = marker_of(question, key)
+    marks = Fraction(0)
+    for part, solved in zip(question.parts, key.solution.parts, strict=True):
+        result = marker.mark(parts[part.field.id], solved.answer)
+        # sentences have no answer to copy: a person marks them
+        marks += (result.marks or 0) if solved.answer else part.points
+    exam, _ = put_into_words(drawn, lang, figures=False)
+    assert marks == question.points == exam.points
 
 
-@pytest.mark.parametrize("name", CALCULATING)
-def test_both_languages_are_marked_alike(name):
-    drawn = draw(builtin().template(name), 3)
-    if LEVELS["guided"].fits(drawn):
-        (_, english), (_, bangla) = guided(drawn), guided(drawn, "bn")
-        assert english.specs == bangla.specs
-        assert english.identity == bangla.identity
+def test_both_languages_are_marked_alike(drawn):
+    (_, english), (_, bangla) = guided(drawn), guided(drawn, "bn")
+    assert english.specs == bangla.specs
+    assert english.identity == bangla.identity
 
 
 @pytest.mark.parametrize(
@@ -134,11 +138,7 @@ def bold(blocks):
     return [part for part in shown if isinstance(part, Styled) and part.style == "strong"]
 
 
-@pytest.mark.parametrize("name", CALCULATING)
-def test_one_question_is_asked_at_a_time(name):
-    drawn = draw(builtin().template(name), 1)
-    if not LEVELS["guided"].fits(drawn):
-        return
+def test_one_question_is_asked_at_a_time(drawn):
     question, _ = guided(drawn)
     authored = {part.label: part for part in put_into_words(drawn, "en", figures=False)[0].parts}
     for part in question.parts:
@@ -149,9 +149,7 @@ def test_one_question_is_asked_at_a_time(name):
 
 
 @pytest.mark.parametrize("level", ["guided", "transfer"])
-@pytest.mark.parametrize("name", CALCULATING)
-def test_letters_of_parts_are_not_those_of_the_fields_of_a_table(name, level):
-    drawn = draw(builtin().template(name), 1)
+def test_letters_of_parts_are_not_those_of_the_fields_of_a_table(drawn, level):
     question, key = put_into_words(drawn, "en", level=level, figures=False)
     cells = {
         cell for spec in key.specs for cell in getattr(spec, "values", {}) if spec.kind == "table"

@@ -26,12 +26,12 @@ UNITS_ALONE = [1, 180 / sympy.pi]
 """Between two values of one formula in different units; powers of ten also come by chance."""
 
 
-@pytest.fixture(params=CALCULATING)
+@pytest.fixture(scope="module", params=CALCULATING)
 def template(request):
     return builtin().template(request.param)
 
 
-@pytest.fixture(params=SEEDS)
+@pytest.fixture(scope="module", params=SEEDS)
 def drawn(request, template):
     """One of a template that promises steps to ask for, and so has some in every draw."""
     found = draw(template, request.param)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import lru_cache
 
 import msgspec
 
@@ -77,14 +78,15 @@ class Stage:
         return not self.before and self.formula is None
 
 
-def stages(drawn: Draw) -> list[Stage]:
+@lru_cache(maxsize=128)
+def stages(drawn: Draw) -> tuple[Stage, ...]:
     """What is asked before each authored part, whatever the language."""
     found, asked = [], set[str]()
     for index in range(len(drawn.template.rules.part)):
         stage = _stage(drawn, index, frozenset(asked))
         found.append(stage)
         asked |= {step.name for step in drawn.steps(index)}
-    return found
+    return tuple(found)
 
 
 def _stage(drawn: Draw, index: int, asked: frozenset[str]) -> Stage:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from fractions import Fraction
+from functools import lru_cache
 from string import ascii_lowercase
 from typing import Any, NamedTuple
 
@@ -78,6 +79,7 @@ def told(drawn: Draw, section: str, name: str) -> bool:
     return all(text.sentence(section, name) for text in drawn.template.texts.values())
 
 
+@lru_cache(maxsize=128)
 def introduced(drawn: Draw) -> frozenset[str]:
     """Letters that the question itself uses: in formulas and programs, or as capitals."""
     return frozenset(_letters(_text(drawn)))
@@ -94,6 +96,7 @@ def _text(drawn: Draw) -> Iterator[Block | Inline]:
         yield from text.sections.get(label, ())
 
 
+@lru_cache(maxsize=128)
 def stated(drawn: Draw) -> frozenset[str]:
     """Quantities whose numbers the text gives, or that follow from such numbers."""
     found = {*slots(_text(drawn))}
@@ -112,6 +115,7 @@ def _is_one_over(step: ChainStep, found: Collection[str]) -> bool:
     return False
 
 
+@lru_cache(maxsize=128)
 def defined(drawn: Draw) -> frozenset[str]:
     """Quantities whose formula the text writes down."""
     return frozenset(

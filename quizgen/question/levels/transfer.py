@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from fractions import Fraction
+from functools import lru_cache
 
 from quizgen.bank.draw import Draw
 from quizgen.bank.plan import shuffled
@@ -36,28 +37,23 @@ def fits(drawn: Draw) -> bool:
     """Whether something can be asked about changes or mistakes."""
     if "transfer" not in drawn.template.rules.levels or not drawn.template.chain.steps:
         return False
-    return next(_makers(drawn), None) is not None
+    return bool(_makers(drawn))
 
 
-def _makers(drawn: Draw) -> Iterator[Maker]:
+@lru_cache(maxsize=128)
+def _makers(drawn: Draw) -> tuple[Maker, ...]:
     """What can be asked in this draw, in the order in which it is asked."""
     changes = Changes(drawn)
     asked = effect(changes)
-    if asked is not None:
-        yield asked
-    second = compared(changes, asked)
-    if second is not None:
-        yield second
-    third = found_mistake(drawn)
-    if third is not None:
-        yield third
+    makers = (asked, compared(changes, asked), found_mistake(drawn))
+    return tuple(maker for maker in makers if maker is not None)
 
 
 def asking(drawn: Draw, lang: str) -> Asking:
     """The task, and what is asked about it."""
     usual = exam.asking(drawn, lang)
     total = sum((part.points for part in usual.parts), Fraction(0))
-    makers = list(_makers(drawn))
+    makers = _makers(drawn)
     count = 1 if total <= SMALL else 2 if total <= MIDDLE else 3
     kept = sorted(shuffled(f"{key_of(drawn)}/forms", range(len(makers)))[:count])
     worth = shared_out(total, [Fraction(1)] * len(kept))
