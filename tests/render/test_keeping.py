@@ -21,7 +21,7 @@ pytestmark = pytest.mark.browser
 @pytest.fixture(scope="module")
 def folder(bank, tmp_path_factory):
     made = tmp_path_factory.mktemp("keeping")
-    paper = build(bank, load_blueprint("mock"), 12, "both")
+    paper = build(bank, load_blueprint("mock"), 12, "en", figures=False)
     for kind in KINDS:
         (made / f"{kind}.html").write_bytes(render_paper(paper, kind, "html"))
     (made / "key.json").write_bytes(key_bytes(paper))
@@ -81,7 +81,7 @@ def test_another_paper_starts_empty(context, folder, bank):
     page = opened(context, folder)
     fill_everything(page)
     other = folder / "other.html"
-    paper = build(bank, load_blueprint("mock"), 13, "both", figures=False)
+    paper = build(bank, load_blueprint("mock"), 13, "en", figures=False)
     other.write_bytes(render_paper(paper, "exam", "html"))
     page.on("dialog", lambda dialog: dialog.accept())
     page.goto(other.as_uri())

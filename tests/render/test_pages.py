@@ -14,10 +14,10 @@ from quizgen.render import KINDS, render_paper
 pytestmark = pytest.mark.browser
 
 
-@pytest.fixture(scope="module")
-def pages(bank, tmp_path_factory):
+@pytest.fixture(scope="module", params=["trial", pytest.param("mock", marks=pytest.mark.slow)])
+def pages(bank, request, tmp_path_factory):
     folder = tmp_path_factory.mktemp("pages")
-    paper = build(bank, load_blueprint("mock"), 11, "both")
+    paper = build(bank, load_blueprint(request.param), 11, "both")
     for kind in KINDS:
         (folder / f"{kind}.html").write_bytes(render_paper(paper, kind, "html"))
     return folder, paper
