@@ -80,7 +80,7 @@ def with_uv(line: str, cwd: Path) -> subprocess.CompletedProcess:
 
 
 @pytest.mark.skipif(not shutil.which("uv"), reason="uv is not installed")
-@pytest.mark.parametrize("form", ["toml", "csv"])
+@pytest.mark.parametrize("form", ["toml", pytest.param("csv", marks=pytest.mark.slow)])
 def test_after_uv_run_the_commands_work_as_printed(tmp_path, form):
     made = with_uv(f"uv run --project {shlex.quote(str(ROOT))} quizgen exam --topic eye "
                    f"--minutes 4 --format html --form {form}", tmp_path)  # fmt: skip
