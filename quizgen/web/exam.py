@@ -28,7 +28,7 @@ from quizgen.web.results import asked, marked, outcomes
 from quizgen.web.site import Site
 from quizgen.web.store import Sitting
 from quizgen.web.store.sittings import Sittings
-from quizgen.web.views import lang_of, page, said, to
+from quizgen.web.views import lang_of, page, said, to, when
 
 FIELDS = "a-"
 """Before the name of a part in a form."""
@@ -55,20 +55,30 @@ async def offer(request: Request) -> Response:
     site: Site = request.app.state.site
     store = site.store.sittings
     sittings = await run_in_threadpool(store.latest, request.state.learner.id)
-    problem = request.query_params.get("problem")
+    problem, now = request.query_params.get("problem"), time.time()
     return page(request, "exams.html.j2", choices=_choices(request), lengths=MINUTES,
-                sittings=sittings, now=time.time(), problem=problem)  # fmt: skip
+                sat=[(one, _title(request, one)) for one in sittings],
+                when=when(now, lang_of(request)), now=now, problem=problem)  # fmt: skip
 
 
 def _choices(request: Request) -> list[Choice]:
     """The bank's blueprints, then its topics."""
-    site: Site = request.app.state.site
-    lang, found = lang_of(request), []
-    for name in (*site.bank.blueprints, EVERYTHING, *site.bank.topics):
-        plan = named_blueprint(name, site.bank)
-        if plan is not None:
-            found.append(Choice(name, plan.title.get(lang) or plan.title["en"], plan.pauses))
-    return found
+    bank = request.app.state.site.bank
+    names = (*bank.blueprints, EVERYTHING, *bank.topics)
+    return [found for name in names if (found := _choice(request, name)) is not None]
+
+
+def _choice(request: Request, name: str) -> Choice | None:
+    plan = named_blueprint(name, request.app.state.site.bank)
+    if plan is None:
+        return None
+    return Choice(name, plan.title.get(lang_of(request)) or plan.title["en"], plan.pauses)
+
+
+def _title(request: Request, sitting: Sitting) -> str:
+    """Title of a paper; its code, if its blueprint is gone."""
+    found = _choice(request, parse_code(sitting.code).blueprint)
+    return found.title if found else sitting.code
 
 
 async def begin(request: Request) -> Response:

@@ -16,7 +16,7 @@ from quizgen.bank.pages import read_text
 from quizgen.bank.prose import Formula, Inline, Slot, Words, fill
 from quizgen.errors import StoreError
 from quizgen.practice.agenda import Agenda, Standing
-from quizgen.practice.schedule import NAMED, Card, day_of
+from quizgen.practice.schedule import NAMED, Card
 from quizgen.question.authored import printed, sentence
 from quizgen.question.markup import inline
 from quizgen.web.agenda import learning_of, today
@@ -24,7 +24,7 @@ from quizgen.web.forms import one, posted, posted_file
 from quizgen.web.made import Html
 from quizgen.web.site import Site
 from quizgen.web.store.archive import read_archive
-from quizgen.web.views import lang_of, page, said, to
+from quizgen.web.views import lang_of, page, said, to, when
 
 SHOWN = 30
 """Mistakes on the page, those that are due first before others."""
@@ -71,7 +71,7 @@ def _shown(request: Request, status: int = 200, problem: str = "") -> Response:
         topics=_topics(agenda, lang),
         formulas=_formulas(agenda, lang),
         mistakes=[told for card in agenda.mistakes[:SHOWN] if (told := _told(agenda, card, lang))],
-        when=_when(agenda.now, lang),
+        when=when(agenda.now, lang),
         lasting=_lasting(lang),
     )  # fmt: skip
 
@@ -114,23 +114,6 @@ def _told(agenda: Agenda, card: Card, lang: str) -> Told | None:
 
 def _blanked(part: Slot | Formula) -> tuple[Inline, ...]:
     return (Words(BLANK),) if isinstance(part, Slot) else printed(part)
-
-
-def _when(now: float, lang: str) -> Callable[..., str]:
-    """Says in words when something was or will be."""
-
-    def when(moment: float | None, *, ahead: bool = False) -> str:
-        if moment is None:
-            return said(lang, "progress.never")
-        if ahead and moment <= now:
-            return said(lang, "progress.now")
-        days = (day_of(moment) - day_of(now)).days
-        near = {0: "day", 1: "tomorrow", -1: "yesterday"}.get(days)
-        if near:
-            return said(lang, f"progress.{near}")
-        return said(lang, "progress.in_days" if days > 0 else "progress.days_ago", count=abs(days))
-
-    return when
 
 
 def _lasting(lang: str) -> Callable[[float | None], str]:

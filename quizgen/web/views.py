@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from fractions import Fraction
 from functools import cache
 from typing import Any
@@ -12,6 +13,7 @@ from starlette.requests import Request
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 
 from quizgen.locale import FIRST, known, language, languages, line_heights, marks, table
+from quizgen.practice.schedule import day_of
 from quizgen.render.layouts import environment
 from quizgen.web.door import form_token
 from quizgen.web.site import Site
@@ -92,6 +94,23 @@ def page(request: Request, layout: str, status: int = 200, **content: Any) -> Re
         )
     )
     return HTMLResponse(html, status)
+
+
+def when(now: float, lang: str) -> Callable[..., str]:
+    """Says in words when something was or will be."""
+
+    def told(moment: float | None, *, ahead: bool = False) -> str:
+        if moment is None:
+            return "" if ahead else said(lang, "progress.never")
+        if ahead and moment <= now:
+            return said(lang, "progress.now")
+        days = (day_of(moment) - day_of(now)).days
+        near = {0: "day", 1: "tomorrow", -1: "yesterday"}.get(days)
+        if near:
+            return said(lang, f"progress.{near}")
+        return said(lang, "progress.in_days" if days > 0 else "progress.days_ago", count=abs(days))
+
+    return told
 
 
 def to(address: str) -> Response:

@@ -35,9 +35,29 @@ def test_nothing_yet(client):
     page = client.get("/progress")
     assert page.status_code == 200
     assert "No mistake with a name has been made yet." in page.text
-    assert "0 of" in text(page.text)
+    assert "0/17" in text(page.text)
     assert "never" in text(page.text)
     assert "5 new questions" in text(client.get("/").text)
+
+
+def formulas(page: str) -> tuple[list[str], list[str]]:
+    """Formulas in the table, and those that are folded away."""
+    shown = page.partition('<h2 id="formulas">')[2]
+    table, _, folded = shown.partition("<details>")
+    return tuple(re.findall(r'href="/formulas#(F\d\d)"', one) for one in (table, folded))
+
+
+def test_formulas_that_were_not_asked_are_folded_away(client, token, begin, answers):
+    page = client.get("/progress").text
+    seen, folded = formulas(page)
+    assert (seen, len(folded)) == ([], 46)
+    assert "Not seen yet: 46" in text(page)
+    client.post(f"{begin(QUESTION)}/1", data={"token": token, "a": answers})
+    after = client.get("/progress").text
+    seen, rest = formulas(after)
+    assert seen
+    assert sorted(seen + rest) == sorted(folded)
+    assert f"Not seen yet: {len(rest)}" in text(after)
 
 
 def test_a_right_answer_at_once_is_good(client, token, begin, app, answers):
@@ -64,7 +84,7 @@ def test_a_mistake_is_remembered_and_named_in_both_languages(client, token, begi
     mistakes = [name for kind, name in found if kind == "mistake"]
     assert len(mistakes) <= 1
     page = client.get("/progress").text
-    assert "1 of" in text(page)
+    assert "1/17" in text(page)
     client.post("/settings", data={"token": token, "lang": "bn", "back": "/"})
     bangla = client.get("/progress").text
     assert "অগ্রগতি" in bangla
