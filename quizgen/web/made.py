@@ -5,6 +5,7 @@ Made in a worker process; plain structs, so that they travel as bytes.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
@@ -18,6 +19,8 @@ from quizgen.bank.prose import Block, Inline
 from quizgen.errors import BlueprintError
 from quizgen.figures import Drawing
 from quizgen.locale import BOTH
+from quizgen.marking.kinds import point
+from quizgen.marking.specs import AnySpec
 from quizgen.paper.blueprint import named_blueprint
 from quizgen.paper.key import KeyQuestion, key_question
 from quizgen.paper.paper import Item, build, rebuild
@@ -30,6 +33,8 @@ from quizgen.question.sheet import cited
 from quizgen.question.shown import named
 from quizgen.question.solution import Mistake, PartSolution, Rung
 
+_MATHS = re.compile("</?math[^>]*>")
+
 Html = str
 """Markup made here; whatever a learner typed never gets into it."""
 
@@ -40,7 +45,7 @@ class MadeField(msgspec.Struct, frozen=True):
     id: str
     control: Control
     names: list[Html]
-    """Names of the boxes, typeset."""
+    """Names of the boxes, typeset; empty where they have none."""
     options: list[tuple[str, Html]]
     targets: list[tuple[str, Html]]
     words: list[str]
@@ -215,6 +220,7 @@ def made(wanted: Wanted, question: Question, key: Key, bank: Bank | None = None)
     """A composed question as markup; with hints, if it is said from which bank it is."""
     steps = wanted.level != GUIDED and level_of(key.draw, GUIDED) == GUIDED
     lang, solution = question.lang, key.solution
+    stem = _blocks(question.stem, lang)
     figure, solved = question.figure, key.figure
     other = solved if solved and (figure is None or solved.svg != figure.svg) else None
     return Made(
@@ -222,13 +228,15 @@ def made(wanted: Wanted, question: Question, key: Key, bank: Bank | None = None)
         question.title,
         question.topic,
         question.tier,
-        stem=_blocks(question.stem, lang),
+        stem=stem,
         figure=figure.svg.decode() if figure else "",
         solved_figure=other.svg.decode() if other else "",
         dark=next((one.dark for one in (figure, solved) if one), ""),
         parts=[
-            _part(part, solved_part, lang, bank)
-            for part, solved_part in zip(question.parts, solution.parts, strict=True)
+            _part(part, solved_part, _names(part, spec, stem, lang), lang, bank)
+            for part, solved_part, spec in zip(
+                question.parts, solution.parts, key.specs, strict=True
+            )
         ],
         check=_blocks(solution.check, lang),
         note=_blocks(solution.note, lang),
@@ -248,12 +256,26 @@ def _rung(rung: Rung, bank: Bank, lang: str) -> MadeRung:
     )
 
 
-def _part(part: Part, solved: PartSolution, lang: str, bank: Bank | None) -> MadePart:
+def _names(part: Part, spec: AnySpec, stem: Html, lang: str) -> list[Html]:
+    """Names of the boxes, typeset: their own, or those of the quantities, where all are said."""
+    boxes = part.field.control.boxes
+    if any(box.name for box in boxes):
+        return [_inline((named(box.name),), lang) for box in boxes]
+    of = spec.of if isinstance(spec, point.Spec) and isinstance(spec.of, list) else []
+    names = [_inline((named(name),), lang) for name in of]
+    asked = stem + _blocks(part.body, lang)
+    said = all(_MATHS.sub("", name) in asked for name in names)
+    return names if said and len(names) == len(boxes) else [""] * len(boxes)
+
+
+def _part(
+    part: Part, solved: PartSolution, names: list[Html], lang: str, bank: Bank | None
+) -> MadePart:
     return MadePart(
         part.label,
         float(part.points),
         _blocks(part.body, lang),
-        _field(part.field, lang),
+        _field(part.field, names, lang),
         [
             MadeLine(
                 str(display(line.maths, lang)),
@@ -272,11 +294,11 @@ def _part(part: Part, solved: PartSolution, lang: str, bank: Bank | None) -> Mad
     )
 
 
-def _field(field: Field, lang: str) -> MadeField:
+def _field(field: Field, names: list[Html], lang: str) -> MadeField:
     return MadeField(
         field.id,
         field.control,
-        [_inline((named(box.name),), lang) if box.name else "" for box in field.control.boxes],
+        names,
         [(mark, _inline(text, lang)) for mark, text in field.options],
         [(mark, _inline(text, lang)) for mark, text in field.targets],
         [plain(text) for _, text in field.targets],

@@ -235,7 +235,7 @@ def test_half_filled_fields_are_shown_as_fields(client, token, exam, paper_of):
     client.post(at, data=body(token, {half: ["9.75", ""]}))
     done = client.post(at, data={"token": token, "do": "hand-in"}).text
     part = shown(re.search(f'id="part-{half}">(.*?)<ol class="steps">', done, re.DOTALL)[1])
-    assert "Your answer: 9.75 ; –" in part
+    assert "Your answer: p ′ x = 9.75 ; p ′ y = –" in part
     assert "Fill in every field." in part
     assert "9.75; " not in part
 
