@@ -1,6 +1,32 @@
 "use strict";
 // What pages do beyond plain forms. Everything works without it.
 
+// The fields of a part, and what stands in them.
+const fields = (part) => [...part.querySelectorAll("input:not([type=hidden]), select, textarea")];
+const ticks = (field) => field.type === "radio" || field.type === "checkbox";
+const values = (part) => fields(part).filter((f) => !ticks(f) || f.checked).map((f) => f.value);
+const fill = (part, kept) => fields(part).forEach((f, i) => {
+  if (ticks(f)) { f.checked = kept.includes(f.value); } else { f.value = kept[i] ?? ""; }
+});
+
+// Practice: what is typed and not sent yet outlives a reload and a change of language in this tab,
+// as long as the server still has what the page was made with.
+(() => {
+  const name = (form) => "quizgen/typed" + new URL(form.action).pathname;
+  const given = (form) => fields(form).map((f) => f.options ? [...f.options].findIndex((o) => o.defaultSelected) : ticks(f) ? f.defaultChecked : f.defaultValue);
+  document.addEventListener("input", (event) => {
+    const form = event.target.closest("section.part form");
+    if (!form) { return; }
+    try { sessionStorage.setItem(name(form), JSON.stringify([given(form), values(form)])); } catch { /* full or forbidden */ }
+  });
+  for (const form of document.querySelectorAll("section.part form:has(button.main)")) {
+    try {
+      const [before, now] = JSON.parse(sessionStorage.getItem(name(form))) ?? [];
+      if (JSON.stringify(before) === JSON.stringify(given(form))) { fill(form, now); }
+    } catch { /* forbidden */ }
+  }
+})();
+
 // Practice: whoever answers by keys goes on where they were, or at what comes next where that is gone.
 document.addEventListener("htmx:after:swap", () => {
   if (document.activeElement && document.activeElement !== document.body) { return; }
@@ -28,17 +54,11 @@ document.addEventListener("htmx:after:swap", () => {
     drop(name) { try { localStorage.removeItem(place + name); } catch { /* forbidden */ } },
   };
   const parts = [...form.querySelectorAll("fieldset[data-part]")];
-  const fields = (part) => [...part.querySelectorAll("input:not([type=hidden]), select, textarea")];
-  const ticks = (field) => field.type === "radio" || field.type === "checkbox";
-  const values = (part) => fields(part).filter((f) => !ticks(f) || f.checked).map((f) => f.value);
   // As ``practice/boxes.py`` says it: every box, but any place of an order.
   const complete = (part) => {
     const there = values(part).map((value) => value.trim() !== "");
     return part.querySelector("[data-order]") ? there.some(Boolean) : there.length > 0 && there.every(Boolean);
   };
-  const fill = (part, kept) => fields(part).forEach((f, i) => {
-    if (ticks(f)) { f.checked = kept.includes(f.value); } else { f.value = kept[i] ?? ""; }
-  });
   const marks = () => form.querySelectorAll("a[data-question]").forEach((link) => {
     const question = document.getElementById("question-" + link.dataset.question);
     const answered = [...question.querySelectorAll("fieldset[data-part]")].every(complete);
