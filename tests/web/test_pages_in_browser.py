@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import io
 import re
 from collections import Counter
 
 import html5lib
 import pytest
+from keys import Keys
+from PIL import Image
 from playwright.sync_api import expect
 
 pytestmark = pytest.mark.browser
@@ -111,6 +114,36 @@ def test_nothing_moves_for_who_wants_no_motion(opened, served):
     assert page.locator(".verdict").evaluate(moving) == "none"
     page.emulate_media(reduced_motion="no-preference")
     assert page.locator(".verdict").evaluate(moving) == "come"
+
+
+def edges(scroller) -> tuple[bool, bool]:
+    """Whether the left and the right edge of an empty element show a shadow."""
+    with Image.open(io.BytesIO(scroller.screenshot())) as picture:
+        grey, middle = picture.convert("L"), picture.height // 2
+        usual = grey.getpixel((grey.width // 2, middle))
+        ends = (grey.getpixel((x, middle)) for x in (3, grey.width - 4))
+        return tuple(abs(end - usual) > 30 for end in ends)
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_what_is_wider_than_a_phone_says_so_and_is_scrolled_by_keys(opened, addresses, scheme):
+    page = opened(viewport={"width": 390, "height": 800}, color_scheme=scheme)
+    page.goto(next(one for one in addresses if "/q/" in one))
+    wide = page.locator(".stem")
+    inside = "element.innerHTML = '<div style=\"height: 3rem; width: WIDE\"></div>'"
+    wide.evaluate("element => " + inside.replace("WIDE", "100%"))
+    assert edges(wide) == (False, False)
+    wide.evaluate("element => " + inside.replace("WIDE", "100rem"))
+    assert edges(wide) == (False, True)
+    page.locator("header a").last.focus()
+    Keys(page).on(wide)
+    page.keyboard.press("ArrowRight")
+    page.wait_for_timeout(300)
+    assert wide.evaluate("element => element.scrollLeft") > 0
+    wide.evaluate("element => { element.blur(); element.scrollLeft = 600; }")
+    assert edges(wide) == (True, True)
+    wide.evaluate("element => { element.scrollLeft = 1e5; }")
+    assert edges(wide) == (True, False)
 
 
 def test_everything_is_saved_as_a_file_and_taken_in_again(opened, served, tmp_path):

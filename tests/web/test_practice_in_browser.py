@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
+from fingers import Screen, between
 from keys import Keys
 from playwright.sync_api import expect
 
@@ -70,6 +71,48 @@ def test_wrong_hint_language_right_and_a_variant(practised):
     page.get_by_role(BUTTON, name="with new numbers").click()
     expect(page.locator(".verdict")).to_have_count(0)
     assert page.locator(".stem").inner_text() != before
+
+
+def test_what_is_not_sent_yet_outlives_another_language_and_a_reload(practised):
+    page = practised()
+    x, y = page.locator("input[type=text]").all()
+    x.fill("2/3")
+    y.fill("-4")
+    page.get_by_role(BUTTON, name="বাংলা").click()
+    expect(page.locator("html")).to_have_attribute("lang", "bn")
+    expect(x).to_have_value("2/3")
+    expect(y).to_have_value("-4")
+    page.get_by_role(BUTTON, name="English").click()
+    expect(page.locator("html")).to_have_attribute("lang", "en")
+    page.reload()
+    expect(y).to_have_value("-4")
+    y.press("Enter")
+    expect(page.locator(".verdict")).to_be_visible()
+    y.fill("77")
+    page.get_by_role(BUTTON, name="Show the solution").click()
+    expect(page.locator(".result")).to_be_visible()
+    page.reload()
+    expect(y).to_have_value("77")
+    page.get_by_role(BUTTON, name="Once more").click()
+    expect(page.locator(".result")).to_have_count(0)
+    expect(x).to_have_value("")
+
+
+def test_chosen_options_and_an_order_outlive_a_reload(practised):
+    page = practised("lens-aberrations-causes-remedies")
+    page.locator("section.part select").first.select_option(index=2)
+    page.locator("section.part input[type=radio]").nth(1).check()
+    page.reload()
+    expect(page.locator("section.part select").first).not_to_have_value("")
+    expect(page.locator("section.part input[type=radio]").nth(1)).to_be_checked()
+    page = practised(ORDER)
+    page.locator("[data-mark]").nth(1).focus()
+    page.keyboard.press("Enter")
+    before = chosen(page)
+    assert before[0]
+    page.reload()
+    expect(page.locator("[data-order] select").first).to_have_value(before[0])
+    expect(page.locator("[data-mark]").first).to_have_attribute("data-mark", before[0])
 
 
 def test_working_it_through_goes_from_part_to_part(practised):
@@ -190,6 +233,45 @@ def test_steps_are_put_in_order_by_dragging_and_by_keys(practised):
     expect(page.locator(".verdict")).to_be_visible()
     assert chosen(page)[:3] == [third, first, second]
     assert steps.nth(0).get_attribute("data-mark") == third, "the order is drawn again"
+
+
+def middle(locator, down: float = 0.5) -> tuple[float, float]:
+    box = locator.bounding_box()
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] * down
+
+
+@pytest.mark.parametrize("hand", ["finger", "two fingers", "pen"])
+def test_steps_are_put_in_order_by_a_finger_or_a_pen(practised, hand):
+    page = practised(ORDER, viewport={"width": 390, "height": 800}, has_touch=True)
+    steps = page.locator("[data-order]").first.locator("[data-mark]")
+    first, third = (steps.nth(i).get_attribute("data-mark") for i in (0, 2))
+    steps.first.evaluate("step => step.scrollIntoView({block: 'center'})")
+    screen, before = Screen(page), page.evaluate("scrollY")
+    for number, mark in enumerate((third, first)):
+        grip = page.locator(f"[data-mark={mark}] .grip").first
+        box = grip.bounding_box()
+        assert min(box["width"], box["height"]) >= 24, "large enough for a finger"
+        way = between(middle(grip), middle(steps.first, 0.1))
+        if hand == "pen":
+            screen.pen(way)
+        else:
+            screen.finger(way, beside=(380, 20) if hand == "two fingers" else None)
+        expect(page.locator("[data-order] select").nth(number)).not_to_have_value("")
+    assert chosen(page)[:3] == [first, third, ""]
+    assert page.evaluate("scrollY") == before, "the page stays where it is"
+
+
+def test_a_finger_beside_the_grip_scrolls_the_page(practised):
+    page = practised(ORDER, viewport={"width": 390, "height": 500}, has_touch=True)
+    step = page.locator("[data-order] [data-mark]").first
+    step.evaluate("step => step.scrollIntoView({block: 'center'})")
+    before = page.evaluate("scrollY")
+    box = step.bounding_box()
+    x, y = box["x"] + box["width"] - 20, box["y"] + box["height"] / 2
+    Screen(page).finger(between((x, y), (x, y - 200)))
+    page.wait_for_timeout(300)
+    assert page.evaluate("scrollY") > before
+    assert not any(chosen(page))
 
 
 def test_what_is_matched_is_named_in_its_list(practised):

@@ -2,6 +2,7 @@
 // Steps that are put in order by dragging or by keys. The drop-downs stand underneath: they are what
 // is posted, what screen readers may use as well, and all there is without scripts.
 
+const ENDS = ["pointerup", "pointercancel"];
 const ordering = (box) => {
   const steps = [...box.querySelectorAll("[data-mark]")];
   const places = [...box.querySelectorAll("select")];
@@ -54,13 +55,16 @@ const ordering = (box) => {
       if (event.button || (event.pointerType !== "mouse" && event.target !== grip)) { return; }
       const from = event.clientY;
       const drag = (now) => {
+        if (now.pointerId !== event.pointerId) { return; } // another finger
         if (Math.abs(now.clientY - from) > 4) { step.classList.add("held"); }
         if (!step.classList.contains("held")) { return; }
         const after = [...list.children].find((one) => one !== step && now.clientY < one.getBoundingClientRect().top + one.offsetHeight / 2);
         if (step.nextElementSibling !== (after ?? null)) { list.insertBefore(step, after ?? null); }
       };
-      const drop = () => {
+      const drop = (now) => {
+        if (now.pointerId !== event.pointerId) { return; }
         document.removeEventListener("pointermove", drag);
+        for (const end of ENDS) { document.removeEventListener(end, drop); }
         if (!step.classList.contains("held")) { return; }
         step.classList.remove("held");
         const before = [...list.children].slice(0, [...list.children].indexOf(step));
@@ -68,7 +72,7 @@ const ordering = (box) => {
         step.focus({ preventScroll: true });
       };
       document.addEventListener("pointermove", drag);
-      for (const end of ["pointerup", "pointercancel"]) { document.addEventListener(end, drop, { once: true }); }
+      for (const end of ENDS) { document.addEventListener(end, drop); }
     });
   }
   places.forEach((place) => place.addEventListener("change", arrange));
