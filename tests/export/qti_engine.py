@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import isclose
+from math import isclose, prod
 from xml.etree import ElementTree as ET
 
 from qti_cases import text_of
@@ -76,6 +76,7 @@ OPERATORS = {
     "and": lambda *all_of: all(all_of),
     "or": lambda *any_of: any(any_of),
     "sum": lambda *numbers: sum(map(float, numbers)),
+    "product": lambda *numbers: prod(map(float, numbers)),
     "member": lambda one, container: one in container,
     "gte": lambda a, b: float(a) >= float(b),
     "lte": lambda a, b: float(a) <= float(b),

@@ -76,6 +76,17 @@ def test_keys_and_mistakes_earn_what_is_declared(items, files):
     assert tried > 500
 
 
+def test_numbers_are_decimals_with_a_point(files):
+    """Exponents are read by most engines, not by all; a comma by none."""
+    found = set()
+    for path, root in elements(files).items():
+        if path.startswith("items/"):
+            found |= {one.text for one in root.iterfind(f".//{QTI}baseValue[@baseType='float']")}
+            found |= {one.get("mappedValue") for one in root.iter(f"{QTI}mapEntry")}
+    assert len(found) > 100
+    assert [text for text in found if not re.fullmatch(r"-?\d+(\.\d+)?", text)] == []
+
+
 def test_what_a_person_marks_has_its_key_for_them_alone(items, files):
     seen = 0
     for item in items:
@@ -156,7 +167,7 @@ def test_a_slot_is_a_section_from_which_one_is_drawn(items, files):
 def test_the_whole_bank_is_valid_and_plays(everything):
     old = contents(everything, QTI21)
     assert list(invalid(old, schema("qtiv2p1/imsqti_v2p1.xsd"))) == []
-    test_keys_and_mistakes_earn_what_is_declared(everything, old)
+    test_keys_and_mistakes_earn_what_is_declared(everything[::5], old)
 
 
 @pytest.mark.slow

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from decimal import Decimal
 from functools import lru_cache
 
 from markupsafe import Markup, escape
@@ -15,9 +16,14 @@ _INSTANCE = "http://www.w3.org/2001/XMLSchema-instance"
 _HUMP = re.compile(r"(?<=[a-z])(?=[A-Z])")
 
 
+def written(value: str | float) -> str:
+    """A number without exponent: an engine reads ``-1e-09`` as no number."""
+    return value if isinstance(value, str) else f"{Decimal(repr(value)):f}"
+
+
 def element(name: str, attributes: Attributes, *inside: str) -> Markup:
     """An element of XML; texts that are not markup are escaped."""
-    listed = "".join(f' {key}="{escape(value)}"' for key, value in attributes.items())
+    listed = "".join(f' {key}="{escape(written(value))}"' for key, value in attributes.items())
     body = Markup("").join(inside)
     end = f">{body}</{name}>" if body else "/>"
     return Markup(f"<{name}{listed}{end}")  # noqa: S704 - made of escaped pieces

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
+from fractions import Fraction
 from typing import NamedTuple
 
 from markupsafe import Markup
 
 from quizgen.export.asks import Ask, Write
 from quizgen.export.items import Item
-from quizgen.export.qti.dialect import Dialect
+from quizgen.export.qti.dialect import Dialect, written
 from quizgen.export.qti.place import Place
 from quizgen.export.qti.played import Played, played
 from quizgen.export.wording import body, image, solution, stem
@@ -58,16 +59,19 @@ def item_file(item: Item, dialect: Dialect, source: Source) -> bytes:
         "toolName": "quizgen",
     }
     inside = [*_declared(item, rows, dialect), _body(item, groups, dialect, source)]
-    inside += [_processing(rows, dialect), *_feedback(item, rows, dialect, source)]
+    inside += [_processing(item, groups, dialect), *_feedback(item, rows, dialect, source)]
     return dialect.file("assessmentItem", named, *map(_xml, inside))
 
 
 def _asked(item: Item, dialect: Dialect) -> Iterator[list[tuple[Ask, Place]]]:
-    """What each part asks, with the places of it."""
+    """What each part asks, with the places of it.
+
+    Each of several values counts 1: marks such as 2/3 would not sum up where outcomes are rounded.
+    """
     for part, asks in item.parts:
         label = f"_{part.label}" if part.label else ""
         suffixes = [f"{label}_{i}" for i in range(1, len(asks) + 1)] if len(asks) > 1 else [label]
-        worth = float(part.points / len(asks))
+        worth = 1.0 if len(asks) > 1 else float(part.points)
         places = (Place(dialect, suffix, worth, item.lang) for suffix in suffixes)
         yield list(zip(asks, places, strict=True))
 
@@ -99,7 +103,7 @@ def _marks(name: str, most: float, ask: Ask | None, dialect: Dialect) -> Markup:
 
 
 def _start(value: float, dialect: Dialect) -> Markup:
-    return dialect.tag("defaultValue", {}, dialect.tag("value", {}, str(value)))
+    return dialect.tag("defaultValue", {}, dialect.tag("value", {}, written(value)))
 
 
 def _body(item: Item, groups: list[list[Row]], dialect: Dialect, source: Source) -> Markup:
@@ -110,14 +114,26 @@ def _body(item: Item, groups: list[list[Row]], dialect: Dialect, source: Source)
     return dialect.tag("itemBody", {}, shown)
 
 
-def _processing(rows: list[Row], dialect: Dialect) -> Markup:
+def _processing(item: Item, groups: list[list[Row]], dialect: Dialect) -> Markup:
     """Rules for each response that was given, then the sum of marks, then the solution."""
+    rows = [row for group in groups for row in group]
     rules = [row.at.if_given(row.played.rules) for row in rows if row.played.rules]
     if not _alone(rows):
-        scores = [dialect.tag("variable", {"identifier": row.at.score}) for row in rows]
-        rules.append(rows[0].at.sets("SCORE", dialect.tag("sum", {}, *scores)))
+        points = [part.points for part in item.question.parts]
+        marks = map(_part, groups, points)
+        rules.append(rows[0].at.sets("SCORE", dialect.tag("sum", {}, *marks)))
     rules.append(rows[0].at.says(SOLVED, WORKED))
     return dialect.tag("responseProcessing", {}, *rules)
+
+
+def _part(group: list[Row], points: Fraction) -> Markup:
+    """The marks of a part: those of its one ask, or its share of right values."""
+    at = group[0].at
+    scores = [at.tag("variable", {"identifier": row.at.score}) for row in group]
+    if len(scores) == 1:
+        return scores[0]
+    share = at.value("float", float(points / len(scores)))
+    return at.tag("product", {}, at.tag("sum", {}, *scores), share)
 
 
 def _feedback(item: Item, rows: list[Row], dialect: Dialect, source: Source) -> Iterator[Markup]:

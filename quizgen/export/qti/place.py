@@ -8,7 +8,7 @@ from itertools import chain, repeat
 
 from markupsafe import Markup
 
-from quizgen.export.qti.dialect import Attributes, Dialect
+from quizgen.export.qti.dialect import Attributes, Dialect, written
 
 
 @dataclass(frozen=True)
@@ -93,7 +93,7 @@ class Place:
 
     def value(self, base: str, value: str | float) -> Markup:
         """A constant."""
-        return self.tag("baseValue", {"baseType": base}, str(value))
+        return self.tag("baseValue", {"baseType": base}, written(value))
 
     def sets(self, outcome: str, expression: Markup) -> Markup:
         """A rule that sets an outcome."""

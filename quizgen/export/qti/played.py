@@ -26,7 +26,7 @@ from quizgen.export.asks import (
     Write,
     as_pairs,
 )
-from quizgen.export.qti.dialect import Attributes
+from quizgen.export.qti.dialect import Attributes, written
 from quizgen.export.qti.place import Place
 from quizgen.export.ranges import Range
 from quizgen.export.wording import marked
@@ -74,7 +74,7 @@ def _number(ask: Numeric, at: Place) -> Played:
     wrong = [(_within(one, at), one.said) for one in ask.ranges if not one.right and one.said]
     name = inline((named(ask.name),), at.lang) + " = " if ask.name else ""
     unit = "" if ask.unit in {"", "1"} else f" {shown_unit(ask.unit)}"
-    declared = at.declared("single float", [repr(ask.key.value)])
+    declared = at.declared("single float", [written(ask.key.value)])
     return _compared(
         at, declared, Markup("<p>{}{}{}</p>").format(name, _entry(at), unit), right, wrong
     )
