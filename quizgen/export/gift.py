@@ -88,7 +88,7 @@ def _question(item: Item, part: Part, ask: Ask) -> str:
 
 
 def _picture(figure: Figure | None) -> Markup:
-    data = base64.b64encode(figure.svg).decode() if figure else ""
+    data = base64.b64encode(figure.light).decode() if figure else ""
     return image(f"data:image/svg+xml;base64,{data}", figure)
 
 

@@ -117,7 +117,7 @@ def _layouts() -> jinja2.Environment:
     layouts = environment("quizgen.export")
     layouts.globals.update(
         answers=answers,
-        base64=lambda figure: base64.b64encode(figure.svg).decode(),
+        base64=lambda figure: base64.b64encode(figure.light).decode(),
         cdata=lambda text: Markup(str(text).replace("]]>", "]]]]><![CDATA[>")),  # noqa: S704
         hints=hints,
         in_order=lambda order: [(mark, dict(order.steps)[mark]) for mark in order.right],

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 from quizgen.errors import BankError
 from quizgen.figures._board import Board, Drawing, Line
@@ -18,6 +19,9 @@ from quizgen.figures._figure import Figure
 from quizgen.figures._parameters import Parameter, complete
 from quizgen.locale import languages
 from quizgen.maths.notation import people
+
+if TYPE_CHECKING:
+    from quizgen.figures._canvas import Canvas
 
 PHOTOGRAPHS = frozenset(
     {"artefacts", "depth_of_field", "fall_off", "focus_photos", "grey_edits", "noise"}
@@ -79,23 +83,20 @@ def in_words(name: str, values: Mapping[str, float], *, quiz: bool, lang: str) -
 
 @lru_cache(maxsize=256)
 def _render(name: str, items: tuple[tuple[str, float], ...], quiz: bool, lang: str) -> Figure:
-    from quizgen.figures._svg import with_title
     from quizgen.figures._table import figure_module
 
-    module = figure_module(name)
-    body, width, height = _body(name, items, quiz)
     words = in_words(name, dict(items), quiz=quiz, lang=lang)
-    return Figure(with_title(body, width, height, words, lang), words, width, height, module.DARK)
+    return Figure(_drawn(name, items, quiz), words, lang, figure_module(name).DARK)
 
 
 @lru_cache(maxsize=256)
-def _body(name: str, items: tuple[tuple[str, float], ...], quiz: bool) -> tuple[str, float, float]:
+def _drawn(name: str, items: tuple[tuple[str, float], ...], quiz: bool) -> Canvas:
     from quizgen.figures._canvas import Canvas
     from quizgen.figures._table import figure_module
 
     canvas = Canvas()
     figure_module(name).draw(canvas, dict(items), quiz=quiz)
-    return canvas.inside(), round(canvas.width, 2), round(canvas.height, 2)
+    return canvas
 
 
 __all__ = ["Board", "Drawing", "Figure", "Line", "Parameter", "in_words", "parameters", "render"]

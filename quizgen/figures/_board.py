@@ -103,7 +103,6 @@ class Drawing:
 def _figure(drawing: Drawing) -> Figure:
     from quizgen.figures._canvas import Canvas, Style
     from quizgen.figures._pen import BOLD, GREY, LABEL, RED, Pen
-    from quizgen.figures._svg import with_title
 
     board = drawing.board
     pen = Pen(*board.picture)
@@ -120,8 +119,7 @@ def _figure(drawing: Drawing) -> Figure:
         pen.label((x + 3, y + LABEL * 0.8), label, "l")
     canvas = Canvas()
     pen.onto(canvas)
-    svg = with_title(canvas.inside(), pen.width, pen.height, drawing.alt, drawing.lang)
-    return Figure(svg, drawing.alt, pen.width, pen.height, "invert")
+    return Figure(canvas, drawing.alt, drawing.lang, "invert")
 
 
 def _axes(pen: Pen, board: Board) -> None:

@@ -1,4 +1,4 @@
-"""What a figure is drawn on: painted paths and pictures, written as the inside of an SVG.
+"""What a figure is drawn on: painted paths, labels and pictures, written as the inside of an SVG.
 
 Figures are drawn in points from the lower left; SVG counts from the upper left.
 """
@@ -7,10 +7,14 @@ from __future__ import annotations
 
 from base64 import b64encode
 from dataclasses import dataclass
-from typing import Final
+from functools import cached_property
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from quizgen.figures._letters import outline
+from quizgen.png import encode
 
 MOVE, LINE, CURVE, CLOSE = (np.uint8(code) for code in (1, 2, 3, 79))
 """Codes of the points of a path, as fonts have them; a curve has its control point first."""
@@ -44,46 +48,85 @@ class Style:
         return (f"stroke-dasharray: {lengths}", "stroke-dashoffset: 0") if lengths else ()
 
 
+class Stroke(NamedTuple):
+    """A painted part: its points in points of print, and their codes."""
+
+    part: str
+    style: Style
+    points: NDArray[np.float64]
+    codes: NDArray[np.uint8]
+
+
+class Label(NamedTuple):
+    """A label in the markup of ``_letters``: where its baseline starts, and its size."""
+
+    text: str
+    at: tuple[float, float]
+    size: float
+
+
 class Canvas:
-    """A figure in the making: pictures lie under everything else."""
+    """A figure in the making: pictures lie under everything else, labels above it."""
 
     def __init__(self) -> None:
         self.width = self.height = 0.0
-        self.labels: tuple[str, ...] = ()
-        self._background: str | None = None
-        self._pictures: list[tuple[bytes, Box]] = []
-        self._paths: list[str] = []
+        self.background: str | None = None
+        self.pictures: list[tuple[bytes | NDArray[np.uint8], Box]] = []
+        self.strokes: list[Stroke] = []
+        self.labels: list[Label] = []
 
     def size(self, width: float, height: float, background: str | None) -> None:
         """Size it in points and paint the paper; it is transparent without a colour."""
-        self.width, self.height, self._background = width, height, background
+        self.width, self.height, self.background = width, height, background
 
-    def picture(self, png: bytes, box: Box) -> None:
-        """Put a PNG file into a box: left, bottom, width and height in points."""
-        self._pictures.append((png, box))
+    def picture(self, pixels: bytes | NDArray[np.uint8], box: Box) -> None:
+        """Put a PNG file, or 8-bit codes, into a box: left, bottom, width and height in points."""
+        self.pictures.append((pixels, box))
 
     def path(
         self, part: str, style: Style, points: NDArray[np.float64], codes: NDArray[np.uint8]
     ) -> None:
-        """Paint a part of the figure, which is sized before."""
-        flipped = np.round((0.0, self.height) + np.round(points, 2) * (1.0, -1.0), 2) + 0.0
-        data = _commands(flipped, codes, closed=style.width > 0)
-        self._paths.append(f'<g data-part="{part}"><path d="{data}"{style.attribute()}/></g>')
+        """Paint a part of the figure."""
+        self.strokes.append(Stroke(part, style, points, codes))
 
+    def flipped(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Points as SVG counts them, in hundredths."""
+        return np.round((0.0, self.height) + np.round(points, 2) * (1.0, -1.0), 2) + 0.0
+
+    @cached_property
     def inside(self) -> str:
-        """Elements without ids; each part is a group with ``data-part``."""
-        pictures = [self._image(png, box) for png, box in self._pictures]
-        return f"<g>{''.join([self._paper(), *pictures, *self._paths])}</g>"
+        """Elements without ids, the same on every machine; each part is a group ``data-part``."""
+        pictures = [self._image(pixels, box) for pixels, box in self.pictures]
+        strokes = [*self.strokes, *self._outlines()]
+        return f"<g>{''.join([self._paper(), *pictures, *map(self._path, strokes)])}</g>"
+
+    def _outlines(self) -> list[Stroke]:
+        """All labels as one part."""
+        if not self.labels:
+            return []
+        shapes = [outline(label.text) for label in self.labels]
+        points = [
+            shape.points * label.size + label.at
+            for shape, label in zip(shapes, self.labels, strict=True)
+        ]
+        codes = np.concatenate([shape.codes for shape in shapes])
+        return [Stroke("labels", Style(), np.concatenate(points), codes)]
+
+    def _path(self, stroke: Stroke) -> str:
+        closed = stroke.style.width > 0
+        data = _commands(self.flipped(stroke.points), stroke.codes, closed=closed)
+        return f'<g data-part="{stroke.part}"><path d="{data}"{stroke.style.attribute()}/></g>'
 
     def _paper(self) -> str:
-        if self._background is None:
+        if self.background is None:
             return ""
-        wide, high, paint = self.width, self.height, Style(colour=self._background)
+        wide, high, paint = self.width, self.height, Style(colour=self.background)
         corners = f"M 0 {high:g} L {wide:g} {high:g} L {wide:g} 0 L 0 0 z"
         return f'<g><path d="{corners}"{paint.attribute()}/></g>'
 
-    def _image(self, png: bytes, box: Box) -> str:
+    def _image(self, pixels: bytes | NDArray[np.uint8], box: Box) -> str:
         left, low, wide, high = box
+        png = pixels if isinstance(pixels, bytes) else encode(pixels)
         return (
             f'<image xlink:href="data:image/png;base64,{b64encode(png).decode()}"'
             f' x="{left:.2f}" y="{self.height - low - high:.2f}" width="{wide:.2f}"'

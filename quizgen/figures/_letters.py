@@ -52,8 +52,18 @@ def _glyph(character: str, italic: bool) -> Outline:
     return Outline(points / _EM, codes.astype(np.uint8), glyph.linearHoriAdvance / 65536 / _EM)
 
 
+class Run(NamedTuple):
+    """Characters of one style on one line: where they start, their size and how wide they are."""
+
+    text: str
+    italic: bool
+    at: tuple[float, float]
+    size: float
+    width: float
+
+
 @lru_cache(maxsize=4096)
-def outline(label: str) -> Outline:
+def runs(label: str) -> tuple[tuple[Run, ...], float]:
     """Lay out a label at size 1 with its baseline starting at the origin.
 
     Parameters
@@ -63,28 +73,42 @@ def outline(label: str) -> Outline:
 
     Returns
     -------
-    Outline
-        Points (n, 2) and codes (n,) of one compound path, and the advance width.
+    tuple of Run, float
+        And the advance width of the whole.
     """
-    pieces: list[Outline] = []
+    found: list[Run] = []
     x = 0.0
     for token in _TOKEN.finditer(label):
-        x = _token(pieces, token, x)
-    points = np.concatenate([piece.points for piece in pieces])
-    return Outline(points, np.concatenate([piece.codes for piece in pieces]), x)
+        x = _token(found, token, x)
+    return tuple(found), x
 
 
-def _token(pieces: list[Outline], token: re.Match[str], x: float) -> float:
-    x = _run(pieces, token["text"], x, 1.0, 0.0)
-    above = _run(pieces, "′" * len(token["prime"]), x, 1.0, 0.0)
-    below = _run(pieces, token["sub"] or "", x, SUBSCRIPT, -0.2)
+def width(label: str) -> float:
+    """Advance width of a label at size 1."""
+    return runs(label)[1]
+
+
+def _token(found: list[Run], token: re.Match[str], x: float) -> float:
+    x = _run(found, token["text"], x, 1.0, 0.0)
+    above = _run(found, "′" * len(token["prime"]), x, 1.0, 0.0)
+    below = _run(found, token["sub"] or "", x, SUBSCRIPT, -0.2)
     return max(above, below)
 
 
-def _run(pieces: list[Outline], text: str, x: float, size: float, rise: float) -> float:
+def _run(found: list[Run], text: str, x: float, size: float, rise: float) -> float:
     upright = text.startswith("{")
     for character in text.strip("{}"):
-        glyph = _glyph(character, italic=character.isalpha() and not upright)
-        pieces.append(Outline(glyph.points * size + (x, rise), glyph.codes, 0.0))
-        x += glyph.width * size
+        italic = character.isalpha() and not upright
+        wide = _glyph(character, italic=italic).width * size
+        found.append(Run(character, italic, (x, rise), size, wide))
+        x += wide
     return x
+
+
+@lru_cache(maxsize=4096)
+def outline(label: str) -> Outline:
+    """A label as ``runs`` lays it out: one compound path, and its advance width."""
+    laid, wide = runs(label)
+    glyphs = [_glyph(run.text, italic=run.italic) for run in laid]
+    points = [glyph.points * run.size + run.at for glyph, run in zip(glyphs, laid, strict=True)]
+    return Outline(np.concatenate(points), np.concatenate([one.codes for one in glyphs]), wide)

@@ -9,8 +9,8 @@ from math import cos, hypot, pi, sin
 import numpy as np
 
 from quizgen.figures import _canvas
-from quizgen.figures._canvas import Canvas, Style
-from quizgen.figures._letters import outline
+from quizgen.figures._canvas import Canvas, Label, Style
+from quizgen.figures._letters import width
 
 Point = tuple[float, float]
 WIDTH, HEIGHT = 312.0, 170.0
@@ -51,7 +51,7 @@ class Pen:
     paths: dict[tuple[str, Style], list[tuple[np.ndarray, np.ndarray]]] = field(
         default_factory=dict
     )
-    labels: list[str] = field(default_factory=list)
+    labels: list[Label] = field(default_factory=list)
 
     def _add(self, part: str, style: Style, points: np.ndarray, codes: np.ndarray) -> None:
         self.paths.setdefault((part, style), []).append((points, codes))
@@ -116,11 +116,8 @@ class Pen:
         size : float
             Size of the letters in points.
         """
-        shape = outline(text)
-        shift = {"c": 0.5, "l": 0.0, "r": 1.0}[anchor] * shape.width * size
-        origin = (at[0] - shift, at[1] - 0.33 * size)
-        self._add("labels", INK, shape.points * size + origin, shape.codes)
-        self.labels.append(text)
+        shift = {"c": 0.5, "l": 0.0, "r": 1.0}[anchor] * width(text) * size
+        self.labels.append(Label(text, (at[0] - shift, at[1] - 0.33 * size), size))
 
     def dimension(self, start: Point, end: Point, text: str, beside: str = "") -> None:
         """Draw a level double arrow with its label in a gap.
@@ -153,7 +150,7 @@ class Pen:
             self.line("break", [(x - 2.5, at[1] - 5), (x + 2.5, at[1] + 5)], LINE)
 
     def onto(self, canvas: Canvas, background: str | None = None) -> None:
-        """Size a canvas and put everything on it, in the order of drawing, labels last.
+        """Size a canvas and put everything on it, in the order of drawing.
 
         Parameters
         ----------
@@ -163,16 +160,12 @@ class Pen:
             Colour of the paper; without it the figure is transparent.
         """
         canvas.size(self.width, self.height, background)
-        for (part, style), pieces in sorted(self.paths.items(), key=_is_label):
+        for (part, style), pieces in self.paths.items():
             points, codes = zip(*pieces, strict=True)
             canvas.path(part, style, np.concatenate(points), np.concatenate(codes))
-        canvas.labels = tuple(self.labels)
-
-
-def _is_label(item: tuple[tuple[str, Style], object]) -> bool:
-    return item[0][0] == "labels"
+        canvas.labels = self.labels
 
 
 def text_width(text: str, size: float = LABEL) -> float:
     """Width of a label in points."""
-    return outline(text).width * size
+    return width(text) * size

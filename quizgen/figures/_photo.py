@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from quizgen.camera.codes import histogram as counted
 from quizgen.figures._pen import INK, LINE, THIN, Pen, Point
-from quizgen.png import encode
 
 if TYPE_CHECKING:
     import numpy as np
@@ -18,13 +17,13 @@ if TYPE_CHECKING:
 
 def place(canvas: Canvas, pen: Pen, codes: NDArray[np.uint8], box: Box) -> None:
     """Put a photograph into a box of the figure and frame it."""
-    framed(canvas, pen, encode(codes), box)
+    framed(canvas, pen, codes, box)
 
 
-def framed(canvas: Canvas, pen: Pen, png: bytes, box: Box) -> None:
-    """Put a PNG file into a box of the figure and frame it."""
+def framed(canvas: Canvas, pen: Pen, pixels: bytes | NDArray[np.uint8], box: Box) -> None:
+    """Put a PNG file, or 8-bit codes, into a box of the figure and frame it."""
     left, low, wide, high = box
-    canvas.picture(png, box)
+    canvas.picture(pixels, box)
     corners = [(left, low), (left + wide, low), (left + wide, low + high), (left, low + high)]
     pen.area("frames", corners, THIN)
 

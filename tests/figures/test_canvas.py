@@ -47,7 +47,7 @@ def drawn(style, points, codes):
     canvas = Canvas()
     canvas.size(WIDE, HIGH, None)
     canvas.path("part", style, points, np.asarray(codes, np.uint8))
-    return found(canvas.inside())
+    return found(canvas.inside)
 
 
 STYLES = [
@@ -80,7 +80,7 @@ def test_pictures_lie_under_what_is_drawn():
     canvas.size(40, 20, "#ffffff")
     canvas.path("frame", Style(1.0), np.array([(0.0, 0.0), (4.0, 2.0)]), np.array([1, 2], np.uint8))
     canvas.picture(b"PNG", (1, 2, 30, 10))
-    assert canvas.inside() == (
+    assert canvas.inside == (
         '<g><g><path d="M 0 20 L 40 20 L 40 0 L 0 0 z" style="fill: #ffffff"/></g>'
         '<image xlink:href="data:image/png;base64,UE5H" x="1.00" y="8.00" width="30.00"'
         ' height="10.00" preserveAspectRatio="none"/>'

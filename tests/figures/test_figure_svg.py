@@ -139,7 +139,7 @@ def _labels(name, values, *, quiz):
     canvas = Canvas()
     full = complete(name, parameters(name), values)
     figure_module(name).draw(canvas, full, quiz=quiz)
-    return "\n".join(canvas.labels)
+    return "\n".join(label.text for label in canvas.labels)
 
 
 @pytest.mark.parametrize("name", FIGURES)
