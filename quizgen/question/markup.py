@@ -1,109 +1,152 @@
-"""Filled blocks and sentences as HTML: the same for a page, a notebook and a web answer."""
+"""Filled blocks and sentences as HTML: the same for a page, a notebook and a web answer.
+
+Pieces are escaped one by one and joined as plain text; only what is handed out is ``Markup``.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import singledispatch
+from html import escape
+from typing import NamedTuple
 
-from markupsafe import Markup, escape
+from markupsafe import Markup
 
 from quizgen import typeset
 from quizgen.bank import prose
-from quizgen.question.filling import tied
+from quizgen.question.filling import NBSP, tied
 from quizgen.question.shown import Maths
 
 
-@singledispatch
-def inline(part: prose.Inline | tuple[prose.Inline, ...], lang: str) -> Markup:
+class Manner(NamedTuple):
+    """What a page understands: how its formulas are written, and whether it has our style.
+
+    ``maths`` writes a formula in a line of text, ``display`` one that is a line of its own.
+    """
+
+    maths: Callable[[typeset.Node, str], str]
+    display: Callable[[typeset.Node, str], str]
+    ours: bool = True
+
+
+def mathml_line(node: typeset.Node, lang: str) -> str:
+    """A formula that is a line of its own."""
+    return typeset.mathml(node, lang, display=True)
+
+
+OURS = Manner(typeset.mathml, mathml_line)
+
+
+def inline(part: prose.Inline | tuple[prose.Inline, ...], lang: str, way: Manner = OURS) -> Markup:
     """Inlines as HTML."""
-    raise TypeError(f"no HTML for {type(part).__name__} ({lang})")
-
-
-@inline.register(tuple)
-def _inlines(parts: tuple[prose.Inline, ...], lang: str) -> Markup:
-    return Markup("").join(_together(group, lang) for group in tied(parts))
-
-
-def _together(group: tuple[prose.Inline, ...], lang: str) -> Markup:
-    body = Markup("").join(inline(part, lang) for part in group)
-    return Markup('<span class="tied">{}</span>').format(body) if len(group) > 1 else body
-
-
-@inline.register
-def _words(part: prose.Words, _lang: str) -> Markup:
-    return escape(part.text)
-
-
-@inline.register
-def _maths(part: Maths, lang: str) -> Markup:
-    return Markup(typeset.mathml(part.node, lang))
-
-
-@inline.register
-def _code(part: prose.Code, _lang: str) -> Markup:
-    return Markup("<code>{}</code>").format(part.text)
-
-
-@inline.register
-def _styled(part: prose.Styled, lang: str) -> Markup:
-    return Markup("<{0}>{1}</{0}>").format(Markup(part.style), inline(part.children, lang))
+    return Markup(_piece(part, lang, way))
 
 
 @singledispatch
-def block(part: prose.Block, lang: str) -> Markup:
-    """A block as HTML."""
+def _piece(part: prose.Inline | tuple[prose.Inline, ...], lang: str, _way: Manner) -> str:
     raise TypeError(f"no HTML for {type(part).__name__} ({lang})")
 
 
-@block.register
-def _paragraph(part: prose.Paragraph, lang: str) -> Markup:
-    return Markup("<p>{}</p>").format(inline(part.children, lang))
+@_piece.register(tuple)
+def _inlines(parts: tuple[prose.Inline, ...], lang: str, way: Manner) -> str:
+    if not any(isinstance(part, Maths) for part in parts):
+        return "".join([_piece(part, lang, way) for part in parts])
+    return "".join([_together(group, lang, way) for group in tied(parts)])
 
 
-@block.register
-def _code_block(part: prose.CodeBlock, _lang: str) -> Markup:
-    return Markup('<pre tabindex="0"><code>{}</code></pre>').format(part.text)
+def _together(group: tuple[prose.Inline, ...], lang: str, way: Manner) -> str:
+    """Pieces inside which no line may end: held by our style, or by blanks that do not break."""
+    if len(group) == 1:
+        return _piece(group[0], lang, way)
+    if way.ours:
+        return f'<span class="tied">{"".join([_piece(part, lang, way) for part in group])}</span>'
+    return "".join([
+        _piece(part, lang, way).replace(" ", NBSP) if isinstance(part, prose.Words)
+        else _piece(part, lang, way)
+        for part in group
+    ])  # fmt: skip
 
 
-@block.register
-def _items(part: prose.Items, lang: str) -> Markup:
-    tag = Markup("ol" if part.ordered else "ul")
-    items = Markup("").join(
-        Markup("<li>{}</li>").format(blocks(item, lang, tight=True)) for item in part.items
-    )
-    return Markup("<{0}>{1}</{0}>").format(tag, items)
+def _escaped(text: str) -> str:
+    return escape(text, quote=False).replace('"', "&#34;").replace("'", "&#39;")
 
 
-@block.register
-def _table(part: prose.Table, lang: str) -> Markup:
-    def row(cells: tuple[tuple[prose.Inline, ...], ...]) -> Markup:
-        tags = [Markup("<td>{}</td>").format(inline(cell, lang)) for cell in cells]
-        return Markup("<tr>{}</tr>").format(Markup("").join(tags))
-
-    head = Markup("").join(_head_cell(cell, lang) for cell in part.head)
-    body = Markup("").join(row(cells) for cells in part.rows)
-    return Markup("<table><thead><tr>{}</tr></thead><tbody>{}</tbody></table>").format(head, body)
+@_piece.register
+def _words(part: prose.Words, _lang: str, _way: Manner) -> str:
+    return _escaped(part.text)
 
 
-def _head_cell(cell: tuple[prose.Inline, ...], lang: str) -> Markup:
+@_piece.register
+def _maths(part: Maths, lang: str, way: Manner) -> str:
+    return way.maths(part.node, lang)
+
+
+@_piece.register
+def _code(part: prose.Code, _lang: str, _way: Manner) -> str:
+    return f"<code>{_escaped(part.text)}</code>"
+
+
+@_piece.register
+def _styled(part: prose.Styled, lang: str, way: Manner) -> str:
+    return f"<{part.style}>{_piece(part.children, lang, way)}</{part.style}>"
+
+
+@singledispatch
+def _block(part: prose.Block, lang: str, _way: Manner) -> str:
+    raise TypeError(f"no HTML for {type(part).__name__} ({lang})")
+
+
+@_block.register
+def _paragraph(part: prose.Paragraph, lang: str, way: Manner) -> str:
+    return f"<p>{_piece(part.children, lang, way)}</p>"
+
+
+@_block.register
+def _code_block(part: prose.CodeBlock, _lang: str, way: Manner) -> str:
+    """Program text; a long line scrolls, also by keyboard."""
+    scrolls = ' tabindex="0"' if way.ours else ""
+    return f"<pre{scrolls}><code>{_escaped(part.text)}</code></pre>"
+
+
+@_block.register
+def _items(part: prose.Items, lang: str, way: Manner) -> str:
+    tag = "ol" if part.ordered else "ul"
+    items = "".join([f"<li>{blocks(item, lang, way, tight=True)}</li>" for item in part.items])
+    return f"<{tag}>{items}</{tag}>"
+
+
+@_block.register
+def _table(part: prose.Table, lang: str, way: Manner) -> str:
+    head = "".join([_head_cell(cell, lang, way) for cell in part.head])
+    rows = [[f"<td>{_piece(cell, lang, way)}</td>" for cell in cells] for cells in part.rows]
+    body = "".join([f"<tr>{''.join(row)}</tr>" for row in rows])
+    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+
+
+def _head_cell(cell: tuple[prose.Inline, ...], lang: str, way: Manner) -> str:
     """A head cell; a lone formula is spelled out for listeners, and empty is no head."""
     if not cell:
-        return Markup("<td></td>")
-    if len(cell) == 1 and isinstance(cell[0], Maths):
-        shown = Markup('<span class="hidden">{}</span><span aria-hidden="true">{}</span>')
-        spoken = typeset.spoken(cell[0].node, lang)
-        return Markup("<th>{}</th>").format(shown.format(spoken, inline(cell, lang)))
-    return Markup("<th>{}</th>").format(inline(cell, lang))
+        return "<td></td>"
+    shown = _piece(cell, lang, way)
+    if way.ours and len(cell) == 1 and isinstance(cell[0], Maths):
+        spoken = _escaped(typeset.spoken(cell[0].node, lang))
+        hidden = f'<span class="hidden">{spoken}</span>'
+        return f'<th>{hidden}<span aria-hidden="true">{shown}</span></th>'
+    return f"<th>{shown}</th>"
 
 
-def blocks(parts: Sequence[prose.Block], lang: str, *, tight: bool = False) -> Markup:
+def blocks(
+    parts: Sequence[prose.Block], lang: str, way: Manner = OURS, *, tight: bool = False
+) -> Markup:
     """Blocks as HTML; ``tight`` drops the paragraph around a single sentence."""
     if tight and len(parts) == 1 and isinstance(parts[0], prose.Paragraph):
-        return inline(parts[0].children, lang)
-    return Markup("").join(block(part, lang) for part in parts)
+        return inline(parts[0].children, lang, way)
+    made = "".join([_block(part, lang, way) for part in parts])
+    return Markup(made)
 
 
-def display(maths: Maths, lang: str) -> Markup:
+def display(maths: Maths, lang: str, way: Manner = OURS) -> Markup:
     """A worked line on its own; a long one scrolls, also by keyboard."""
-    body = Markup(typeset.mathml(maths.node, lang, display=True))
-    return Markup('<div class="line" tabindex="0">{}</div>').format(body)
+    attributes = ' class="line" tabindex="0"' if way.ours else ""
+    made = f"<div{attributes}>{way.display(maths.node, lang)}</div>"
+    return Markup(made)

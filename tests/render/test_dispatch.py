@@ -32,21 +32,24 @@ def test_a_stranger_is_refused_by_name(printer):
         printer(Words("x"), "en")
 
 
-@pytest.mark.parametrize("inline", [markup.inline, typ.inline, text.inline])
+ARGUMENTS = {text.inline: [], markup._piece: ["en", markup.OURS]}
+
+
+@pytest.mark.parametrize("inline", [markup._piece, typ.inline, text.inline])
 def test_every_piece_of_a_filled_sentence_has_a_rule(inline):
     filled = set(get_args(Inline)) - {Slot, Formula, About, Printed} | {Maths, tuple}
     assert inline.registry.keys() - {object} == filled
     with pytest.raises(TypeError, match="Slot"):
-        inline(Slot("f"), *["en"] * (inline is not text.inline))
+        inline(Slot("f"), *ARGUMENTS.get(inline, ["en"]))
 
 
-@pytest.mark.parametrize("block", [markup.block, typ._block, text._lines])
+@pytest.mark.parametrize("block", [markup._block, typ._block, text._lines])
 def test_every_block_has_a_rule(block):
     assert block.registry.keys() - {object} == set(get_args(Block))
 
 
 def test_program_text_keeps_its_spaces_in_every_format():
     code = CodeBlock("if a < b:\n    c")
-    assert markup.block(code, "en") == '<pre tabindex="0"><code>if a &lt; b:\n    c</code></pre>'
+    assert markup.blocks([code], "en") == '<pre tabindex="0"><code>if a &lt; b:\n    c</code></pre>'
     assert list(text.blocks([code])) == ["    if a < b:", "        c"]
     assert typ.blocks([code], "en") == '#raw("if a < b:\\n    c", block: true);'
