@@ -33,7 +33,7 @@ LAYERS = {
     "responses": "errors outside files locale maths marking question paper practice",
     "render": "errors outside files locale typeset bank question paper",
     "cards": "errors outside files locale maths typeset bank figures question paper render",
-    "export": "errors files locale maths bank figures marking question paper responses render",
+    "export": "errors files locale maths typeset bank figures marking question paper responses render",
     "tradeoff": "errors outside files locale maths arrays typeset bank figures render",
     "classes": "errors outside files locale maths bank marking question paper responses render",
     "web": "errors outside files png locale maths typeset bank camera figures marking question paper practice render "

@@ -43,6 +43,7 @@ class Options(BankOptions):
     variants: int
     seed: int
     lang: str
+    maths: str
     out: Path | None
 
 
@@ -57,6 +58,9 @@ class Options(BankOptions):
               help="Number that fixes every draw.")  # fmt: skip
 @click.option("--lang", type=click.Choice(choices(), case_sensitive=False), default=FIRST,
               show_default=True, help="Language.")  # fmt: skip
+@click.option("--maths", type=click.Choice(["mathml", "tex"], case_sensitive=False),
+              default="mathml", show_default=True,
+              help="How formulas are written: tex for a filter such as MathJax.")  # fmt: skip
 @click.option("--out", type=click.Path(path_type=Path),
               help="File to write. [default: in the folder export]")  # fmt: skip
 @bank_options
@@ -69,22 +73,23 @@ def export(**options: Unpack[Options]) -> None:
     it has all the answers.
     """
     from quizgen.export.kept import kept
+    from quizgen.export.wording import formulas
     from quizgen.files import PRIVATE, write_all
     from quizgen.responses.keys import SUFFIX, written
 
     target = options["target"]
     path = options["out"] or Path("export") / FORMATS[target]
     made = exporter(target)
-    with Progress("export") as tell:
+    with Progress("export") as tell, formulas(options["maths"]):
         items = list(_items(options, tell))
         data = made.write(items)
+        keys = written(kept(item, made.kept(item)) for item in items)
     lines = [
         f"{item.id}: {field} exported as essay: {why}"
         for item in items
         for field, why in made.by_hand(item)
     ]
-    keys = path.name + SUFFIX
-    contents = {keys: written(kept(item, made.kept(item)) for item in items), path.name: data}
+    contents = {path.name + SUFFIX: keys, path.name: data}
     if lines:
         contents = {f"{path.name}.report.txt": _text(lines), **contents}
     for file in write_all(path.parent, contents, PRIVATE):

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from markupsafe import Markup
 
 from quizgen.export.asks import Ask, Choose, Fill, Numeric
-from quizgen.question.markup import inline
+from quizgen.export.wording import inline
 
 SHARES = (100, 90, 83.33333, 80, 75, 70, 66.66667, 60, 50, 40, 33.33333, 30, 25, 20, 16.66667,
           14.28571, 12.5, 11.11111, 10, 5, 0)  # fmt: skip

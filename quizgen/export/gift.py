@@ -19,10 +19,9 @@ from quizgen.export.answers import Answer, answers, lettered
 from quizgen.export.asks import Ask, Choose, Fill, Numeric, Order, Pairs, Truth, Write, as_pairs
 from quizgen.export.items import Item, by_slot
 from quizgen.export.kept import asked
-from quizgen.export.wording import body, image, marked, signed, solution, stem, targets
+from quizgen.export.wording import body, image, inline, marked, signed, solution, stem, targets
 from quizgen.figures import Figure
 from quizgen.question.compose import Part
-from quizgen.question.markup import inline
 from quizgen.responses import keys
 
 _SIGNS = {ord(sign): f"\\{sign}" for sign in "\\~=#{}:"} | {ord("\n"): "\\n", ord("\r"): ""}
@@ -80,7 +79,7 @@ def _question(item: Item, part: Part, ask: Ask) -> str:
     suffix = _suffix(part)
     text = stem(item, _picture(item.question.figure)) + body(part, (ask,), item.lang)
     text += signed(item, suffix)
-    told = solution(item, _picture(item.key.figure))
+    told = solution(item, _picture(item.solved_figure), (part.label,))
     tags = "".join(f" [tag:{tag}]" for tag in item.tags)
     name = _text(f"{item.question.title} ({item.number}{suffix})")
     inside = f"{_inside(ask, item.lang)}####{_text(told)}"

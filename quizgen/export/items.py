@@ -10,6 +10,7 @@ import msgspec
 
 from quizgen.bank.folder import Bank
 from quizgen.export.asks import Ask, Write, asks
+from quizgen.figures import Figure
 from quizgen.paper.blueprint import Blueprint
 from quizgen.paper.key import KeyQuestion, key_question
 from quizgen.paper.paper import Item as PaperItem
@@ -54,8 +55,14 @@ class Item:
 
     @property
     def paper_item(self) -> PaperItem:
-        """The same as a question of a paper, whose worked solution is printed."""
+        """The same as a question of a paper, which is printed and marked."""
         return PaperItem(self.question.number, (self.question,), (self.key,))
+
+    @property
+    def solved_figure(self) -> Figure | None:
+        """The figure of the solution, if it shows more than that of the question."""
+        asked, solved = self.question.figure, self.key.figure
+        return None if asked and solved and asked.light == solved.light else solved
 
     @cached_property
     def parts(self) -> tuple[tuple[Part, tuple[Ask, ...]], ...]:

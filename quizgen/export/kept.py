@@ -11,9 +11,8 @@ import msgspec
 
 from quizgen.export.asks import Ask, Choose, Fill, Numeric, Order, Pairs, Said, Truth, as_pairs
 from quizgen.export.items import Item
-from quizgen.export.wording import targets
+from quizgen.export.wording import inline, targets
 from quizgen.question.compose import Part
-from quizgen.question.markup import inline
 from quizgen.render.text import inline as in_text
 from quizgen.responses.keys import Asked, Entry, Kept, Shape
 

@@ -34,14 +34,24 @@ from quizgen.export.asks import (
     as_pairs,
     by_person,
 )
-from quizgen.export.items import Item, by_slot
+from quizgen.export.items import Item
 from quizgen.export.kept import asked
-from quizgen.export.wording import body, hints, image, marked, signed, solution, stem, targets
+from quizgen.export.wording import (
+    body,
+    hints,
+    image,
+    inline,
+    marked,
+    signed,
+    solution,
+    spoken,
+    stem,
+    targets,
+)
 from quizgen.figures import Figure
 from quizgen.locale import word
 from quizgen.maths.units import shown as shown_unit
 from quizgen.question.compose import Part
-from quizgen.question.markup import inline
 from quizgen.question.shown import named
 from quizgen.render.layouts import environment
 from quizgen.responses import keys
@@ -63,6 +73,11 @@ class Entry:
     body: Markup
     parts: Sequence[Asking]
     ask: Ask | None = None
+
+    @property
+    def category(self) -> str:
+        """Where it is kept; not with what else the item becomes, or a quiz would draw either."""
+        return f"{self.item.category}{self.suffix.replace('.', '-')}"
 
     @property
     def id(self) -> str:
@@ -97,10 +112,8 @@ def write(items: Iterable[Item]) -> bytes:
     bytes
         The same for the same questions.
     """
-    slots = [
-        (slot, [entry for item in found for entry in entries(item)])
-        for slot, found in groupby(by_slot(items), key=lambda item: item.category)
-    ]
+    made = sorted((entry for item in items for entry in entries(item)), key=_category)
+    slots = groupby(made, key=_category)
     page = _layouts().get_template("moodle.xml.j2")
     return page.render(slots=slots).encode()
 
@@ -110,6 +123,10 @@ def kept(item: Item) -> Iterator[keys.Entry]:
     for entry in entries(item):
         fields = [asked(ask, part, item.lang) for part, found in entry.parts for ask in found]
         yield keys.Entry(item.mark(entry.suffix), entry.id, fields, entry.kind == "cloze")
+
+
+def _category(entry: Entry) -> str:
+    return entry.category
 
 
 @cache
@@ -123,10 +140,16 @@ def _layouts() -> jinja2.Environment:
         in_order=lambda order: [(mark, dict(order.steps)[mark]) for mark in order.right],
         inline=inline,
         marked=marked,
-        solution=lambda item: solution(item, _picture("solution.svg", item.key.figure)),
+        solution=_solution,
+        spoken=spoken,
         targets=targets,
     )
     return layouts
+
+
+def _solution(entry: Entry) -> Markup:
+    picture = _picture("solution.svg", entry.item.solved_figure)
+    return solution(entry.item, picture, [part.label for part, _ in entry.parts])
 
 
 def _picture(name: str, figure: Figure | None) -> Markup:

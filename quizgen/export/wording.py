@@ -1,44 +1,90 @@
-"""What a question says in a system for courses, whose pages have neither our style nor fields."""
+"""What a question says in a system for courses, whose pages have neither our style nor fields.
+
+How formulas are written is one choice for a whole file: ``formulas`` sets it while one is made.
+"""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from functools import singledispatch
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import replace
+from functools import partial, singledispatch
+from html import escape
 from itertools import islice, zip_longest
 
 from markupsafe import Markup
 
-from quizgen.bank.prose import Words
+from quizgen import typeset
+from quizgen.bank.prose import Block, Inline, Words
+from quizgen.errors import one_of
 from quizgen.export.asks import Ask, Choose, Fill, Numeric, Order, Pairs, Said, by_person
 from quizgen.export.items import Item
 from quizgen.figures import Figure
 from quizgen.locale import word
+from quizgen.paper.paper import Item as PaperItem
+from quizgen.question import markup
 from quizgen.question.compose import Part
 from quizgen.question.hints import given
 from quizgen.question.hints import unit as in_unit
-from quizgen.question.markup import blocks, inline
+from quizgen.question.markup import Manner, mathml_line
+from quizgen.question.solution import PartSolution, Solution
 from quizgen.render.html import fragment
 from quizgen.render.text import inline as in_text
 
 TRIES = 3
 """How often somebody is given a hint."""
 
-_SPOKEN = re.compile(
-    r'<span class="hidden">.*?</span><span aria-hidden="true">(.*?)</span>', re.DOTALL
-)
-"""A formula in words for listeners, hidden by our style, and the formula: MathML speaks itself."""
+_STYLED = re.compile(r' (?:class|lang)="[^"]*"')
+"""What means nothing without our style; the language is said once of the whole."""
 
 
-def foreign(page: Markup) -> Markup:
-    """A piece of our pages as it can stand on others."""
-    shown = _SPOKEN.sub(r"\1", str(page)).replace(' tabindex="0"', "")
-    return Markup(shown)  # noqa: S704 - made of pieces that are escaped
+def _tex(node: typeset.Node, lang: str, marks: str = "()") -> str:
+    return rf"\{marks[0]}{escape(typeset.latex(node, lang), quote=False)}\{marks[1]}"
+
+
+FORMULAS = {
+    "mathml": Manner(typeset.mathml, mathml_line, ours=False),
+    "tex": Manner(_tex, partial(_tex, marks="[]"), ours=False),
+}
+"""How formulas are written: as MathML, or for a filter like MathJax."""
+_way = ContextVar("way", default=FORMULAS["mathml"])
+
+
+@contextmanager
+def formulas(name: str) -> Iterator[None]:
+    """Write formulas in a way of ``FORMULAS`` for as long as this lasts.
+
+    Raises
+    ------
+    ChoiceError
+        Naming the ways there are.
+    """
+    before = _way.set(FORMULAS[one_of("way of formulas", name, FORMULAS)])
+    try:
+        yield
+    finally:
+        _way.reset(before)
+
+
+def inline(words: Inline | Said, lang: str) -> Markup:
+    """A sentence, or pieces of one."""
+    return markup.inline(words, lang, _way.get())
+
+
+def _blocks(parts: Sequence[Block], lang: str) -> Markup:
+    return markup.blocks(parts, lang, _way.get())
+
+
+def spoken(page: Markup, lang: str) -> Markup:
+    """A page that says which language it is in, whatever that of the course is."""
+    return Markup('<div lang="{}">{}</div>').format(lang, page)
 
 
 def stem(item: Item, picture: Markup) -> Markup:
     """What stands before the parts."""
-    return foreign(blocks(item.question.stem, item.lang)) + picture
+    return _blocks(item.question.stem, item.lang) + picture
 
 
 def body(part: Part, found: Sequence[Ask], lang: str) -> Markup:
@@ -47,7 +93,7 @@ def body(part: Part, found: Sequence[Ask], lang: str) -> Markup:
     listed = _listed(part, lang) if by_person(found) else Markup("")
     told = Markup(" ").join(_told(part, found, lang))
     hint = Markup("<p><small>{}</small></p>").format(told) if told else Markup("")
-    return label + foreign(blocks(part.body, lang)) + listed + hint
+    return label + _blocks(part.body, lang) + listed + hint
 
 
 def _listed(part: Part, lang: str) -> Markup:
@@ -128,9 +174,41 @@ def image(source: str, figure: Figure | None) -> Markup:
     return tag.format(source, figure.alt, figure.width_pt * 4 / 3, figure.height_pt * 4 / 3)
 
 
-def solution(item: Item, picture: Markup) -> Markup:
-    """The worked solution, and its picture if it has one of its own."""
-    return foreign(fragment("worked.html.j2", item=item.paper_item, picture=picture))
+def solution(item: Item, picture: Markup, labels: Sequence[str] = ()) -> Markup:
+    """The worked solution, and its picture if it has one of its own.
+
+    Parameters
+    ----------
+    item : Item
+    picture : Markup
+    labels : sequence of str
+        Of which parts; all of them if none is named.
+    """
+    rows = zip(item.parts, item.key.solution.parts, strict=True)
+    kept = [
+        (part, solved if by_person(found) else _untold(found, solved))
+        for (part, found), solved in rows
+        if not labels or part.label in labels
+    ]
+    parts = tuple(part for part, _ in kept)
+    whole = item.key.solution if len(parts) == len(item.parts) else _alone(item.key.solution)
+    told = replace(whole, parts=tuple(solved for _, solved in kept))
+    question, key = replace(item.question, parts=parts), replace(item.key, solution=told)
+    made = PaperItem(question.number, (question,), (key,))
+    page = fragment("worked.html.j2", _way.get(), item=made, picture=picture)
+    return Markup(_STYLED.sub("", page))  # noqa: S704 - a page without some attributes
+
+
+def _alone(whole: Solution) -> Solution:
+    """Without the remarks, which are on all parts together."""
+    return replace(whole, check=(), note=(), why=(), precision=())
+
+
+def _untold(found: Sequence[Ask], solved: PartSolution) -> PartSolution:
+    """Without what is said to whoever gives a wrong answer."""
+    if any(isinstance(ask, Pairs | Order) for ask in found):
+        return solved
+    return replace(solved, mistakes=(), reasons=())
 
 
 def hints(item: Item) -> Iterator[Markup]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, partial
 from importlib.resources import files
 
 import jinja2
@@ -10,19 +10,19 @@ from markupsafe import Markup
 
 from quizgen.locale import in_script, line_heights, marks, word
 from quizgen.paper.paper import Paper
-from quizgen.question.markup import blocks, display, inline
+from quizgen.question.markup import OURS, Manner, blocks, display, inline
 from quizgen.render import fonts
 from quizgen.render.layouts import environment
 from quizgen.render.room import squares
 
 
 @cache
-def _layouts() -> jinja2.Environment:
+def _layouts(way: Manner = OURS) -> jinja2.Environment:
     layouts = environment("quizgen.render")
     layouts.globals.update(
-        inline=inline,
-        blocks=blocks,
-        display=display,
+        inline=partial(inline, way=way),
+        blocks=partial(blocks, way=way),
+        display=partial(display, way=way),
         word=word,
         marks=marks,
         points=lambda worth: f"{float(worth):g}",
@@ -67,9 +67,9 @@ def page(layout: str, langs: tuple[str, ...], style: str = "", **content: object
     return made.encode()
 
 
-def fragment(layout: str, **content: object) -> Markup:
-    """A piece of a page, without its head."""
-    return Markup(_layouts().get_template(layout).render(**content))
+def fragment(layout: str, way: Manner, **content: object) -> Markup:
+    """A piece of a page, without its head, in the manner of the page."""
+    return Markup(_layouts(way).get_template(layout).render(**content))
 
 
 def render(paper: Paper, kind: str) -> bytes:

@@ -13,10 +13,10 @@ import pytest
 from cloze import fields
 
 from quizgen.export.asks import Choose, Fill, Numeric, Order, Pairs, by_person
-from quizgen.export.items import of_blueprint
+from quizgen.export.items import of_blueprint, of_templates
 from quizgen.export.moodle import write
+from quizgen.export.wording import formulas, inline
 from quizgen.paper.blueprint import load_blueprint
-from quizgen.question.markup import inline
 
 PERCENTAGES = {
     100, 90, 83.33333, 80, 75, 70, 66.66667, 60, 50, 40, 33.33333, 30, 25, 20, 16.66667, 14.28571,
@@ -174,10 +174,45 @@ def test_nothing_is_left_of_our_own_pages(questions):
     """Words hidden by our style would be seen twice."""
     for one in questions.values():
         page = "".join(one.itertext())
-        assert 'class="hidden"' not in page
-        assert "aria-hidden" not in page
-        assert "tabindex" not in page
+        assert not re.search(r"<[^>]* (class|aria-hidden|tabindex)=", page)
         assert "&lt;math" not in page
+
+
+def test_a_mistake_is_told_once_with_the_answer_that_makes_it(reference):
+    (one,) = read([reference("point-to-image-plane-fractions")]).values()
+    said = "forgot to divide by the depth"
+    assert said in one.findtext("questiontext/text")
+    assert said not in one.findtext("generalfeedback/text")
+
+
+def test_what_a_person_marks_is_kept_apart_with_its_own_solution(bank):
+    """A quiz that draws from a category draws one or the other, so they are not in the same one."""
+    item = next(of_templates(bank, ["recognise-and-sketch-distortion"], 0, 1, ["en"]))
+    kept, found = "", {}
+    for one in ET.fromstring(write([item])).iter("question"):
+        if one.get("type") == "category":
+            kept = one.findtext("category/text").rpartition("quizgen/")[2]
+        else:
+            found[kept] = one
+    assert {name: one.get("type") for name, one in found.items()} == {
+        "en/recognise-and-sketch-distortion": "cloze",
+        "en/recognise-and-sketch-distortion-b": "essay",
+    }
+    told = [one.findtext("generalfeedback/text") for one in found.values()]
+    assert [("(a)" in text, "(b)" in text) for text in told] == [(True, False), (False, True)]
+
+
+def test_formulas_for_a_filter(reference):
+    r"""``f X / Z`` as TeX between ``\(`` and ``\)``; its braces stand in fields as entities."""
+    item = reference("point-to-image-plane-fractions")
+    with formulas("tex"):
+        (one,) = read([item]).values()
+    page = "".join(one.itertext())
+    assert "<math" not in page
+    assert r"\[p'_{x} = \frac{f p_{x} }{p_{z} }" in one.findtext("generalfeedback/text")
+    (said,) = [row.said for row in fields(one.findtext("questiontext/text"))[0].alternatives
+               if row.typed.startswith("20.0:")]  # fmt: skip
+    assert said == r"You multiplied by \(f\) but forgot to divide by the depth \(p_{z}\)."
 
 
 def test_a_question_of_one_number(reference):
@@ -185,7 +220,8 @@ def test_a_question_of_one_number(reference):
     (one,) = read([reference("point-to-image-plane-fractions")]).values()
     text = one.findtext("questiontext/text")
     x, y = fields(text)
-    assert text.endswith("</p>")
+    assert text.startswith('<div lang="en"><p>')
+    assert text.endswith("</p></div>")
     assert "Type the number alone" in text
     assert (x.weight, y.weight) == (3, 3)
     assert x.alternatives[0].typed.startswith("6.66666")

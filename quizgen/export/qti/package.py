@@ -63,8 +63,8 @@ def _resources(items: Iterable[Item], dialect: Dialect) -> Iterator[Resource]:
 
 def _figure(shown: dict[str, bytes], figure: Figure) -> str:
     """Where an item finds a figure; those that look the same are one file."""
-    path = f"figures/{hashlib.sha256(figure.svg).hexdigest()[:16]}.svg"
-    shown[path] = figure.svg
+    path = f"figures/{hashlib.sha256(figure.light).hexdigest()[:16]}.svg"
+    shown[path] = figure.light
     return f"../{path}"
 
 
