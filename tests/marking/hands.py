@@ -52,8 +52,10 @@ def shaky(line: Line, rng: Random, wide: float) -> Line:
 
 def few(line: Line, rng: Random, wide: float) -> Line:
     """Control points that are typed, or set by keys on a grid."""
-    count = 2 if len(line) == 2 else rng.choice([3, 4, 5])
     grid = wide / 100
+    if len(line) == 3:
+        return [(round(x / grid) * grid, round(y / grid) * grid) for x, y in line]
+    count = 2 if len(line) == 2 else rng.choice([3, 4, 5]) if len(line) < 30 else rng.choice([8, 9])
     return [(round(x / grid) * grid, round(y / grid) * grid) for x, y in along(line, count)]
 
 
@@ -62,6 +64,14 @@ def pieces(line: Line, rng: Random, wide: float) -> list[Line]:
     drawn = smooth(line, rng, wide)
     cut = rng.randint(len(drawn) // 3, 2 * len(drawn) // 3)
     return [drawn[: cut + 2], drawn[cut - 2 :]]
+
+
+def beyond(line: Line, rng: Random, wide: float) -> Line:
+    """A quick hand that does not stop where it should."""
+    drawn = smooth(line, rng, wide)
+    (x, y), (back_x, back_y) = drawn[-1], drawn[-4]
+    more = rng.uniform(0.01, 0.025) * wide / max(math.dist(drawn[-1], drawn[-4]), 1e-9)
+    return [*drawn, (x + more * (x - back_x), y + more * (y - back_y))]
 
 
 def waved(line: Line, size: float, waves: float) -> Line:
@@ -95,11 +105,11 @@ def text(lines: list[Line]) -> str:
 def drawings(lines: list[Line], seed: int, wide: float) -> str:
     """One hand draws all lines, in any order."""
     rng = Random(seed)
-    kind = ("smooth", "shaky", "few", "pieces")[seed % 4]
+    kind = ("smooth", "shaky", "few", "pieces", "beyond")[seed % 5]
     if kind == "pieces":
         drawn = [piece for line in lines for piece in pieces(line, rng, wide)]
     else:
-        hand = {"smooth": smooth, "shaky": shaky, "few": few}[kind]
+        hand = {"smooth": smooth, "shaky": shaky, "few": few, "beyond": beyond}[kind]
         drawn = [hand(line, rng, wide) for line in lines]
     rng.shuffle(drawn)
     return text(drawn)

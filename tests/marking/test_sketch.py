@@ -42,9 +42,9 @@ def grid(k: float):
         "kind": "sketch", "view": [-1.4, 1.4, -1.4, 1.4], "lines": typed(k),
         "traps": {"reversed": typed(-k)},
         "features": {
-            "outer": {"of": EDGES, "worth": 2, "bend": True},
-            "corners": {"of": EDGES, "worth": 2, "circle": [0, 0, math.sqrt(2)]},
-            "radial": {"of": ["across", "down"], "bend": True, "on": True},
+            "outer": {"reads": "line", "of": EDGES, "worth": 2, "bend": True},
+            "corners": {"reads": "line", "of": EDGES, "worth": 2, "circle": [0, 0, math.sqrt(2)]},
+            "radial": {"reads": "line", "of": ["across", "down"], "bend": True, "on": True},
         },
     })  # fmt: skip
 
@@ -93,7 +93,7 @@ WRONG = {
 def test_wrong_shapes_are_not_right(name):
     for seed in range(12):
         wrong = [WRONG[name](line) for line in bent(0).values()]
-        verdict = mark(PINCUSHION, drawings(wrong, 4 * seed, WIDE))
+        verdict = mark(PINCUSHION, drawings(wrong, 5 * seed, WIDE))
         assert {"outer", "radial"} <= {*because(verdict)}, seed
         assert verdict.credit <= Fraction(2, 5)
 
@@ -185,8 +185,8 @@ def test_the_printed_key_is_right_and_a_minus_sign_is_one():
     [
         ({"view": [1, -1, 0, 1]}, "view"),
         ({"features": {}}, "features"),
-        ({"features": {"a": {"of": ["nowhere"], "bend": True}}}, "of names lines"),
-        ({"features": {"a": {"of": ["l"], "worth": 0}}}, "worth"),
+        ({"features": {"a": {"reads": "line", "of": ["nowhere"], "bend": True}}}, "of names lines"),
+        ({"features": {"a": {"reads": "line", "of": ["l"], "worth": 0}}}, "worth"),
         ({"lines": {"l": "0,0"}}, "two ends"),
         ({"lines": {"l": "0,0 1,1 0,0"}}, "two ends"),
         ({"traps": {"t": {"m": "0,0 1,1"}}}, "lines that the key has"),
@@ -194,7 +194,7 @@ def test_the_printed_key_is_right_and_a_minus_sign_is_one():
 )
 def test_a_key_that_cannot_be_judged_by_is_refused(change, said):
     table = {"kind": "sketch", "view": [-1, 1, -1, 1], "lines": {"l": "0,0 1,1"},
-             "features": {"a": {"of": ["l"], "bend": True}}}  # fmt: skip
+             "features": {"a": {"reads": "line", "of": ["l"], "bend": True}}}  # fmt: skip
     load_spec(table)
     with pytest.raises(KeyFileError, match=said):
         load_spec({**table, **change})

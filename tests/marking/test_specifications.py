@@ -44,8 +44,8 @@ FULL = [
      "where": ["x > 0"], "example": {"x": "1/2"}},
     {"kind": "code", "output": "4", "also": ["4.0"], "traps": {"half": "2"}, "notes": NOTES},
     {"kind": "text", "points": {"noise": ["noise", "grain"]}, "needed": 1},
-    {"kind": "sketch", "view": [-1, 1, 0, "1"], "tall": "1/2", "lines": {"ray": "0,0 0.5,1"},
-     "features": {"way": {"of": ["ray"], "worth": 2, "bend": True, "on": True,
+    {"kind": "sketch", "view": [-1, 1, 0, "1"], "tall": "1/2", "cuts": [0], "lines": {"ray": "0,0 0.5,1"},
+     "features": {"way": {"reads": "line", "of": ["ray"], "worth": 2, "bend": True, "on": True,
                           "circle": [0, 0, "0.7"]}},
      "traps": {"half": {"ray": "0,0 0.25,1"}}, "notes": NOTES},
 ]  # fmt: skip

@@ -1,7 +1,7 @@
 """What a drawn line is like: which wanted line it is, how far it bends, where it leads.
 
 All lengths are shares of the width of the field. Lines are told apart by where they lie and which
-way they run, sample by sample, so that it does not matter in how many strokes they were drawn,
+way they run, piece by piece, so that it does not matter in how many strokes they were drawn,
 from which end, or how often.
 """
 
@@ -14,10 +14,12 @@ from itertools import pairwise
 
 from quizgen.marking.reading.strokes import Point, Stroke
 
-STEP, MOST_SAMPLES = 0.02, 1000
-"""Distance of samples, and how many there are at most."""
-WINDOW = 5
-"""Samples on each side that the direction of a line is taken from: a hand trembles."""
+STEP, MOST_SAMPLES, COARSE = 0.02, 1000, 3
+"""Distance of samples, how many there are at most, every which is held against each line."""
+STRAIGHT = 0.03
+"""How far a piece of a stroke may be from straight."""
+SHORT = 0.05
+"""Length below which a piece has no direction: a hand trembles."""
 REACH = 0.25
 """How far from its place a line is still known."""
 BEYOND = 0.5
@@ -27,8 +29,8 @@ TURNED = 0.77
 TURN_COSTS = 0.2
 FEWEST = 4
 """Points that a curve of second degree does not pass through anyway."""
-STRAY = 3.0
-"""How much farther off than the others a point is that belongs elsewhere."""
+STRAY, LEAST_STRAY = 3.0, 0.01
+"""How much farther off than the others a point is that belongs elsewhere, and how far at least."""
 TINY = 1e-9
 """What is left of a number but rounding."""
 
@@ -95,39 +97,36 @@ class Frame:
         return x * self.way[0] + y * self.way[1], y * self.way[0] - x * self.way[1]
 
 
-Sample = tuple[Point, Point]
-"""A point of a stroke and the direction there."""
-
-
 def fitted(strokes: Sequence[Stroke], wanted: Mapping[str, Stroke]) -> dict[str, Fit]:
     """The drawn lines by the names of the wanted ones that they are taken for."""
     lines = {name: _Line(line) for name, line in wanted.items()}
     found: dict[str, list[Point]] = {}
-    for point, way in _samples(strokes):
-        costs = {name: line.cost(point, way) for name, line in lines.items()}
-        name = min(costs, key=lambda one: costs[one])
-        if costs[name] < math.inf:
-            found.setdefault(name, []).append(point)
+    length = sum(math.dist(a, b) for stroke in strokes for a, b in pairwise(stroke))
+    for stroke in strokes:
+        for piece in pieces(stroke):
+            points = resampled(piece, max(STEP, length / MOST_SAMPLES))
+            costs = {
+                name: line.cost([*points[::COARSE], points[-1]]) for name, line in lines.items()
+            }
+            name = min(costs, key=lambda one: costs[one])
+            if costs[name] < math.inf:
+                found.setdefault(name, []).extend(points)
     fits = {name: fit(points, Frame.of(wanted[name])) for name, points in found.items()}
     return {name: one for name, one in fits.items() if one is not None}
 
 
-def _samples(strokes: Sequence[Stroke]) -> Iterator[Sample]:
-    length = sum(math.dist(a, b) for stroke in strokes for a, b in pairwise(stroke))
-    step = max(STEP, length / MOST_SAMPLES)
-    for stroke in strokes:
-        points = resampled(stroke, step)
-        last = len(points) - 1
-        for place, point in enumerate(points):
-            before = _mean(points[max(0, place - WINDOW) : max(1, place)])
-            after = _mean(points[min(last, place + 1) : place + WINDOW + 1])
-            run = math.dist(before, after)
-            if run:
-                yield point, ((after[0] - before[0]) / run, (after[1] - before[1]) / run)
-
-
-def _mean(points: Sequence[Point]) -> Point:
-    return sum(x for x, _ in points) / len(points), sum(y for _, y in points) / len(points)
+def pieces(stroke: Stroke) -> Iterator[Stroke]:
+    """A stroke cut where it turns, so that a hand need not lift the pen between lines."""
+    (x, y), (to_x, to_y) = stroke[0], stroke[-1]
+    run = math.hypot(to_x - x, to_y - y)
+    off = [abs((to_x - x) * (y - b) - (x - a) * (to_y - y)) / run if run
+           else math.hypot(a - x, b - y) for a, b in stroke]  # fmt: skip
+    far = max(range(len(off)), key=off.__getitem__)
+    if off[far] <= STRAIGHT:
+        yield stroke
+    else:
+        yield from pieces(stroke[: far + 1])
+        yield from pieces(stroke[far:])
 
 
 def resampled(stroke: Stroke, step: float) -> list[Point]:
@@ -149,25 +148,34 @@ class _Line:
             for a, b in pairwise(line)
             if (run := math.dist(a, b))
         ]
-        xs, ys = zip(*line, strict=True)
-        far = REACH / BEYOND
-        self.left, self.right = min(xs) - far, max(xs) + far
-        self.low, self.high = min(ys) - far, max(ys) + far
 
-    def cost(self, point: Point, way: Point) -> float:
-        """How unlike the line a point is that is drawn in a direction; infinite if it is not it."""
+    def cost(self, points: Sequence[Point]) -> float:
+        """How unlike the line a piece of a stroke is; infinite if it is not it."""
+        found = [self._nearest(point) for point in points]
+        off = sum(distance for distance, _ in found) / len(found)
+        turned = self._turned(points, [way for _, way in found])
+        return off + TURN_COSTS * turned if off < REACH and turned < TURNED else math.inf
+
+    def _nearest(self, point: Point) -> tuple[float, Point]:
+        """Distance to the line, and its direction there."""
         x, y = point
-        if not (self.left < x < self.right and self.low < y < self.high):
-            return math.inf
-        square, turned = REACH**2, 1.0
+        least, way = math.inf, (1.0, 0.0)
         for from_x, from_y, w_x, w_y, run in self.pieces:
             d_x, d_y = x - from_x, y - from_y
             along, across = d_x * w_x + d_y * w_y, d_y * w_x - d_x * w_y
             over = BEYOND * (along if along < 0 else max(0.0, along - run))
-            if across * across + over * over < square:
-                square = across * across + over * over
-                turned = abs(way[0] * w_y - way[1] * w_x)
-        return math.sqrt(square) + TURN_COSTS * turned if turned < TURNED else math.inf
+            square = across * across + over * over
+            if square < least:
+                least, way = square, (w_x, w_y)
+        return math.sqrt(least), way
+
+    def _turned(self, points: Sequence[Point], ways: Sequence[Point]) -> float:
+        """Sine of the angle between a piece and the line beside it."""
+        (x, y), (to_x, to_y) = points[0], points[-1]
+        run = math.hypot(to_x - x, to_y - y)
+        if run < SHORT:
+            return 0.0
+        return sum(abs((to_x - x) * b - (to_y - y) * a) for a, b in ways) / run / len(ways)
 
 
 def fit(points: Sequence[Point], frame: Frame) -> Fit | None:
@@ -178,7 +186,8 @@ def fit(points: Sequence[Point], frame: Frame) -> Fit | None:
     own = _fit(points, frame)
     if own is None:
         return None
-    kept = [point for point in points if own.off_by(frame(point)) <= STRAY * own.rough]
+    stray = max(STRAY * own.rough, LEAST_STRAY)
+    kept = [point for point in points if own.off_by(frame(point)) <= stray]
     return own if len(kept) == len(points) else _fit(kept, frame)
 
 

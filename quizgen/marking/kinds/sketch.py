@@ -3,66 +3,50 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
+from itertools import pairwise
 
 import msgspec
 
 from quizgen.marking.echo import safe
-from quizgen.marking.judging.drawing import Fit, Frame, fit, fitted, resampled
+from quizgen.marking.features import AnyFeature
+from quizgen.marking.features.line import wishes
+from quizgen.marking.features.sheet import Scale, Sheet, numbers
 from quizgen.marking.options import Options
-from quizgen.marking.reading.strokes import Point, View, read_line, read_strokes, written
+from quizgen.marking.reading.strokes import (
+    Point,
+    Stroke,
+    View,
+    read_line,
+    read_strokes,
+    written,
+)
 from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, shared
 from quizgen.maths.constants import Scalar
 from quizgen.maths.numbers import MINUS
-from quizgen.maths.numbers import written as written_number
 
-FLAT, MOST_BENT = 0.03, 0.25
-"""Rise over length below which a line is straight, and that of a bow at most."""
-ROUGH = 0.03
-"""How far from a smooth curve a hand may draw, as a share of the length."""
-NEAR = 0.045
-"""How far from its place a line may run, as a share of the width of the field."""
-COVERED = 0.55
-"""Share of a wanted line that has to be there."""
-CLEARLY = 0.06
-"""Share of a circle's radius by which an end has to lie inside or outside."""
 SHOWN = 5
-"""Points of a curved line that are printed."""
+"""Points of a line beyond which every second one is printed."""
 
 Lines = dict[str, str]
 """Name to a line as it is typed."""
 
 
-class Feature(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
-              forbid_unknown_fields=True):  # fmt: skip
-    """Something that makes a drawing right: all that is said here, of each line.
-
-    ``of`` names the lines; ``worth`` weighs it among the others. ``bend``: straight, or bent to
-    the same side as the wanted line. ``on``: it lies on the wanted line, whose ends it need not
-    reach. ``circle``: centre and radius; both ends are inside or outside as those of the wanted
-    line.
-    """
-
-    of: list[str]
-    worth: int = 1
-    bend: bool = False
-    on: bool = False
-    circle: tuple[Scalar, Scalar, Scalar] | None = None
-
-
 class Spec(Worded, kw_only=True, frozen=True):
     """Sketch: ``view`` = from and to along x and y; wanted ``lines`` as points; ``features``.
 
-    ``tall`` is the height of the field over its width where both axes do not have one scale. A
-    trap gives all lines as they are with the mistake.
+    ``tall`` is the height of the field over its width where both axes do not have one scale;
+    ``cuts`` are places along x where one line ends and another begins, so that strokes are cut
+    there. A trap gives all lines as they are with the mistake.
     """
 
     view: tuple[Scalar, Scalar, Scalar, Scalar]
     lines: Lines
-    features: dict[str, Feature]
+    features: dict[str, AnyFeature]
     tall: Scalar = 0
+    cuts: list[Scalar] = msgspec.field(default_factory=list)
     traps: dict[str, Lines] = msgspec.field(default_factory=dict)
 
     def validate(self) -> None:
@@ -72,31 +56,32 @@ class Spec(Worded, kw_only=True, frozen=True):
             raise ValueError("view: from must be below to")
         if not self.features or any(one.worth < 1 for one in self.features.values()):
             raise ValueError("there must be features, each worth something")
-        for lines in (self.lines, *self.traps.values()):
-            if {*lines} != {*self.lines}:
-                raise ValueError("every mistake has the lines that the key has")
-            self._wishes(lines)
+        if any({*lines} != {*self.lines} for lines in self.traps.values()):
+            raise ValueError("every mistake has the lines that the key has")
+        numbers([self.tall, *self.cuts])
+        for sheet in self._sheets([]):
+            wishes(sheet)
         for one in self.features.values():
             if not one.of or not {*one.of} <= {*self.lines}:
                 raise ValueError("features: of names lines")
-            _numbers(one.circle or ())
+            one.validate()
 
     @property
     def field(self) -> View:
         """What the field shows."""
-        left, right, low, high = _numbers(self.view)
+        left, right, low, high = numbers(self.view)
         return left, right, low, high
 
     def judge(self, typed: str, _options: Options, /) -> Verdict:
         """Judge drawn lines by the features of the wanted ones."""
         strokes = read_strokes(typed, self.field)
-        drawn = [self._placed(stroke) for stroke in strokes]
-        shares = self._shares(drawn, self.lines)
-        note = "sketch"
-        if shares is None:
-            note, shares = "sketch-elsewhere", dict.fromkeys(self.features, Fraction(0))
+        drawn = [self.scale.line(piece) for stroke in strokes for piece in self._cut(stroke)]
+        sheet, *mistaken = self._sheets(drawn)
+        note, shares = "sketch", self._shares(sheet)
+        if not any(one.seen(sheet) for one in self.features.values()):
+            note = "sketch-elsewhere"
         elif any(share < 1 for share in shares.values()):
-            note = self._trap(drawn) or note
+            note = self._trap(shares, mistaken) or note
         worth = {name: one.worth for name, one in self.features.items()}
         credit = sum((worth[name] * share for name, share in shares.items()), Fraction(0))
         missed = tuple(name for name, share in shares.items() if share < 1)
@@ -110,10 +95,10 @@ class Spec(Worded, kw_only=True, frozen=True):
         )
 
     @property
-    def digits(self) -> int:
-        """Decimals that show a three hundredth of the field."""
-        left, right, *_ = self.field
-        return max(0, 2 - math.floor(math.log10(right - left)))
+    def digits(self) -> tuple[int, int]:
+        """Decimals along x and along y that show a three hundredth of the field."""
+        left, right, low, high = self.field
+        return _decimals(right - left), _decimals(high - low)
 
     def show(self) -> str:
         """The wanted lines, curved ones by a few of their points."""
@@ -123,93 +108,49 @@ class Spec(Worded, kw_only=True, frozen=True):
         """Lines as people write them, and as they can be typed."""
         return written(lines, self.digits).replace("-", MINUS)
 
-    def _placed(self, line: Sequence[Point]) -> list[Point]:
-        """Points in shares of the width of the field."""
-        left, right, low, high = self.field
-        (tall,) = _numbers([self.tall])
-        wide = right - left
-        scale = tall / (high - low) if tall else 1 / wide
-        return [((x - left) / wide, (y - low) * scale) for x, y in line]
+    @property
+    def scale(self) -> Scale:
+        """From the numbers on the axes to shares of the width."""
+        return Scale(self.field, numbers([self.tall])[0])
 
-    def _shares(self, drawn: list[list[Point]], wanted: Lines) -> dict[str, Fraction] | None:
-        """Which share of its lines has each feature; none if no line lies where one is wanted."""
-        wishes = self._wishes(wanted)
-        fits = fitted(drawn, {name: wish.line for name, wish in wishes.items()})
-        if not fits:
-            return None
-        return {
-            name: Fraction(
-                sum(self._has(one, wishes[line], fits.get(line)) for line in one.of), len(one.of)
-            )
-            for name, one in self.features.items()
+    def _cut(self, stroke: Stroke) -> list[list[Point]]:
+        """A stroke in pieces between the upright lines at which it is cut."""
+        found = [[stroke[0]]]
+        for (x, y), (to_x, to_y) in pairwise(stroke):
+            places = [place for place in numbers(self.cuts) if min(x, to_x) < place <= max(x, to_x)]
+            for place in sorted(places, reverse=to_x < x):
+                at = (place, y + (to_y - y) * (place - x) / (to_x - x))
+                found[-1].append(at)
+                found.append([at])
+            found[-1].append((to_x, to_y))
+        return [piece for piece in found if len({*piece}) > 1]
+
+    def _sheets(self, drawn: Sequence[Stroke]) -> list[Sheet]:
+        """What was drawn beside the wanted lines, and beside those of each mistake."""
+        ways = [{name: self.scale.line(read_line(line)) for name, line in lines.items()}
+                for lines in (self.lines, *self.traps.values())]  # fmt: skip
+        return [
+            Sheet(self.scale, drawn, way, [*ways[:place], *ways[place + 1 :]])
+            for place, way in enumerate(ways)
+        ]
+
+    def _shares(self, sheet: Sheet) -> dict[str, Fraction]:
+        return {name: one.share(sheet) for name, one in self.features.items()}
+
+    def _trap(self, shares: Mapping[str, Fraction], mistaken: Sequence[Sheet]) -> str:
+        """The known mistake that explains most of what is missed."""
+        missed = [name for name, share in shares.items() if share < 1]
+        explained = {
+            trap: sum(self.features[name].share(sheet) == 1 for name in missed)
+            for trap, sheet in zip(self.traps, mistaken, strict=True)
         }
-
-    def _wishes(self, lines: Lines) -> dict[str, _Wish]:
-        return {name: _Wish.of(self._placed(read_line(line))) for name, line in lines.items()}
-
-    def _has(self, feature: Feature, wish: _Wish, drawn: Fit | None) -> bool:
-        if drawn is None or drawn.half < COVERED * wish.fit.half or drawn.rough > ROUGH:
-            return False
-        return (
-            (not feature.bend or _bends_alike(drawn.bow, wish.fit.bow))
-            and (not feature.on or wish.covers(drawn))
-            and (feature.circle is None or self._sides(feature.circle, wish, drawn))
-        )
-
-    def _sides(self, circle: tuple[Scalar, ...], wish: _Wish, drawn: Fit) -> bool:
-        x, y, radius = _numbers(circle)
-        (centre, rim) = self._placed([(x, y), (x + radius, y)])
-        limit = math.dist(centre, rim)
-        return all(
-            (math.dist(end, centre) / limit - 1) * (1 if math.dist(goal, centre) > limit else -1)
-            >= CLEARLY
-            for end, goal in zip(drawn.ends, (wish.line[0], wish.line[-1]), strict=True)
-        )
-
-    def _trap(self, drawn: list[list[Point]]) -> str:
-        """The known mistake of which all features are there."""
-        for name, lines in self.traps.items():
-            shares = self._shares(drawn, lines)
-            if shares is not None and all(share == 1 for share in shares.values()):
-                return f"trap:{name}"
-        return ""
+        found = max(explained, key=lambda trap: explained[trap], default="")
+        return f"trap:{found}" if found and explained[found] else ""
 
 
-class _Wish(msgspec.Struct, frozen=True):
-    """A wanted line with its own fit."""
-
-    line: list[Point]
-    frame: Frame
-    fit: Fit
-
-    @classmethod
-    def of(cls, line: list[Point]) -> _Wish:
-        if len(line) < 2 or line[0] == line[-1]:
-            raise ValueError("a line has two ends, apart from each other")
-        frame = Frame.of(line)
-        own = fit(resampled(line, frame.length / 40), frame)
-        if own is None:
-            raise ValueError("a line is too short for its field")
-        return cls(line, frame, own)
-
-    def covers(self, drawn: Fit) -> bool:
-        """Whether a drawn line lies on the wanted one as far as both run."""
-        first = max(drawn.middle - drawn.half, self.fit.middle - self.fit.half)
-        last = min(drawn.middle + drawn.half, self.fit.middle + self.fit.half)
-        places = (first, (first + last) / 2, last)
-        return all(abs(drawn.off(place) - self.fit.off(place)) <= NEAR for place in places)
-
-
-def _numbers(scalars: Sequence[Scalar]) -> list[float]:
-    return [float(written_number(one)) for one in scalars]
-
-
-def _bends_alike(bow: float, wanted: float) -> bool:
-    if abs(wanted) < FLAT:
-        return abs(bow) < FLAT
-    return FLAT <= math.copysign(bow, bow * wanted) <= MOST_BENT
+def _decimals(extent: float) -> int:
+    return max(0, 2 - math.floor(math.log10(extent)))
 
 
 def _few(line: list[Point]) -> list[Point]:
-    step = max(1, (len(line) - 1) // (SHOWN - 1))
-    return [*line[:-1:step], line[-1]]
+    return [*line[:-1:2], line[-1]] if len(line) > SHOWN else line

@@ -82,9 +82,10 @@ def _inside(point: Point, view: View, column: int) -> Point:
     raise ReadError("outside-field", column, f"({x:g}; {y:g})", limits)
 
 
-def written(lines: Iterable[Stroke], digits: int = 2) -> str:
-    """Lines as they are typed."""
-    return "; ".join(" ".join(f"{_short(x, digits)},{_short(y, digits)}" for x, y in line)
+def written(lines: Iterable[Stroke], digits: tuple[int, int]) -> str:
+    """Lines as they are typed, with so many decimals along x and along y."""
+    along, up = digits
+    return "; ".join(" ".join(f"{_short(x, along)},{_short(y, up)}" for x, y in line)
                      for line in lines)  # fmt: skip
 
 

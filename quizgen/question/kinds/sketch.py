@@ -23,7 +23,7 @@ from quizgen.question.specs import answer_of, mistaken, notes, specification, wh
 
 SAMPLES = 8
 """Pieces of a curve."""
-DIGITS = 4
+DIGITS = 4, 4
 """Decimals of a point, as shares of what is typed they are far finer than any hand."""
 
 Point = tuple[float, float]
@@ -50,6 +50,7 @@ class Answer(msgspec.Struct, frozen=True):
     lines: dict[str, Authored]
     features: dict[str, dict[str, Any]]
     tall: Scalar = 0
+    cuts: list[Scalar] = []
     given: dict[str, Authored] = {}
     marks: dict[str, Formulas] = {}
     traps: dict[str, dict[str, Scalar]] = {}
@@ -71,6 +72,7 @@ def build(drawn: Draw, index: int) -> Built[Spec]:
         index,
         view=[right.number(limit) for limit in answer.view],
         tall=tall,
+        cuts=[right.number(place) for place in answer.cuts],
         lines=_typed(lines),
         features=features,
         traps=traps,
@@ -134,13 +136,14 @@ def _typed(lines: Mapping[str, list[Point]]) -> dict[str, str]:
 
 
 def _rounded(x: float, y: float) -> Point:
-    return round(x, DIGITS) + 0.0, round(y, DIGITS) + 0.0
+    return round(x, DIGITS[0]) + 0.0, round(y, DIGITS[1]) + 0.0
 
 
 def _feature(place: _Place, authored: Mapping[str, Any]) -> dict[str, Any]:
     """A feature with numbers in place of formulas."""
-    circle = authored.get("circle")
-    return {**authored, **({"circle": tuple(map(place.number, circle))} if circle else {})}
+    circle = {"circle": [*map(place.number, authored["circle"])]} if "circle" in authored else {}
+    within = {"within": place.number(authored["within"])} if "within" in authored else {}
+    return {**authored, **circle, **within}
 
 
 def hints(_spec: Spec, lang: str) -> tuple[Shown, ...]:

@@ -9,12 +9,12 @@ const sketching = (box) => {
   const svg = box.querySelector(".strokes");
   const numbers = (name) => box.dataset[name].split(" ").map(Number);
   const [left, right, low, high] = numbers("view"), [x0, y0, wide, tall] = numbers("frame"), snaps = numbers("grid").map((step) => step / 5);
-  const digits = Math.max(0, 2 - Math.floor(Math.log10(right - left)));
+  const digits = [right - left, high - low].map((extent) => Math.max(0, 2 - Math.floor(Math.log10(extent))));
   const toPicture = ([x, y]) => [x0 + (x - left) / (right - left) * wide, y0 + (high - y) / (high - low) * tall];
   const toField = ([x, y]) => [left + (x - x0) / wide * (right - left), high - (y - y0) / tall * (high - low)]
     .map((value, i) => Math.min(i ? high : right, Math.max(i ? low : left, value)));
   const snapped = (point) => point.map((value, i) => Math.round(value / snaps[i]) * snaps[i]);
-  const number = (value) => String(Number(value.toFixed(digits)) + 0);
+  const number = (value, i) => String(Number(value.toFixed(digits[i])) + 0);
   const written = (lines) => lines.map((line) => line.map((point) => point.map(number).join(",")).join(" ")).join("; ");
   const typed = () => area.value.replaceAll("\u2212", "-").split(/[;\n]/)
     .map((line) => [...line.matchAll(/(-?[\d.]+) ?, ?(-?[\d.]+)/g)].map((found) => [Number(found[1]), Number(found[2])]))
@@ -22,7 +22,7 @@ const sketching = (box) => {
   let now = null, cursor = null, setting = false;
   const on = (name) => box.querySelector(`[data-tool=${name}]`).getAttribute("aria-pressed") === "true";
   const say = (text) => { document.getElementById("said").textContent = text; };
-  const told = (key, point) => box.dataset[key].replace("{x}", number(point[0])).replace("{y}", number(point[1]));
+  const told = (key, point) => box.dataset[key].replace("{x}", number(point[0], 0)).replace("{y}", number(point[1], 1));
 
   const show = () => {
     svg.replaceChildren();
