@@ -22,7 +22,7 @@ from quizgen.question.kinds import build
 
 Values = dict[str, float]
 Lines = dict[str, Line]
-HANDS = [25, pytest.param(draws(250), marks=pytest.mark.slow)]
+HANDS = [15, pytest.param(draws(250), marks=pytest.mark.slow)]
 WRONG_HANDS = [4, pytest.param(draws(70), marks=pytest.mark.slow)]
 
 
