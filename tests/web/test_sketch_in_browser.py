@@ -37,35 +37,42 @@ def wanted(k: float) -> list[list[tuple[float, float]]]:
     ]
 
 
-def test_a_grid_is_drawn_by_mouse(field):
-    page, part, k = field
-    svg = part.locator("svg.strokes")
+def drawer(page, part):
+    """What draws a line by mouse, from point to point of the field."""
+    svg = part.locator("svg.strokes").first
     svg.scroll_into_view_if_needed()
     box = svg.bounding_box()
     wide, tall = map(float, svg.get_attribute("viewBox").split()[2:])
-    x0, y0, w, h = map(float, part.locator(".board").get_attribute("data-frame").split())
+    board = part.locator(".board").first
+    x0, y0, w, h = map(float, board.get_attribute("data-frame").split())
+    left, right, low, high = map(float, board.get_attribute("data-view").split())
     scale = box["width"] / wide
+    assert box["height"] / tall == pytest.approx(scale, rel=0.02)
 
     def place(x: float, y: float) -> tuple[float, float]:
-        at = x0 + (x + 1.4) / 2.8 * w, y0 + (1.4 - y) / 2.8 * h
+        at = x0 + (x - left) / (right - left) * w, y0 + (high - y) / (high - low) * h
         return box["x"] + at[0] * scale, box["y"] + at[1] * scale
 
-    assert box["height"] / tall == pytest.approx(scale, rel=0.02)
-    for count, line in enumerate(wanted(k), 1):
+    def draw(line) -> None:
         page.mouse.move(*place(*line[0]))
         page.mouse.down()
         for point in line[1:]:
             page.mouse.move(*place(*point), steps=3)
         page.mouse.up()
+
+    return draw
+
+
+def test_a_grid_is_drawn_by_mouse(field):
+    page, part, k = field
+    svg, draw = part.locator("svg.strokes"), drawer(page, part)
+    for count, line in enumerate(wanted(k), 1):
+        draw(line)
         expect(svg.locator("polyline")).to_have_count(count)
     part.get_by_role("button", name="Undo").click()
     expect(svg.locator("polyline")).to_have_count(5)
     part.get_by_role("button", name="Ruler").click()
-    page.mouse.move(*place(*line[0]))
-    page.mouse.down()
-    page.mouse.move(*place(0.4, 0.1), steps=3)
-    page.mouse.move(*place(*line[-1]), steps=3)
-    page.mouse.up()
+    draw([line[0], (0.4, 0.1), line[-1]])
     expect(svg.locator("polyline")).to_have_count(6)
     part.get_by_role("button", name="Check").click()
     expect(part.locator(".verdict.correct")).to_be_visible()
@@ -99,3 +106,28 @@ def test_lines_are_drawn_by_keys_and_what_is_typed_is_drawn(field):
     expect(svg.locator("polyline")).to_have_count(2)
     part.get_by_role("button", name="Clear").click()
     expect(area).to_have_value("")
+
+
+def test_in_an_exam_what_was_drawn_stays_and_stands_over_the_solution(opened, served):
+    page = opened()
+    page.goto(served.address + "/exam")
+    page.get_by_label("Paper", exact=True).select_option("trial")
+    page.get_by_role("button", name="Begin the exam").click()
+    part = page.locator("#exam .part").filter(has=page.locator("svg.strokes"))
+    inward = "barrel" in part.locator("strong").first.inner_text()
+    lines, svg = wanted(-0.15 if inward else 0.15), part.locator("svg.strokes")
+    draw = drawer(page, part)
+    for line in lines[:5]:
+        draw(line)
+    expect(page.locator("#kept")).to_have_text("All answers are saved.")
+    page.reload()
+    expect(svg.locator("polyline")).to_have_count(5)
+    svg.focus()  # the cross begins in the middle: half of the last line, and back to its other end
+    for key in (*["ArrowDown"] * 9, "Enter", *["Shift+ArrowUp"] * 3, *["ArrowUp"] * 3, "Enter", "Escape"):
+        page.keyboard.press(key)
+    expect(svg.locator("polyline")).to_have_count(6)
+    expect(page.locator("#kept")).to_have_text("All answers are saved.")
+    for _ in range(2):
+        page.get_by_role("button", name="Hand in").click()
+    solved = page.locator(".board").filter(has=page.locator("[data-part=wanted]"))
+    expect(solved.locator("polyline")).to_have_count(6)
