@@ -123,7 +123,14 @@ def test_in_an_exam_what_was_drawn_stays_and_stands_over_the_solution(opened, se
     page.reload()
     expect(svg.locator("polyline")).to_have_count(5)
     svg.focus()  # the cross begins in the middle: half of the last line, and back to its other end
-    for key in (*["ArrowDown"] * 9, "Enter", *["Shift+ArrowUp"] * 3, *["ArrowUp"] * 3, "Enter", "Escape"):
+    for key in (
+        *["ArrowDown"] * 9,
+        "Enter",
+        *["Shift+ArrowUp"] * 3,
+        *["ArrowUp"] * 3,
+        "Enter",
+        "Escape",
+    ):
         page.keyboard.press(key)
     expect(svg.locator("polyline")).to_have_count(6)
     expect(page.locator("#kept")).to_have_text("All answers are saved.")
