@@ -51,7 +51,8 @@ def check(key: Path, answers: tuple[Path, ...], lang: str | None, **flags: bool)
     """Mark ANSWERS (answers.toml, .csv or .json, one or many) with KEY (key.json).
 
     With the keys of an export (moodle.xml.keys.jsonl) as KEY, ANSWERS are responses that a system
-    for courses collected: Moodle's report "Responses" as CSV or JSON, or archives of them (.zip).
+    for courses collected: Moodle's report "Responses" as CSV or JSON, result reports of QTI (.xml),
+    or archives of them (.zip).
 
     One form prints a table with the mistake found in each part; several forms print CSV: marks and
     notes per part, one line per student. A form that cannot be read is named and the others are

@@ -53,16 +53,16 @@ def exporter(name: str) -> Exporter:
             return Exporter(gift.write, gift.by_hand, gift.kept)
         case "qti21":
             from quizgen.export.items import by_hand
-            from quizgen.export.kept import whole
+            from quizgen.export.qti.item import kept
             from quizgen.export.qti.package import write_qti21
 
-            return Exporter(write_qti21, by_hand, whole)
+            return Exporter(write_qti21, by_hand, kept)
         case "qti3":
             from quizgen.export.items import by_hand
-            from quizgen.export.kept import whole
+            from quizgen.export.qti.item import kept
             from quizgen.export.qti.package import write_qti3
 
-            return Exporter(write_qti3, by_hand, whole)
+            return Exporter(write_qti3, by_hand, kept)
         case _:
             from quizgen.export import moodle
             from quizgen.export.items import by_hand

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from functools import singledispatch
 
 import msgspec
@@ -31,15 +31,9 @@ def _shape(part: Part) -> Shape:
     return Shape(control.form, [box.name for box in control.boxes], control.named)
 
 
-def whole(item: Item) -> Iterator[Entry]:
-    """The one question of a system that asks all its parts."""
-    fields = [asked(ask, part, item.lang) for part, found in item.parts for ask in found]
-    yield Entry(item.mark(), item.id, fields)
-
-
-def asked(ask: Ask, part: Part, lang: str) -> Asked:
-    """A field of a part."""
-    return _asked(ask, part.field.id, lang)
+def asked(ask: Ask, part: Part, lang: str, name: str = "") -> Asked:
+    """A field of a part, and what the system calls it."""
+    return msgspec.structs.replace(_asked(ask, part.field.id, lang), name=name)
 
 
 @singledispatch
@@ -49,7 +43,7 @@ def _asked(_ask: Ask, part: str, _lang: str) -> Asked:
 
 @_asked.register
 def _number(ask: Numeric, part: str, _lang: str) -> Asked:
-    return Asked("number", part, "" if ask.unit == "1" else ask.unit)
+    return Asked("number", part, unit="" if ask.unit == "1" else ask.unit)
 
 
 @_asked.register

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 Lost = Callable[[str], None]
@@ -11,11 +11,15 @@ Lost = Callable[[str], None]
 
 @dataclass(frozen=True, slots=True)
 class Response:
-    """The number of a question in the quiz, its mark or id, and what was responded to it."""
+    """The number of a question in the quiz, its mark or id, and what was responded to it.
+
+    ``number`` is empty where questions have none; ``given`` is a line of text, or by variable its
+    values.
+    """
 
     number: str
     question: str
-    text: str
+    given: str | Mapping[str, list[str]]
 
 
 @dataclass(frozen=True, slots=True)

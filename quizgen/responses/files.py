@@ -10,6 +10,7 @@ from pathlib import Path
 from quizgen.errors import KeyFileError
 from quizgen.outside import decoded, read_bytes
 from quizgen.responses.attempts import Attempt, Lost
+from quizgen.responses.qti import from_xml
 from quizgen.responses.tables import from_csv, from_json
 
 LARGEST = 60_000_000
@@ -19,7 +20,7 @@ MOST_FILES = 20_000
 Reader = Callable[[str, Path, Collection[str], Lost], Iterator[Attempt]]
 
 READERS: dict[str, Reader] = {".csv": from_csv, ".tsv": from_csv, ".txt": from_csv,
-                              ".json": from_json}  # fmt: skip
+                              ".json": from_json, ".xml": from_xml}  # fmt: skip
 """What reads a file, by its suffix."""
 
 

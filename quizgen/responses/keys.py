@@ -45,6 +45,8 @@ class Asked(msgspec.Struct, frozen=True, omit_defaults=True):
     options, targets : mapping
         Letter of an option, a step or the left side of a pair, and of what it goes to; with the
         texts that a system may give for it.
+    name : str
+        What the system calls it, if it names its variables.
     """
 
     kind: Kind
@@ -52,6 +54,7 @@ class Asked(msgspec.Struct, frozen=True, omit_defaults=True):
     unit: str = ""
     options: dict[str, list[str]] = {}
     targets: dict[str, list[str]] = {}
+    name: str = ""
 
 
 class Entry(msgspec.Struct, frozen=True):

@@ -13,6 +13,7 @@ from quizgen.practice.boxes import joined
 from quizgen.question.contract import Box, Control
 from quizgen.responses.attempts import Attempt, Response
 from quizgen.responses.keys import Entry, Kept, Keys, Shape
+from quizgen.responses.qti import variables
 from quizgen.responses.summaries import Values, fields
 
 Typed = str | ReadError
@@ -64,20 +65,21 @@ def marked(keys: Keys, attempts: Iterable[Attempt], lang: str | None = None) -> 
 
 def _marked(keys: Keys, attempt: Attempt, number: int, lang: str | None) -> Marked:
     known: dict[str, tuple[Kept, list[tuple[Response, Entry]]]] = {}
-    for response in attempt.responses:
-        if response.question in keys.found:
-            kept, entry = keys.found[response.question]
-            known.setdefault(kept.id, (kept, []))[1].append((response, entry))
+    questions: dict[str, str] = {}
+    foreign: list[str] = []
+    for one in attempt.responses:
+        if one.question not in keys.found:
+            foreign.append(one.number or one.question)
+            continue
+        kept, entry = keys.found[one.question]
+        place = kept.slot if kept.slot not in questions else entry.id
+        response = replace(one, number=one.number or place)
+        known.setdefault(kept.id, (kept, []))[1].append((response, entry))
+        questions[response.number] = entry.id
     parts = [part for kept, given in known.values() for part in _parts(kept, given, lang)]
-    numbers = [response.number for response in attempt.responses]
-    parts.sort(key=lambda part: numbers.index(part.number))
-    questions = {
-        r.number: keys.found[r.question][1].id
-        for r in attempt.responses
-        if r.question in keys.found
-    }
-    foreign = tuple(r.number for r in attempt.responses if r.question not in keys.found)
-    return Marked(attempt, number, PaperResult("", tuple(parts)), questions, foreign)
+    places = [*questions]
+    parts.sort(key=lambda part: places.index(part.number))
+    return Marked(attempt, number, PaperResult("", tuple(parts)), questions, tuple(foreign))
 
 
 def _parts(
@@ -98,14 +100,17 @@ def _parts(
                 else marker.mark(part, text)
             )
             label = part.id.removeprefix(kept.key.number)
-            yield replace(done, id=f"{number}{label}", number=number)
+            between = "" if number[-1:].isdigit() or not label else "."
+            yield replace(done, id=f"{number}{between}{label}", number=number)
 
 
 def _typed(kept: Kept, entry: Entry, response: Response) -> dict[str, Typed]:
     """Part to what it was answered with, in one line."""
     found: dict[str, list[Values | ReadError]] = {}
     stems: dict[str, list[str]] = {}
-    for ask, values in zip(entry.asks, fields(entry, response.text), strict=True):
+    given = response.given
+    read = fields(entry, given) if isinstance(given, str) else variables(entry, given)
+    for ask, values in zip(entry.asks, read, strict=True):
         found.setdefault(ask.part, []).append(values)
         stems[ask.part] = list(ask.options)
     return {part: _line(kept.shapes[part], values, stems[part]) for part, values in found.items()}

@@ -105,12 +105,12 @@ def _values(ask: Asked, text: str) -> Values:
         case "pairs":
             return _by_stem(ask, text)
         case "order":
-            return _in_places(_by_stem(ask, text), ask) if ARROW in text else _in_order(ask, text)
+            return in_places(_by_stem(ask, text), ask) if ARROW in text else _in_order(ask, text)
         case _:
-            return [_with_unit(text, ask.unit)]
+            return [with_unit(text, ask.unit)]
 
 
-def _with_unit(text: str, unit: str) -> str:
+def with_unit(text: str, unit: str) -> str:
     """A number with the unit that stands behind its field, unless another was typed."""
     return f"{text.strip()} {unit}" if unit and _BARE.fullmatch(text) else text
 
@@ -199,12 +199,12 @@ def _placed(ask: Asked, pieces: Sequence[str]) -> Values | ReadError:
     if unknown:
         return ReadError("option-unknown", 1, safe(unknown[0]))
     try:
-        return _in_places(pieces, ask) if ask.kind == "order" else [*pieces]
+        return in_places(pieces, ask) if ask.kind == "order" else [*pieces]
     except ReadError as error:
         return error
 
 
-def _in_places(places: Sequence[str], ask: Asked) -> Values:
+def in_places(places: Sequence[str], ask: Asked) -> Values:
     """Steps in the order of the places that they were given.
 
     Raises

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import html
 import re
+import zipfile
+from io import BytesIO
 from xml.etree import ElementTree as ET
 
 import pytest
@@ -17,7 +19,10 @@ from quizgen.export.items import of_templates
 from quizgen.export.kept import kept
 from quizgen.export.moodle import kept as entries
 from quizgen.export.moodle import write
+from quizgen.export.qti.item import kept as variables
+from quizgen.export.qti.package import write_qti3, write_qti21
 from quizgen.responses.attempts import Attempt, Response
+from quizgen.responses.files import attempts
 from quizgen.responses.keys import Keys
 from quizgen.responses.marks import marked
 
@@ -88,6 +93,62 @@ def test_right_responses_come_back_right(items):
 @pytest.mark.parametrize("lang", ["en", "bn"])
 def test_those_of_all_templates(bank, lang):
     assert missed(list(of_templates(bank, list(bank.paths), 7, 1, [lang]))) == {}
+
+
+RESULT = """<?xml version="1.0" encoding="UTF-8"?>
+<assessmentResult xmlns="http://www.imsglobal.org/xsd/imsqti_result_{version}">
+<context sourcedId="ada"/>{items}</assessmentResult>"""
+ITEM = """<itemResult identifier="{name}" datestamp="2026-11-22T09:00:00" sessionStatus="final">
+{variables}</itemResult>"""
+VARIABLE = """<responseVariable identifier="{name}" cardinality="multiple">
+<correctResponse><value>0</value></correctResponse>
+<candidateResponse>{values}</candidateResponse></responseVariable>"""
+
+
+def files_of(package):
+    with zipfile.ZipFile(BytesIO(package)) as archive:
+        names = [name for name in archive.namelist() if name.startswith("items/")]
+        return [ET.fromstring(archive.read(name)) for name in names if name.endswith(".xml")]
+
+
+def declared(item) -> dict[str, list[str]]:
+    """The key of each response of an item, empty if it has none."""
+    found = {}
+    for one in item:
+        if one.tag.endswith(("}responseDeclaration", "}qti-response-declaration")):
+            key = [value.text for inside in one for value in inside if value.text]
+            found[one.get("identifier")] = key
+    return found
+
+
+def reported(package, version) -> str:
+    """A result report of all items, as the specification has it, each given its key."""
+    items = ""
+    for item in files_of(package):
+        variables = ""
+        for name, key in declared(item).items():
+            values = "".join(f"<value>{html.escape(value)}</value>" for value in key)
+            variables += VARIABLE.format(name=name, values=values)
+        items += ITEM.format(name=item.get("identifier"), variables=variables)
+    return RESULT.format(version=version, items=items)
+
+
+@pytest.mark.parametrize(
+    ("write_package", "version"), [(write_qti21, "v2p1"), (write_qti3, "v3p0")]
+)
+def test_keys_of_a_package_come_back_right(items, write_package, version, tmp_path):
+    keys = Keys(kept(item, variables(item)) for item in items)
+    package = write_package(items)
+    path = tmp_path / "report.xml"
+    path.write_text(reported(package, version), encoding="utf-8")
+    lost = []
+    (one,) = marked(keys, attempts([path], keys.found, lost.append))
+    assert (lost, one.attempt.id, one.foreign) == ([], "ada", ())
+    assert len(one.questions) == len(items)
+    missed = [part for part in one.result.parts if part.marks != part.points]
+    assert {part.status for part in missed} <= {"blank"}
+    by_hand = {i.get("identifier") for i in files_of(package) if not all(declared(i).values())}
+    assert {one.questions[part.number] for part in missed} == by_hand
 
 
 def test_marks_are_apart(items):

@@ -39,6 +39,14 @@ def refused(path, known=KNOWN):
         ("a.json", b'[[{"question1": "", "question1": ""}]]', "stands twice"),
         ("a.zip", b"PK\x03\x04 and no more", "not an archive"),
         ("a.pdf", b"%PDF", "no file of responses"),
+        ("a.xml", b"<a><b></a>", "line 1, column 9: not XML"),
+        ("a.xml", b"", "not XML"),
+        ("a.xml", b"<html/>", "not a result report of QTI (its first element is html)"),
+        ("a.xml", b"<a>" * 100_000, "too deep"),
+        ("a.xml", "<a>\u00f6</a>".encode("latin-1"), "save it as UTF-8"),
+        ("a.xml", b'<!DOCTYPE a [<!ENTITY b "ha"><!ENTITY c "&b;&b;">]><a>&c;</a>', "DOCTYPE"),
+        ("a.xml", b'<!DOCTYPE a [<!ENTITY b SYSTEM "file:///etc/passwd">]><a>&b;</a>', "DOCTYPE"),
+        ("a.xml", '<!DOCTYPE a [<!ENTITY b "ha">]><a>&b;</a>'.encode("utf-16"), "DOCTYPE"),
     ],
 )  # fmt: skip
 def test_a_file_that_is_none(tmp_path, name, data, told):
@@ -60,7 +68,7 @@ def test_a_row_that_cannot_be_read_stops_no_other(tmp_path, name, data, told):
     path, lost = tmp_path / name, []
     path.write_text(data, encoding="utf-8")
     (found,) = attempts([path], KNOWN, lost.append)
-    assert [one.text for one in found.responses] == ["1"]
+    assert [one.given for one in found.responses] == ["1"]
     assert [line.startswith(f"{path}{told}") for line in lost] == [True, True]
 
 

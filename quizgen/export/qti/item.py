@@ -11,13 +11,15 @@ from markupsafe import Markup
 
 from quizgen.export.asks import Ask, Write
 from quizgen.export.items import Item
-from quizgen.export.qti.dialect import Dialect, written
+from quizgen.export.kept import asked
+from quizgen.export.qti.dialect import QTI21, Dialect, written
 from quizgen.export.qti.place import Place
 from quizgen.export.qti.played import Played, played
 from quizgen.export.wording import body, image, solution, stem
 from quizgen.figures import Figure
 from quizgen.locale import word
 from quizgen.question.markup import inline
+from quizgen.responses.keys import Entry
 
 Source = Callable[[Figure], str]
 """Where an item finds a figure."""
@@ -61,6 +63,15 @@ def item_file(item: Item, dialect: Dialect, source: Source) -> bytes:
     inside = [*_declared(item, rows, dialect), _body(item, groups, dialect, source)]
     inside += [_processing(item, groups, dialect), *_feedback(item, rows, dialect, source)]
     return dialect.file("assessmentItem", named, *map(_xml, inside))
+
+
+def kept(item: Item) -> Iterator[Entry]:
+    """How the variables of an item are read back; both versions name them alike."""
+    groups = zip(item.parts, _asked(item, QTI21), strict=True)
+    fields = [
+        asked(ask, part, item.lang, at.response) for (part, _), group in groups for ask, at in group
+    ]
+    yield Entry(item.mark(), name_of(item), fields)
 
 
 def _asked(item: Item, dialect: Dialect) -> Iterator[list[tuple[Ask, Place]]]:

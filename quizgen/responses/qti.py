@@ -1,0 +1,119 @@
+"""Result reports of QTI 2.1 and 3.0: what each variable of an item was given.
+
+Sources: 1EdTech, "QTI 2.1 Results Reporting" and "QTI 3.0 Results Reporting".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping
+from io import StringIO
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+from quizgen.errors import KeyFileError
+from quizgen.marking.echo import safe
+from quizgen.maths.notation import ReadError
+from quizgen.outside import DEEPEST, MOST_VALUES
+from quizgen.responses.attempts import Attempt, Lost, Response
+from quizgen.responses.keys import Asked, Entry
+from quizgen.responses.summaries import Values, in_places, with_unit
+
+
+def from_xml(text: str, where: Path, _known: Collection[str], _lost: Lost) -> Iterator[Attempt]:
+    """The attempt of a report.
+
+    Parameters
+    ----------
+    text : str
+    where : pathlib.Path
+        The file, for messages; its name is that of somebody whom the report does not name.
+
+    Raises
+    ------
+    KeyFileError
+        Naming the file and the line.
+    """
+    root = _tree(text, where)
+    if _name(root) != "assessmentResult":
+        raise KeyFileError(f"{where}: not a result report of QTI (its first element is "
+                           f"{safe(_name(root))})")  # fmt: skip
+    who = "".join(one.get("sourcedId", "") for one in root if _name(one) == "context")
+    items = {one.get("identifier", ""): one for one in root if _name(one) == "itemResult"}
+    responses = tuple(Response("", name, _given(one)) for name, one in items.items())
+    yield Attempt(str(where), "", who.strip() or where.stem, "", responses)
+
+
+def _tree(text: str, where: Path) -> ET.Element:
+    """The document; one that defines entities, or is too deep or too long, is refused."""
+    if "<!DOCTYPE" in text:
+        raise KeyFileError(f"{where}: a document with a DOCTYPE is not read")
+    depth = 0
+    root = ET.Element("")
+    try:
+        reader = ET.iterparse(StringIO(text), ["start", "end"])  # noqa: S314 - no entities
+        for count, (event, element) in enumerate(reader):
+            depth += 1 if event == "start" else -1
+            if depth > DEEPEST or count > MOST_VALUES:
+                raise KeyFileError(f"{where}: too many elements, or too deep")
+            root = element
+    except ET.ParseError as error:
+        line, column = error.position
+        raise KeyFileError(f"{where}: line {line}, column {column + 1}: not XML") from None
+    return root
+
+
+def _name(element: ET.Element) -> str:
+    """The name of an element, whose namespace is that of a version."""
+    return element.tag.rpartition("}")[2]
+
+
+def _given(item: ET.Element) -> Mapping[str, list[str]]:
+    """What each variable was given: not what would be right, which may stand there too."""
+    return {
+        variable.get("identifier", ""): [
+            value.text or ""
+            for given in variable
+            if _name(given) == "candidateResponse"
+            for value in given
+        ]
+        for variable in item
+        if _name(variable) == "responseVariable"
+    }
+
+
+def variables(entry: Entry, given: Mapping[str, list[str]]) -> list[Values | ReadError]:
+    """What each field of an entry was answered with, as ``summaries.fields`` has it."""
+    return [_tried(ask, given.get(ask.name, [])) for ask in entry.asks]
+
+
+def _tried(ask: Asked, given: list[str]) -> Values | ReadError:
+    if not any(value.strip() for value in given):
+        return []
+    try:
+        return _values(ask, given)
+    except ReadError as error:
+        return error
+
+
+def _values(ask: Asked, given: list[str]) -> Values:
+    before = ask.name.replace("RESPONSE", "C", 1) + "_"
+    marks = [[name.removeprefix(before) for name in value.split()] for value in given]
+    match ask.kind:
+        case "truth":
+            return [marks[0][0]]
+        case "one" | "many":
+            return [_known(one[0], ask.options) for one in marks]
+        case "pairs" | "order" if len(marks[0]) > 1:
+            chosen = {_known(one[0], ask.options): _known(one[1], ask.targets) for one in marks}
+            places = [chosen.get(mark, "") for mark in ask.options]
+            return in_places(places, ask) if ask.kind == "order" else places
+        case "order":
+            return [_known(one[0], ask.options) for one in marks]
+        case _:
+            return [with_unit(given[0], ask.unit)]
+
+
+def _known(mark: str, marks: Collection[str]) -> str:
+    if mark in marks:
+        return mark
+    raise ReadError("option-unknown", 1, safe(mark))
