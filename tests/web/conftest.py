@@ -119,9 +119,9 @@ def sections():
 
 
 @pytest.fixture(scope="module")
-def served(tmp_path_factory):
+def served(database):
     """A server in a process of its own."""
-    server = Served(tmp_path_factory.mktemp("served") / "learning.sqlite3")
+    server = Served(database())
     yield server
     server.kill()
 

@@ -11,7 +11,6 @@ import socket
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 
 
 def ran(coroutine):
@@ -29,9 +28,9 @@ def free_port() -> int:
 class Served:
     """A server of one database and one port, to be killed and started again."""
 
-    def __init__(self, database: Path, *more: str) -> None:
+    def __init__(self, database: str, *more: str) -> None:
         self.port, self.printed = free_port(), ""
-        self.file, self._more = database, more
+        self.database, self._more = database, more
         self._process: subprocess.Popen[str] | None = None
         self.start()
 
@@ -42,7 +41,7 @@ class Served:
     def start(self) -> None:
         self._process = subprocess.Popen(
             [sys.executable, "-m", "quizgen", "serve", "--no-open", "--port", str(self.port),
-             "--database", f"sqlite:///{self.file}", *self._more],
+             "--database", self.database, *self._more],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True,
         )  # fmt: skip
         said = self._process.stdout.readline()

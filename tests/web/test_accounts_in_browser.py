@@ -10,15 +10,18 @@ from people import PASSWORD
 from playwright.sync_api import expect
 from served import Served
 
-pytestmark = pytest.mark.browser
+from quizgen.web.door import INVITED
+from quizgen.web.store import Store
+
+pytestmark = [pytest.mark.browser, pytest.mark.both_databases]
 
 NAME = "রহিম <b>& Söhne</b> عبد الرحمن " + "W" * 25
 
 
 @pytest.fixture(scope="module")
-def served(tmp_path_factory):
+def served(database):
     """A server for several people."""
-    server = Served(tmp_path_factory.mktemp("served") / "learning.sqlite3", "--host", "0.0.0.0")
+    server = Served(database(), "--host", "0.0.0.0")
     yield server
     server.kill()
 
@@ -30,6 +33,17 @@ def fill_in(page, *texts: str) -> None:
         page.keyboard.type(text)
         page.keyboard.press("Tab")
     page.keyboard.press("Enter")
+
+
+def invited(page, served, other, name: str) -> None:
+    """Make a link in one browser, and an account with it in another."""
+    page.goto(f"{served.address}/people")
+    page.get_by_role("button", name="Make a link").press("Enter")
+    link = page.locator("input.link").input_value()
+    other.goto(re.sub("http://[^/]*", served.address, link))
+    for field, text in (("#name", name), ("#password", PASSWORD), ("#again", PASSWORD)):
+        other.fill(field, text)
+    other.get_by_role("button", name="Begin").click()
 
 
 def faults(page, barriers) -> list:
@@ -53,15 +67,8 @@ def test_from_an_invitation_to_signing_in_by_keys_on_every_page(opened, served, 
     wrong = faults(page, barriers)
     fill_in(page, "Farida", PASSWORD, PASSWORD)
     expect(page.locator(".me")).to_have_text("Farida")
-    page.goto(f"{served.address}/people")
-    page.get_by_role("button", name="Make a link").press("Enter")
-    link = page.locator("input.link").input_value()
     other = opened(java_script_enabled=False, **phone)
-    other.goto(re.sub("http://[^/]*", served.address, link))
-    other.fill("#name", NAME)
-    other.fill("#password", PASSWORD)
-    other.fill("#again", PASSWORD)
-    other.get_by_role("button", name="Begin").click()
+    invited(page, served, other, NAME)
     expect(other.locator(".me")).to_have_text(NAME)
     for path in ("/people", "/people/2", "/account", "/"):
         page.goto(served.address + path)
@@ -76,3 +83,93 @@ def test_from_an_invitation_to_signing_in_by_keys_on_every_page(opened, served, 
     expect(page.locator(".me")).to_have_text("Farida")
     assert wrong == []
     opened.wrong[:] = [one for one in opened.wrong if "(Gone)" not in one]  # the link was used
+
+
+@pytest.fixture
+def signed_in(opened, served):
+    """Browsers on phones, in each of which somebody new has signed in."""
+
+    def one(name: str):
+        store = Store(served.database)
+        key = store.accounts.invite(manages=False)
+        store.close()
+        page = opened(viewport={"width": 390, "height": 800}, color_scheme="dark", bypass_csp=True)
+        page.goto(f"{served.address}{INVITED}?key={key}")
+        fill_in(page, name, PASSWORD, PASSWORD)
+        expect(page.locator(".me")).to_have_text(name)
+        return page
+
+    yield one
+    opened.wrong[:] = [one for one in opened.wrong if "(Gone)" not in one]  # the printed link
+
+
+@pytest.fixture
+def walked(served, barriers):
+    """Opens a page, or takes the one that is open; nothing may keep anybody out of it."""
+
+    def to(page, path: str = "") -> None:
+        if path:
+            page.goto(served.address + path)
+        expect(page.locator(".me")).to_be_visible()
+        assert barriers(page) == [], page.url
+
+    return to
+
+
+def test_who_has_signed_in_practises_and_sits_an_exam(signed_in, walked):
+    page = signed_in("Nasreen")
+    for path in ("/", "/camera", "/formulas"):
+        walked(page, path)
+    page.goto(f"{page.url}#F05")
+    page.locator("#F05 button", has_text="Perspective projection of a point").first.click()
+    expect(page.locator("section.part")).to_be_visible()
+    walked(page)
+    for field in page.locator("section.part input[type=text]").all():
+        field.fill("77")
+    page.get_by_role("button", name="Show the solution").click()
+    expect(page.locator(".result")).to_be_visible()
+    walked(page)
+    walked(page, "/exam")
+    page.get_by_label("Paper", exact=True).select_option("trial")
+    page.get_by_role("button", name="Begin the exam").click()
+    expect(page.locator("#exam")).to_be_visible()
+    walked(page)
+    page.locator("#exam fieldset[data-part] input[type=text]").first.fill("123")
+    expect(page.locator("#kept")).to_have_text("All answers are saved.")
+    page.get_by_role("button", name="Hand in").click()
+    expect(page.get_by_text("After that nothing can be changed any more.")).to_be_visible()
+    walked(page)
+    page.get_by_role("button", name="Hand in").click()
+    expect(page.locator(".typed", has_text="123")).to_be_visible()
+    walked(page)
+    for address in ("", "/progress"):
+        if address:
+            walked(page, address)
+        with page.expect_download() as saved:
+            page.get_by_role("link", name="Your mistakes as flashcards").click()
+        assert saved.value.path().read_bytes()[:2] == b"PK"
+
+
+def test_what_one_saves_another_takes_in_and_nobody_sees_it_before(
+    signed_in, served, walked, tmp_path
+):
+    one, other = signed_in("Rokeya"), signed_in("Selina")
+    one.get_by_role("button", name="What I should do next").click()
+    expect(one.locator("section.part").first).to_be_visible()
+    for part in range(one.locator("section.part").count()):
+        one.locator("section.part").nth(part).get_by_role("button", name="Show the sol").click()
+        expect(one.locator("section.part").nth(part).locator(".result")).to_be_visible()
+    walked(one, "/progress")
+    expect(one.get_by_text("Not seen yet")).to_be_visible()
+    asked = re.compile(r"^[1-9]\d*\D\d+$")  # 2/17
+    expect(one.get_by_role("cell", name=asked).first).to_be_visible()
+    with one.expect_download() as saved:
+        one.get_by_role("link", name="Save everything as a file").click()
+    saved.value.save_as(tmp_path / "all.json")
+    other.goto(served.address + "/progress")
+    expect(other.get_by_role("cell", name=asked)).to_have_count(0)
+    other.get_by_label("Take in such a file").set_input_files(tmp_path / "all.json")
+    other.get_by_role("button", name="Take in", exact=True).click()
+    expect(other.get_by_text("Questions and exams added: 1.")).to_be_visible()
+    expect(other.get_by_role("cell", name=asked).first).to_be_visible()
+    walked(other)

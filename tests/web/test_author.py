@@ -46,7 +46,7 @@ def test_the_page_of_a_template_in_a_browser(browser, tmp_path_factory, root, ba
     from served import Served
 
     folder = tmp_path_factory.mktemp("served")
-    server = Served(folder / "x.sqlite3", "--bank", str(root), "--trust", "--author")
+    server = Served(f"sqlite:///{folder / 'x.sqlite3'}", "--bank", str(root), "--trust", "--author")
     context = browser.new_context(viewport={"width": 390, "height": 800})
     try:
         page = context.new_page()

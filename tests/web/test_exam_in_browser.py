@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import re
-import sqlite3
 
 import pytest
 from keys import Keys
 from playwright.sync_api import expect
+from sqlalchemy import update
+
+from quizgen.web.store import Store
+from quizgen.web.store.tables import SITTING
 
 pytestmark = pytest.mark.browser
 
@@ -45,7 +48,7 @@ def hand_in(page):
 
 def forgive(opened):
     """What browsers say of a server that is dead."""
-    dead = re.compile("ERR_CONNECTION|ERR_EMPTY|Failed to fetch")
+    dead = re.compile("ERR_CONNECTION|ERR_CONTENT_LENGTH|ERR_EMPTY|Failed to fetch")
     opened.wrong[:] = [one for one in opened.wrong if not dead.search(one)]
 
 
@@ -54,6 +57,7 @@ def typed(page, number: int, text: str):
     expect(page.locator("#kept")).to_have_text(SAVED)
 
 
+@pytest.mark.both_databases
 def test_a_reload_and_the_way_back_keep_what_was_typed(exam, served):
     page = exam()
     typed(page, 0, "12.5")
@@ -89,6 +93,7 @@ def test_enter_keeps_and_changes_nothing_else(exam):
     expect(page.locator(".flagged")).to_have_count(0)
 
 
+@pytest.mark.both_databases
 def test_a_page_that_was_open_before_loses_nothing_of_another(exam):
     one = exam()
     two = one.context.new_page()
@@ -101,6 +106,7 @@ def test_a_page_that_was_open_before_loses_nothing_of_another(exam):
     expect(two.locator(".typed", has_text="222")).to_have_count(1)
 
 
+@pytest.mark.both_databases
 def test_what_is_typed_while_the_server_is_dead_arrives_when_it_is_back(exam, served, opened):
     page = exam()
     typed(page, 0, "1.5")
@@ -117,6 +123,7 @@ def test_what_is_typed_while_the_server_is_dead_arrives_when_it_is_back(exam, se
     forgive(opened)
 
 
+@pytest.mark.both_databases
 def test_a_browser_that_ends_while_the_server_is_dead_still_sends_it_later(exam, served, opened):
     page = exam()
     at = page.url
@@ -134,15 +141,16 @@ def test_a_browser_that_ends_while_the_server_is_dead_still_sends_it_later(exam,
 
 def end_in(page, served, seconds: float):
     """Let an exam end soon, and show it anew."""
-    with sqlite3.connect(served.file) as connection:
-        connection.execute(
-            'UPDATE sitting SET "limit" = ? - begun WHERE id = ?',
-            (page.evaluate("Date.now() / 1000") + seconds, page.url.rsplit("/", 1)[1]),
-        )
-    connection.close()
+    ends = page.evaluate("Date.now() / 1000") + seconds
+    this = SITTING.c.id == page.url.rsplit("/", 1)[1]
+    store = Store(served.database)
+    with store.database.writing() as connection:
+        connection.execute(update(SITTING).where(this).values(limit=ends - SITTING.c.begun))
+    store.close()
     page.reload()
 
 
+@pytest.mark.both_databases
 def test_the_clock_counts_to_zero_and_hands_the_paper_in(exam, served):
     page = exam(clock=True)
     expect(page.locator(".clock")).to_have_text(re.compile(r"^\d+ min left$"))

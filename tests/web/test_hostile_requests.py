@@ -170,14 +170,14 @@ def test_many_answers_at_once_count_once(outside, served):
     with ThreadPoolExecutor(8) as threads:
         answers = list(threads.map(lambda _: browser.post(f"{at}/1", data=sent), range(16)))
     assert {answer.status_code for answer in answers} == {200}
-    store = Store(f"sqlite:///{served.file}")
+    store = Store(served.database)
     assert len(store.seen(store.learner().id)) == 1
     store.close()
 
 
 def test_many_hands_hand_in_once(outside, served):
     browser, token = outside
-    store = Store(f"sqlite:///{served.file}")
+    store = Store(served.database)
     before = len(store.seen(store.learner().id))
     page = browser.post("/exam", data={"token": token, "blueprint": "trial"})
     parts = set(re.findall(r'<fieldset data-part="(\w+)"', page.text))

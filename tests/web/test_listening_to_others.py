@@ -21,7 +21,7 @@ def started(tmp_path):
     running = []
 
     def start(*more: str) -> Served:
-        running.append(Served(tmp_path / "x.sqlite3", *more))
+        running.append(Served(f"sqlite:///{tmp_path / 'x.sqlite3'}", *more))
         return running[-1]
 
     yield start

@@ -12,7 +12,7 @@ QUESTION = "point-to-image-plane"
 GIVEN_UP = {"topic": "colour", "right": False, "first": False}
 
 
-pytestmark = pytest.mark.usefixtures("nothing_done")
+pytestmark = [pytest.mark.both_databases, pytest.mark.usefixtures("nothing_done")]
 
 
 @pytest.fixture

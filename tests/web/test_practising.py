@@ -9,6 +9,8 @@ import pytest
 
 from quizgen.question.compose import compose
 
+pytestmark = pytest.mark.both_databases
+
 
 def text(page: str) -> str:
     return html.unescape(" ".join(re.sub(r"<[^>]*>", " ", page).split()))
