@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -137,8 +138,9 @@ class _Counts:
         self.points = max(self.points, part.points)
         self.blank += part.status == "blank"
         self.undecided += part.undecided
-        self.had.update(options)
-        self.chosen.update(part.chosen)
+        if options:
+            self.had.update(options)
+            self.chosen.update(part.chosen)
         if part.note and part.status in WRONG:
             self.notes[part.note] += 1
             self.examples.setdefault(part.note, Example(student, part.id, part.typed))
@@ -170,23 +172,24 @@ def analysed(pairs: Iterable[tuple[Marks, Outline]]) -> Analysis:
         for part in marks.parts:
             counts[part.item].add(part, marks.student, outline.options.get(part.item, ()))
         by_item.append(_known(marks.parts))
-        by_question.append(_questions(marks.parts))
-        for template, share in _shares(marks.parts).items():
+        questions = _questions(marks.parts)
+        by_question.append(questions)
+        for template, share in _shares(marks.parts, questions).items():
             draws.add(template, outline.identities.get(template, ""), share)
         totals.append(marks.marks)
         points = max(points, marks.points)
         minutes += [marks.minutes] if marks.minutes is not None else []
     table, names = _table(by_item)
-    whole, questions = _table(by_question)
+    whole, asked = _table(by_question)
     found = alpha(whole)
     return Analysis(
         len(totals),
         tuple(totals),
         points,
         tuple(minutes),
-        len(questions),
+        len(asked),
         found,
-        None if found is None else alpha_interval(found, len(totals), len(questions)),
+        None if found is None else alpha_interval(found, len(totals), len(asked)),
         tuple(_figures(item, counts[item], table, names) for item in counts),
         tuple(draws.effects()),
     )
@@ -197,26 +200,28 @@ def _known(parts: Iterable[PartMark]) -> dict[str, float]:
     return {p.item: p.marks for p in parts if p.marks is not None and p.status != DROPPED}
 
 
-def _questions(parts: Iterable[PartMark]) -> dict[str, float]:
+def _questions(parts: Sequence[PartMark]) -> dict[str, float]:
     """Points by question, where all its parts are decided."""
     found: dict[str, float] = defaultdict(float)
-    unknown = {_template(part) for part in parts if part.marks is None}
+    unknown = {_template(part.item) for part in parts if part.marks is None}
     for part in parts:
-        if part.marks is not None and part.status != DROPPED and _template(part) not in unknown:
-            found[_template(part)] += part.marks
+        name = _template(part.item)
+        if part.marks is not None and part.status != DROPPED and name not in unknown:
+            found[name] += part.marks
     return found
 
 
-def _shares(parts: Iterable[PartMark]) -> dict[str, float]:
+def _shares(parts: Iterable[PartMark], questions: Mapping[str, float]) -> dict[str, float]:
     """Share of its points by question, where all its parts are decided."""
     worth: dict[str, float] = defaultdict(float)
     for part in parts:
-        worth[_template(part)] += part.points
-    return {name: got / worth[name] for name, got in _questions(parts).items() if worth[name]}
+        worth[_template(part.item)] += part.points
+    return {name: got / worth[name] for name, got in questions.items() if worth[name]}
 
 
-def _template(part: PartMark) -> str:
-    return part.item.partition("/")[0]
+@lru_cache(maxsize=4096)
+def _template(item: str) -> str:
+    return item.partition("/")[0]
 
 
 def _table(rows: list[dict[str, float]]) -> tuple[Table, list[str]]:

@@ -14,6 +14,7 @@ import msgspec
 
 from quizgen.classes.analysis import Outline
 from quizgen.classes.folder import KEYS, ClassFolder, Head
+from quizgen.classes.mark import item_named
 from quizgen.errors import ClassError
 from quizgen.paper.key import Key
 
@@ -43,9 +44,7 @@ class _ShortQuestion(msgspec.Struct):
     def items(self) -> Iterator[tuple[str, tuple[str, ...]]]:
         """Each part's item, and its options."""
         for part in self.parts:
-            label = part.id.removeprefix(self.number)
-            name = f"{self.template}/{label}" if label else self.template
-            yield name, part.spec.options
+            yield item_named(self.template, self.number, part.id), part.spec.options
 
 
 class _ShortKey(msgspec.Struct):

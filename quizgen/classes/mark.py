@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 
 import msgspec
 
@@ -118,8 +119,14 @@ class Marks(msgspec.Struct, frozen=True, omit_defaults=True):
 
 def item_of(question: KeyQuestion, part: KeyPart) -> str:
     """What a part is called in all papers of a class: its template, and its letter if any."""
-    label = part.id.removeprefix(question.number)
-    return f"{question.template}/{label}" if label else question.template
+    return item_named(question.template, question.number, part.id)
+
+
+@lru_cache(maxsize=4096)
+def item_named(template: str, number: str, part: str) -> str:
+    """The same from the names of a question and a part."""
+    label = part.removeprefix(number)
+    return f"{template}/{label}" if label else template
 
 
 def mark_sheet(key: Key, sheet: Sheet, book: Book) -> Marks:
@@ -163,7 +170,7 @@ def _question(
             continue
         ruled = _with_tolerance(part, rulings)
         try:
-            found = marker.mark(ruled, typed)
+            found = marker.judge(ruled, typed)
         except KeyFileError as error:
             if ruled is part:
                 raise
@@ -236,8 +243,10 @@ def _about(ruling: Ruling, found: PartResult, group: str, *, words: bool) -> boo
 
 def _chosen(part: KeyPart, found: PartResult) -> tuple[str, ...]:
     """The options that were ticked, by their words: letters differ from paper to paper."""
-    options: list[str] = part.spec.get("options", [])
-    if part.spec["kind"] not in {"choice", "multi"} or not found.verdict.graded:
+    kind, verdict = part.spec["kind"], found.verdict
+    if kind not in {"choice", "multi", "tf"} or not verdict.graded:
         return ()
-    letters = [letter for letter in found.verdict.read_as if letter in LETTERS]
-    return tuple(options[LETTERS.index(letter)] for letter in letters)
+    if kind == "tf":
+        return (verdict.read_as,)
+    options: list[str] = part.spec.get("options", [])
+    return tuple(options[LETTERS.index(c)] for c in verdict.read_as if c in LETTERS)

@@ -19,8 +19,10 @@ from quizgen.maths.precision import working_precision
 Table = NDArray[np.float64]
 """A row for each student, a column for each item; NaN where there are no points."""
 
-HALVINGS = 60
-"""Of the interval in which a quantile lies."""
+HALVINGS = 34
+"""Of the interval in which a quantile lies: ten digits."""
+BITS = 64
+"""Working precision of probabilities, which nobody asks to more than a few digits."""
 
 
 def covariance(scores: Table) -> Table:
@@ -141,13 +143,13 @@ def holm(chances: Sequence[float]) -> list[float]:
     return adjusted
 
 
-@working_precision()
+@working_precision(BITS)
 def chi_square_tail(value: float, free: int) -> float:
     """Probability of more than a value under the chi-square distribution."""
     return float(arb(value / 2).gamma_upper(arb(free) / 2, regularized=1).mid())
 
 
-@working_precision()
+@working_precision(BITS)
 def f_tail(value: float, first: int, second: int) -> float:
     """Probability of more than a value under the F distribution."""
     share = arb(second) / (second + first * arb(value))

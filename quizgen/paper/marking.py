@@ -170,15 +170,23 @@ class Marker:
         self.options = options
         self.earlier: dict[str, Any] = {}
 
-    @working_precision()
     def mark(self, part: KeyPart, typed: str) -> PartResult:
         """Mark one part; a part marked again replaces its earlier values."""
+        spec, verdict = self._judged(part, typed)
+        return _result(self.question, part, typed, explained(spec, verdict, self.options.lang))
+
+    def judge(self, part: KeyPart, typed: str) -> PartResult:
+        """Mark one part without a word about it."""
+        return _result(self.question, part, typed, self._judged(part, typed)[1])
+
+    @working_precision()
+    def _judged(self, part: KeyPart, typed: str) -> tuple[Kind, Verdict]:
         spec = load_spec(part.in_order())
         options = msgspec.structs.replace(self.options, points=part.worth())
         verdict = _verdict(self.question, spec, typed, options, self.earlier)
         if self.question.chain is not None:
             _remember(self.question, spec, verdict, self.earlier)
-        return _result(self.question, part, typed, explained(spec, verdict, self.options.lang))
+        return spec, verdict
 
     def asked_back(self, part: KeyPart, typed: str, why: ReadError) -> PartResult:
         """A part whose answer did not arrive as it was given; it counts as one not read."""

@@ -65,6 +65,15 @@ def test_later_lines_count(rulings, typed, expected):
     assert {item: found[item] for item in expected} == expected
 
 
+def test_what_was_ticked_is_kept_by_its_words():
+    spec = {"kind": "tf", "correct": [2], "options": ["true", "false"]}
+    key = Key("quizgen-key/2", [KeyQuestion("1", [KeyPart("1", "1", spec)], template="so")])
+    found = mark_sheet(key, Sheet("s", {"1": "wahr"}), Book([]))
+    assert [(part.item, part.chosen, part.marks) for part in found.parts] == [
+        ("so", ("true",), 0.0)
+    ]
+
+
 def test_what_is_dropped_can_no_longer_be_reached():
     _, whole = marks([Ruling("drop", D)], **{"1a": "4"})
     assert (whole.marks, whole.points) == (2.0, 4.0)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from functools import lru_cache
 
 from quizgen.marking.echo import safe
 from quizgen.marking.judging.wording import budget, fold, slips
@@ -81,12 +82,19 @@ def _occurs(term: str, words: list[str]) -> bool:
 
 def _places(term: str, words: list[str]) -> Iterator[int]:
     """Where a term's words occur in a row."""
-    wanted = [fold(word) for word in _WORD.findall(term)]
+    wanted = _folded(term)
     for start in range(len(words) - len(wanted) + 1 if wanted else 0):
         if all(_alike(words[start + i], word) for i, word in enumerate(wanted)):
             yield from range(start, start + len(wanted))
 
 
+@lru_cache(maxsize=4096)
+def _folded(term: str) -> tuple[str, ...]:
+    """The words of a term, as they are compared."""
+    return tuple(fold(word) for word in _WORD.findall(term))
+
+
+@lru_cache(maxsize=8192)
 def _alike(word: str, wanted: str) -> bool:
     """Whether a word is the wanted one, one of its forms, or a slip of the fingers."""
     if len(wanted) >= 4 and word.startswith(wanted):
