@@ -29,6 +29,9 @@ SCALE = {"exam": 1.0, "solutions": 0.8}
 FIELD = {"exam": 1.0, "solutions": 0.6}
 """Size of a field to draw in: nobody draws in that of the solution."""
 
+SURE_TO_FIT = 80
+"""Characters of a typed formula that is no wider than the page: none takes more than 5.5 pt."""
+
 
 class _Sheet:
     """Typst source of one sheet, and the pictures it refers to."""
@@ -241,7 +244,8 @@ class _Sheet:
             [inline(line.why, lang) for line, lang in zip(lines, self.langs, strict=True)],
         )
         maths, cite = equation(lines[0].maths, self.main, block=True), string(lines[0].formula)
-        return f"#step([{maths}], [{why}], {cite})"
+        shown = f"#fitted[{maths}]" if len(lines[0].maths.typed) > SURE_TO_FIT else maths
+        return f"#step([{shown}], [{why}], {cite})"
 
     def _answer(self, part: PartSolution, lang: str) -> str:
         name = word(lang, "solution.answer")
