@@ -41,9 +41,12 @@ from quizgen.paper.form import form_bytes, holds_answers
 from quizgen.paper.key import key_of
 from quizgen.paper.paper import Holder, Paper, Progress, composed
 from quizgen.render import KINDS, render_paper
+from quizgen.render.typ import forget
 
 CHUNK = 8
 """Papers of a job: what a killed worker costs."""
+PRETENDED = 4
+"""Documents after each paper: a third of a worker's memory was what papers before it had left."""
 CLASS = "class"
 """Stands for the seed where a code would show one."""
 
@@ -281,6 +284,7 @@ def _made(job: Job, one: Student, drawing: _Drawing) -> Made:
     made = _composed(job, one, drawing.bank, drawn)
     paper = _graded(job.settings, one, made)
     sheets = [render_paper(paper, kind, "pdf") for kind in KINDS]
+    forget(PRETENDED)
     head = Head(one.id, paper.code, made.code, _stamp(job.settings, one), beside)
     return Made(
         one.id,

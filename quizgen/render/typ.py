@@ -145,6 +145,26 @@ def _fonts() -> Any:
 
 
 @cache
+def _scratch() -> Any:
+    """A compiler for documents that nobody reads."""
+    import typst
+
+    return typst.Compiler(b"", font_paths=_fonts())
+
+
+def forget(documents: int) -> None:
+    """Free memory: Typst keeps what it typeset until ten more documents have not needed it.
+
+    Parameters
+    ----------
+    documents : int
+        How many to pretend.
+    """
+    for _ in range(documents):
+        _scratch().compile(b"", format="pdf")
+
+
+@cache
 def _layout(name: str, package: str) -> str:
     return (files(package) / "pages" / name).read_text(encoding="utf-8")
 
