@@ -1,0 +1,85 @@
+"""Executors: the same bytes from all, and a worker that dies costs its job alone."""
+
+from __future__ import annotations
+
+import os
+
+import pytest
+from dying import Mortal, always_dead
+from small import begun, bytes_of, with_papers
+
+from quizgen.classes import make
+from quizgen.classes.executors import Here, Processes, run, workers
+from quizgen.classes.folder import ClassFolder
+from quizgen.classes.roster import Student
+from quizgen.errors import ChoiceError, ClassError
+
+STUDENTS = [Student(f"{n}") for n in range(4)]
+
+
+def pid_of(_job):
+    return os.getpid()
+
+
+def test_few_jobs_are_done_in_this_process():
+    with workers(1) as (executor, ahead):
+        assert list(run(executor, pid_of, range(3), ahead)) == [os.getpid()] * 3
+
+
+def test_no_more_jobs_wait_than_keep_the_workers_busy():
+    begun_jobs = []
+
+    def jobs():
+        for job in range(9):
+            begun_jobs.append(job)
+            yield job
+
+    results = run(Here(), str, jobs(), 2)
+    next(results)
+    assert begun_jobs == [0, 1]
+
+
+def test_the_jobs_of_a_process_that_is_killed_are_done_by_another(tmp_path):
+    executor = Mortal(2, tmp_path / "dead")
+    try:
+        found = list(run(executor, pid_of, range(6), 4))
+    finally:
+        executor.shutdown()
+    assert (tmp_path / "dead").exists()
+    assert len(found) == 6
+    assert os.getpid() not in found
+
+
+@pytest.mark.slow
+def test_a_worker_that_is_killed_changes_no_byte(tmp_path, monkeypatch):
+    monkeypatch.setattr(make, "CHUNK", 1)
+    folder, plan = begun(tmp_path, STUDENTS)
+    other = ClassFolder(tmp_path / "other")
+    other.create(folder.settings, STUDENTS)
+    with_papers(folder, plan, STUDENTS)
+    executor = Mortal(2, tmp_path / "dead")
+    try:
+        with_papers(other, plan, STUDENTS, executor)
+    finally:
+        executor.shutdown()
+    assert (tmp_path / "dead").exists()
+    assert bytes_of(other.path) == bytes_of(folder.path)
+
+
+@pytest.mark.slow
+def test_papers_that_kill_every_worker_are_given_up_with_a_sentence():
+    executor = Processes(1)
+    try:
+        with pytest.raises(ClassError, match="3 processes died"):
+            executor.submit(always_dead).result()
+    finally:
+        executor.shutdown()
+
+
+@pytest.mark.slow
+def test_a_scheduler_that_is_not_there_is_named():
+    with (
+        pytest.raises(ChoiceError, match=r"scheduler tcp://127\.0\.0\.1:1"),
+        workers(1, "tcp://127.0.0.1:1"),
+    ):
+        pass
