@@ -27,9 +27,10 @@ from quizgen.classes.folder import ClassFolder, Settings
 from quizgen.classes.make import CHUNK, make, new_settings
 from quizgen.classes.roster import Student
 from quizgen.paper.blueprint import load_blueprint
+from quizgen.paper.paper import Progress, silent
 
 PROCESSES = 4
-MOST_CPU, MOST_MEMORY, LEAST_GAIN = 0.3, 400, 3.4
+MOST_CPU, MOST_MEMORY = 0.3, 400
 FIRST = CHUNK
 """Papers that warm a process."""
 
@@ -70,7 +71,7 @@ def made(
     students: list[Student],
     executor: Executor,
     ahead: int,
-    told=lambda _: None,
+    told: Progress = silent,
 ) -> str:
     """Make a class anew; digest of its folder."""
     folder = ClassFolder(home / "class")
@@ -81,28 +82,26 @@ def made(
     return digest(folder.path)
 
 
-def here(home: Path, settings: Settings, students: list[Student]) -> tuple[str, float]:
-    """In this process: the digest, and CPU seconds a paper after the first few."""
+def here(home: Path, settings: Settings, students: list[Student]) -> str:
+    """In this process: the digest."""
     marks: list[tuple[float, float]] = []
     name = made(home, settings, students, Here(), 1, lambda _: marks.append((cpu(), memory())))
     spent = (marks[-1][0] - marks[FIRST - 1][0]) / (len(marks) - FIRST)
     middle = marks[len(marks) // 2][1]
     print(f"1 process: {spent:.3f} CPU s a student after the first {FIRST} (<= {MOST_CPU}), "
-          f"{middle:.0f} MB half way, {marks[-1][1]:.0f} MB at the end (<= {MOST_MEMORY})")  # fmt: skip
-    return name, spent
+          f"{middle:.0f} MB half way, {marks[-1][1]:.0f} at last (<= {MOST_MEMORY})")  # fmt: skip
+    return name
 
 
-def processes(
-    home: Path, settings: Settings, students: list[Student], count: int
-) -> tuple[str, float]:
-    """In processes: the digest, and seconds of the clock."""
+def processes(home: Path, settings: Settings, students: list[Student], count: int) -> str:
+    """In processes: the digest."""
     started, before = time.monotonic(), cpu()
     with workers(count) as (executor, ahead):
         name = made(home, settings, students, executor, ahead)
     clock = time.monotonic() - started
     print(f"{count} processes: {clock:.1f} s by the clock, {cpu() - before:.1f} CPU s, "
-          f"{memory(resource.RUSAGE_CHILDREN):.0f} MB the largest worker (<= {MOST_MEMORY})")  # fmt: skip
-    return name, clock
+          f"{memory(resource.RUSAGE_CHILDREN):.0f} MB the largest (<= {MOST_MEMORY})")  # fmt: skip
+    return name
 
 
 @contextmanager
@@ -141,10 +140,9 @@ def main(count: int) -> None:
     with tempfile.TemporaryDirectory() as temporary:
         home = Path(temporary)
         print(f"loop: {loop():.1f} ms")
-        names = [here(home, settings, students)[0]]
+        names = [here(home, settings, students)]
         print(f"loop: {loop():.1f} ms")
-        one, alone = processes(home, settings, students, PROCESSES)
-        names.append(one)
+        names.append(processes(home, settings, students, PROCESSES))
         names.append(on_a_cluster(home, settings, students))
     print("same bytes" if len(set(names)) == 1 else f"OTHER BYTES: {names}")
 
