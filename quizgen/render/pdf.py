@@ -18,6 +18,7 @@ from quizgen.render.typ import (
     equation,
     inline,
     joined,
+    printable,
     say,
     string,
     within,
@@ -99,7 +100,7 @@ class _Sheet:
         rows = [("code", f"raw({string(paper.code)})"), ("total", string(total))]
         if paper.holder:
             known = (("name", paper.holder.name), ("matriculation", paper.holder.id))
-            rows = [*((name, string(value)) for name, value in known if value), *rows]
+            rows = [*((name, string(printable(value))) for name, value in known if value), *rows]
         if self.kind == "exam":
             aids = joined(self.langs, [f"#{string(paper.aids(lang))};" for lang in self.langs])
             rows.append(("aids", f"[{aids}]"))
@@ -283,7 +284,8 @@ class _Sheet:
 
 def _named(paper: Paper) -> str:
     """Whose paper it is, at the foot of every page."""
-    return " · ".join(filter(None, (paper.holder.name, paper.holder.id))) if paper.holder else ""
+    known = (paper.holder.name, paper.holder.id) if paper.holder else ()
+    return " · ".join(map(printable, filter(None, known)))
 
 
 def _points(points: Fraction) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import unicodedata
 from collections.abc import Iterable, Mapping
 from datetime import UTC, datetime
 from functools import cache, singledispatch
@@ -17,6 +18,8 @@ from quizgen.question.filling import tied
 from quizgen.question.shown import Maths
 from quizgen.render import fonts
 
+_KNOWN = frozenset(map(chr, (*range(0x20, 0x7F), *range(0xA1, 0x180), *range(0x985, 0x9E4))))
+"""Latin and Bangla, in which most names are written."""
 STANDARD: Final = "ua-1"
 MOMENT = datetime(2000, 1, 1, tzinfo=UTC)
 """The date written into every file: the same paper is the same bytes on any day."""
@@ -142,6 +145,23 @@ def _fonts() -> Any:
         include_embedded_fonts=True,
         font_paths=[str(fonts.bangla_folder())],
     )
+
+
+def printable(text: str) -> str:
+    """A name with ``?`` for each character that no font here has: one alone would stop the page."""
+    return "".join(c if _has_glyph(c) else "?" for c in text)
+
+
+@cache
+def _has_glyph(character: str) -> bool:
+    if character in _KNOWN or unicodedata.category(character) in {"Mn", "Mc", "Cf"}:
+        return True  # a mark is printed with the letter before it
+    page = f'#set document(title: [x])\n#text(lang: "en", {string(character)})'
+    try:
+        compiled(page, {})
+    except RenderError:
+        return False
+    return True
 
 
 @cache
