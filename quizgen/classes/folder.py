@@ -162,13 +162,13 @@ class ClassFolder:
         ClassError
             If no paper has it, or the paper's key has been changed.
         """
-        wanted = code.strip().upper()
+        wanted, secret = code.strip().upper(), self.settings.secret
         places = [place for head, place in self.places().values() if head.code == wanted]
         if not places:
             raise ClassError(f"{self.path}: no paper of this class has the code {wanted!r}")
         found = self._record(places[0])
         digest = digest_of_key(found.key, found.head.made)
-        if code_of(self.settings.secret, found.head.id, digest) != wanted:
+        if code_of(secret, found.head.id, digest) != wanted:
             raise ClassError(f"{self.path / KEYS}: the key of {wanted} has been changed")
         return found
 

@@ -79,6 +79,7 @@ def make(**options: Unpack[Options]) -> None:
     ):
         report = make_papers(folder, students, blueprint, executor, ahead, progress)
     _say(folder, report)
+    _say_of_names(students)
 
 
 @class_.command()
@@ -145,6 +146,14 @@ def _say(folder: ClassFolder, report: Report) -> None:
     for student in report.left:
         tell(f"{student} is no longer on the roster; the paper and its key stay")
     tell("Nobody but you should read the folder: class.toml and keys.jsonl lead to every answer")
+
+
+def _say_of_names(students: list[Student]) -> None:
+    from quizgen.render.typ import printable
+
+    for one in students:
+        if printable(one.name + one.id) != one.name + one.id:
+            tell(f"{one.id}: no font here has all of {one.name}; the rest is printed as ?")
 
 
 def _comparison(report: Report) -> str:

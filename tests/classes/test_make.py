@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import json
 import shutil
 import stat
@@ -14,10 +13,12 @@ from small import begun, bytes_of, with_papers
 
 from quizgen.classes.folder import ClassFolder
 from quizgen.classes.roster import Student
+from quizgen.classes.secret import seed_of
 from quizgen.errors import ClassError
+from quizgen.paper.key import digest_of_key, load_key
 
 IDS = ("11", "12", "13", "14", "../15")
-STUDENTS = [Student(one, f"Student {one}") for one in IDS]
+STUDENTS = [Student("11", '李 "Ada" #raw(1)', extra="25%"), *(Student(one, one) for one in IDS[1:])]
 
 
 @pytest.fixture(scope="module")
@@ -63,9 +64,45 @@ def test_what_leads_to_answers_is_for_the_examiner_alone(made):
             assert stat.S_IMODE(path.stat().st_mode) & 0o077 == 0, path
 
 
-def pages(data):
-    with pikepdf.open(io.BytesIO(data)) as pdf:
-        return len(pdf.pages), str(pdf.docinfo)
+def printed(path):
+    """Every stream of a PDF file, unpacked, and what it says about itself."""
+    with pikepdf.open(path) as pdf:
+        streams = [one.read_bytes() for one in pdf.objects if isinstance(one, pikepdf.Stream)]
+        return b"\n".join([*streams, str(pdf.docinfo).encode()])
+
+
+def test_every_page_says_whose_it_is(made):
+    """The foot of the page is text on all pages; the code is among the words about the file."""
+    for one in keys(made[0]).values():
+        name = Student(one["id"]).file
+        assert one["code"].encode() in printed(made[0].path / f"papers/{name}.pdf")
+    text = (made[0].path / "forms/11.toml").read_text(encoding="utf-8")
+    assert 'matriculation = "11"' in text
+    assert 'name = "李 \\"Ada\\" #raw(1)"' in text
+
+
+def test_nothing_that_students_hold_leads_to_the_key(made):
+    """Not the secret, no seed, and no digest that would confirm a guess at what is not printed."""
+    folder = made[0]
+    secret = folder.settings.secret
+    for one in keys(folder).values():
+        name, key = Student(one["id"]).file, load_key(one["key"])
+        digest = digest_of_key(key, one["made"])
+        form = (folder.path / f"forms/{name}.toml").read_bytes()
+        held = form + printed(folder.path / f"papers/{name}.pdf")
+        for told in (secret, seed_of(secret, one["id"]), seed_of(secret), digest, one["made"]):
+            assert told.encode() not in held
+        assert key.paper.encode() in form
+        assert key.questions[0].identity.encode() not in held
+
+
+def test_another_class_of_the_same_students_has_other_numbers_and_codes(made, tmp_path):
+    folder, plan = begun(tmp_path, STUDENTS)
+    with_papers(folder, plan, STUDENTS[:2])
+    for one, other in zip(keys(folder).values(), keys(made[0]).values(), strict=False):
+        assert one["code"] != other["code"]
+        pairs = zip(one["key"]["questions"], other["key"]["questions"], strict=True)
+        assert any(left["identity"] != right["identity"] for left, right in pairs)
 
 
 def test_a_second_run_makes_nothing(copied):
