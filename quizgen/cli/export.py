@@ -22,7 +22,7 @@ from quizgen.cli.options import (
 )
 from quizgen.cli.terminal import Progress
 from quizgen.errors import ChoiceError
-from quizgen.export import FORMATS, exporter
+from quizgen.export import FORMATS, TEX, exporter
 from quizgen.locale import FIRST, choices, chosen
 
 if TYPE_CHECKING:
@@ -68,9 +68,9 @@ def export(**options: Unpack[Options]) -> None:
     """Write questions for a system for courses, with variants to draw from.
 
     FORMAT is moodle (Moodle XML), gift (plain text of Moodle), qti21 or qti3 (packages of QTI 2.1
-    and 3.0). Parts that the system cannot mark become essays; which and why is told, and stands in
-    a file beside it. Another file beside it holds what quizgen check needs to mark the responses;
-    it has all the answers.
+    and 3.0), or canvas (a package of QTI 1.2 as Canvas reads it). Parts that the system cannot mark
+    become essays; which and why is told, and stands in a file beside it. Another file beside it
+    holds what quizgen check needs to mark the responses; it has all the answers.
     """
     from quizgen.export.kept import kept
     from quizgen.export.wording import formulas
@@ -78,6 +78,8 @@ def export(**options: Unpack[Options]) -> None:
     from quizgen.responses.keys import SUFFIX, written
 
     target = options["target"]
+    if options["maths"] == "tex" and target not in TEX:
+        raise ChoiceError(f"--maths tex: not for {target}, only for {', '.join(TEX)}")
     path = options["out"] or Path("export") / FORMATS[target]
     made = exporter(target)
     with Progress("export") as tell, formulas(options["maths"]):

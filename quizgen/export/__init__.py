@@ -21,8 +21,11 @@ FORMATS = {
     "gift": "gift.txt",
     "qti21": "qti21.zip",
     "qti3": "qti3.zip",
+    "canvas": "canvas.zip",
 }
 """The formats there are, and what their files are called."""
+TEX = ("moodle", "gift", "canvas")
+"""Those whose systems may have a filter for formulas in TeX; QTI has MathML."""
 
 
 class Exporter(NamedTuple):
@@ -51,6 +54,11 @@ def exporter(name: str) -> Exporter:
             from quizgen.export import gift
 
             return Exporter(gift.write, gift.by_hand, gift.kept)
+        case "canvas":
+            from quizgen.export import canvas
+            from quizgen.export.items import by_hand
+
+            return Exporter(canvas.write, by_hand, canvas.kept)
         case "qti21":
             from quizgen.export.items import by_hand
             from quizgen.export.qti.item import kept

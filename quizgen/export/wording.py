@@ -174,7 +174,9 @@ def image(source: str, figure: Figure | None) -> Markup:
     return tag.format(source, figure.alt, figure.width_pt * 4 / 3, figure.height_pt * 4 / 3)
 
 
-def solution(item: Item, picture: Markup, labels: Sequence[str] = ()) -> Markup:
+def solution(
+    item: Item, picture: Markup, labels: Sequence[str] = (), *, told: bool = True
+) -> Markup:
     """The worked solution, and its picture if it has one of its own.
 
     Parameters
@@ -183,17 +185,19 @@ def solution(item: Item, picture: Markup, labels: Sequence[str] = ()) -> Markup:
     picture : Markup
     labels : sequence of str
         Of which parts; all of them if none is named.
+    told : bool
+        Whether the system itself says what is wrong with a known mistake.
     """
     rows = zip(item.parts, item.key.solution.parts, strict=True)
     kept = [
-        (part, solved if by_person(found) else _untold(found, solved))
+        (part, _untold(found, solved) if told and not by_person(found) else solved)
         for (part, found), solved in rows
         if not labels or part.label in labels
     ]
     parts = tuple(part for part, _ in kept)
     whole = item.key.solution if len(parts) == len(item.parts) else _alone(item.key.solution)
-    told = replace(whole, parts=tuple(solved for _, solved in kept))
-    question, key = replace(item.question, parts=parts), replace(item.key, solution=told)
+    chosen = replace(whole, parts=tuple(solved for _, solved in kept))
+    question, key = replace(item.question, parts=parts), replace(item.key, solution=chosen)
     made = PaperItem(question.number, (question,), (key,))
     page = fragment("worked.html.j2", _way.get(), item=made, picture=picture)
     return Markup(_STYLED.sub("", page))  # noqa: S704 - a page without some attributes

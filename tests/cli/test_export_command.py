@@ -40,6 +40,7 @@ def test_the_same_call_writes_the_same_bytes(tmp_path):
         (["gift", "--template", "nothing-such"], "nothing-such"),
         (["gift", "--template", ","], "names no template"),
         (["gift", "--variants", "0"], "--variants"),
+        (["qti3", "--maths", "tex"], "not for qti3, only for moodle, gift, canvas"),
         (["moodle", "--blueprint", "none-such"], "no blueprint 'none-such'"),
     ],
 )
