@@ -21,10 +21,15 @@ def written(value: str | float) -> str:
     return value if isinstance(value, str) else f"{Decimal(repr(value)):f}"
 
 
+@lru_cache(maxsize=10_000, typed=True)
+def _attribute(key: str, value: str | float) -> str:
+    return f' {key}="{escape(written(value))}"'
+
+
 def element(name: str, attributes: Attributes, *inside: str) -> Markup:
     """An element of XML; texts that are not markup are escaped."""
-    listed = "".join(f' {key}="{escape(written(value))}"' for key, value in attributes.items())
-    body = Markup("").join(inside)
+    listed = "".join([_attribute(key, value) for key, value in attributes.items()])
+    body = "".join([one if isinstance(one, Markup) else escape(one) for one in inside])
     end = f">{body}</{name}>" if body else "/>"
     return Markup(f"<{name}{listed}{end}")  # noqa: S704 - made of escaped pieces
 
