@@ -15,10 +15,9 @@ from quizgen.export.kept import asked
 from quizgen.export.qti.dialect import QTI21, Dialect, written
 from quizgen.export.qti.place import Place
 from quizgen.export.qti.played import Played, played
-from quizgen.export.wording import body, image, solution, stem
+from quizgen.export.wording import body, image, inline, solution, stem
 from quizgen.figures import Figure
 from quizgen.locale import word
-from quizgen.question.markup import inline
 from quizgen.responses.keys import Entry
 
 Source = Callable[[Figure], str]
@@ -81,10 +80,13 @@ def _asked(item: Item, dialect: Dialect) -> Iterator[list[tuple[Ask, Place]]]:
     """
     for part, asks in item.parts:
         label = f"_{part.label}" if part.label else ""
-        suffixes = [f"{label}_{i}" for i in range(1, len(asks) + 1)] if len(asks) > 1 else [label]
-        worth = 1.0 if len(asks) > 1 else float(part.points)
-        places = (Place(dialect, suffix, worth, item.lang) for suffix in suffixes)
-        yield list(zip(asks, places, strict=True))
+        points = float(part.points)
+        yield [
+            (ask, Place(dialect, f"{label}_{i}", 1.0, item.lang, f"{i}. "))
+            if len(asks) > 1
+            else (ask, Place(dialect, label, points, item.lang))
+            for i, ask in enumerate(asks, 1)
+        ]
 
 
 def _declared(item: Item, rows: list[Row], dialect: Dialect) -> Iterator[Markup]:
@@ -151,7 +153,7 @@ def _feedback(item: Item, rows: list[Row], dialect: Dialect, source: Source) -> 
     """What is said of each mistake, and the worked solution."""
     for one in (one for row in rows for one in row.played.feedback):
         yield _modal(dialect, one.outcome, one.value, inline(one.said, item.lang))
-    told = solution(item, _picture(item.key.figure, source))
+    told = solution(item, _picture(item.solved_figure, source))
     drawn = (part.drawing.figure for part in item.key.solution.parts if part.drawing)
     for figure in drawn:
         told = Markup(_DRAWING.sub(_picture(figure, source), told, count=1))  # noqa: S704

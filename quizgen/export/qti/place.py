@@ -24,12 +24,15 @@ class Place:
     worth : float
         Its marks.
     lang : str
+    number : str
+        What a field without a name is told from its neighbours by, as ``2. ``.
     """
 
     dialect: Dialect
     suffix: str
     worth: float
     lang: str
+    number: str = ""
 
     @property
     def response(self) -> str:

@@ -29,10 +29,9 @@ from quizgen.export.asks import (
 from quizgen.export.qti.dialect import Attributes, written
 from quizgen.export.qti.place import Place
 from quizgen.export.ranges import Range
-from quizgen.export.wording import marked
+from quizgen.export.wording import inline, marked
 from quizgen.locale import word
 from quizgen.maths.units import shown as shown_unit
-from quizgen.question.markup import inline
 from quizgen.question.shown import named
 
 LENGTH = 20
@@ -72,7 +71,7 @@ def played(ask: Ask, _at: Place) -> Played:
 def _number(ask: Numeric, at: Place) -> Played:
     right = [_within(one, at) for one in ask.ranges if one.right]
     wrong = [(_within(one, at), one.said) for one in ask.ranges if not one.right and one.said]
-    name = inline((named(ask.name),), at.lang) + " = " if ask.name else ""
+    name = inline((named(ask.name),), at.lang) + " = " if ask.name else at.number
     unit = "" if ask.unit in {"", "1"} else f" {shown_unit(ask.unit)}"
     declared = at.declared("single float", [written(ask.key.value)])
     return _compared(
@@ -93,7 +92,7 @@ def _words(ask: Fill, at: Place) -> Played:
 
     wrong = [(same(typed), said) for typed, said in ask.wrong if said]
     declared = at.declared("single string", ask.right[:1])
-    shown = Markup("<p>{}</p>").format(_entry(at))
+    shown = Markup("<p>{}{}</p>").format(at.number, _entry(at))
     return _compared(at, declared, shown, [same(typed) for typed in ask.right], wrong)
 
 
