@@ -104,6 +104,11 @@ class Paper:
         return next((line.formula for part in solved for line in part.lines if line.formula), "")
 
     @property
+    def drawn(self) -> bool:
+        """Whether an answer is drawn."""
+        return any(one.field.drawing for item in self.items for one in item.questions[0].parts)
+
+    @property
     def digest(self) -> str:
         """Short digest of what is asked and marked; page, form and key that belong together agree.
 

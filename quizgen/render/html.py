@@ -27,6 +27,7 @@ def _layouts(way: Manner = OURS) -> jinja2.Environment:
         marks=marks,
         points=lambda worth: f"{float(worth):g}",
         squares=squares,
+        drawing=_board,
         svg=lambda figure: Markup(figure.svg.decode()),
     )
     return layouts
@@ -36,6 +37,11 @@ def _layouts(way: Manner = OURS) -> jinja2.Environment:
 def _style() -> str:
     page = (files("quizgen.render") / "pages" / "paper.css").read_text(encoding="utf-8")
     return line_heights(":lang({})") + page
+
+
+def _board(name: str) -> Markup:
+    """A file that a page needs to be drawn in."""
+    return Markup((files("quizgen.render") / "board" / name).read_text(encoding="utf-8"))
 
 
 def page(layout: str, langs: tuple[str, ...], style: str = "", **content: object) -> bytes:

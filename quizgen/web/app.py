@@ -92,6 +92,7 @@ def _routes(settings: Settings) -> list[BaseRoute]:
         Route("/settings", settle, methods=["POST"]),
         Route("/static/languages.css", language_sheet),
         Mount("/static/fonts", StaticFiles(directory=WEB)),
+        Mount("/static/board", StaticFiles(directory=str(files("quizgen.render") / "board"))),
         Mount("/static", StaticFiles(directory=str(files("quizgen.web") / "static"))),
     ]
 

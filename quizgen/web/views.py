@@ -12,7 +12,7 @@ from markupsafe import Markup
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 
-from quizgen.locale import FIRST, known, language, languages, line_heights, marks, table
+from quizgen.locale import FIRST, known, language, languages, line_heights, marks, table, word
 from quizgen.practice.schedule import day_of
 from quizgen.render.layouts import environment
 from quizgen.web.door import form_token
@@ -23,9 +23,9 @@ from quizgen.web.store import Learner
 
 @cache
 def _layouts() -> jinja2.Environment:
-    layouts = environment("quizgen.web")
+    layouts = environment("quizgen.web", "quizgen.render")
     layouts.filters["html"] = Markup  # of what was made here, see ``made.Html``
-    layouts.globals.update(languages=languages, language=language, strokes=strokes)
+    layouts.globals.update(languages=languages, language=language, strokes=strokes, word=word)
     return layouts
 
 

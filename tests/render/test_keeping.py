@@ -144,7 +144,7 @@ def test_a_blank_form_prints_lines_to_write_on(context, folder):
         f.selectedOptions ? f.selectedOptions[0].textContent : f.value]; })""")
     assert look
     assert {tuple(one) for one in look} == {("0px", "1px", "none", "")}
-    heights = page.evaluate("""() => [...document.querySelectorAll("input[style]")]
+    heights = page.evaluate("""() => [...document.querySelectorAll("input[style]:not(.typing)")]
       .map(f => f.getBoundingClientRect().height)""")
     assert heights
     assert min(heights) > 40
@@ -155,3 +155,27 @@ def test_the_page_says_at_its_start_what_paper_it_is_of(folder):
     key = json.loads((folder / "key.json").read_text(encoding="utf-8"))
     head = (folder / "exam.html").read_bytes()[:4096].decode()
     assert re.search(r'data-paper="([0-9a-f]{16})"', head)[1] == key["paper"]
+
+
+def test_what_is_drawn_in_the_page_is_kept_as_its_text(bank, context, tmp_path, barriers):
+    paper = build(bank, load_blueprint("trial"), 3, "en", figures=False)
+    (tmp_path / "exam.html").write_bytes(render_paper(paper, "exam", "html"))
+    page = opened(context, tmp_path)
+    svg, field = page.locator("svg.strokes"), page.locator("input.typing")
+    svg.scroll_into_view_if_needed()
+    box = svg.bounding_box()
+    page.mouse.move(box["x"] + box["width"] / 3, box["y"] + box["height"] / 3)
+    page.mouse.down()
+    page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2, steps=5)
+    page.mouse.up()
+    svg.focus()
+    for key in ("Enter", "Shift+ArrowRight", "Enter", "Escape"):
+        page.keyboard.press(key)
+    text = field.input_value()
+    assert re.fullmatch(r"-0\.\d+,0\.\d+ \S+; 0,0 0\.5,0", text)
+    page.reload()
+    assert field.input_value() == text
+    assert svg.locator("polyline").count() == 2
+    assert not barriers(page)
+    page.get_by_role("button", name="Undo").click()
+    assert field.input_value() == text.split(";")[0]

@@ -3,7 +3,7 @@
 // lines between semicolons, is what is posted; whoever types there sees it drawn.
 
 const sketching = (box) => {
-  const area = box.parentElement.querySelector("textarea");
+  const area = box.parentElement.querySelector("textarea, input.typing");
   if (!area || area.readOnly || box.dataset.ready) { return; }
   box.dataset.ready = "yes";
   const svg = box.querySelector(".strokes");
