@@ -27,7 +27,7 @@ from quizgen.render.typ import (
 
 SCALE = {"exam": 1.0, "solutions": 0.8}
 """Size of figures: smaller where they have been seen before, so that less of a page stays empty."""
-FIELD = {"exam": 1.0, "solutions": 0.6}
+FIELD = {"exam": 1.0, "solutions": 0.5}
 """Size of a field to draw in: nobody draws in that of the solution."""
 
 SURE_TO_FIT = 80
