@@ -43,6 +43,7 @@ class Options(BankOptions):
     columns: str | None
     lang: str | None
     vary: bool
+    one_file: bool
     jobs: int | None
     scheduler: str
 
@@ -55,6 +56,7 @@ class Options(BankOptions):
 @click.option("--lang", type=click.Choice(choices(), case_sensitive=False),
               help=f"Language of who has none in the roster. [default: {FIRST}]")  # fmt: skip
 @click.option("--vary", is_flag=True, help="Other templates of the same kind, too.")
+@click.option("--one-file", is_flag=True, help="Write print.pdf, too: all papers, for the printer.")
 @click.option("--jobs", type=Whole(1, MOST_JOBS), help="Processes. [default: as many as cores]")
 @click.option("--scheduler", default="", help="Dask scheduler that makes them: tcp://HOST:8786.")
 @bank_options
@@ -67,6 +69,7 @@ def make(**options: Unpack[Options]) -> None:
     from quizgen.classes.executors import workers
     from quizgen.classes.folder import ClassFolder
     from quizgen.classes.make import make as make_papers
+    from quizgen.classes.printing import print_file
     from quizgen.classes.roster import read_roster
 
     students = read_roster(options["roster"], _columns(options["columns"]))
@@ -78,6 +81,8 @@ def make(**options: Unpack[Options]) -> None:
         workers(count, options["scheduler"]) as (executor, ahead),
     ):
         report = make_papers(folder, students, blueprint, executor, ahead, progress)
+    if options["one_file"]:
+        print_file(folder, students)
     _say(folder, report)
     _say_of_names(students)
 

@@ -12,6 +12,7 @@ import pytest
 from small import begun, bytes_of, with_papers
 
 from quizgen.classes.folder import ClassFolder
+from quizgen.classes.printing import print_file
 from quizgen.classes.roster import Student
 from quizgen.classes.secret import seed_of
 from quizgen.errors import ClassError
@@ -192,3 +193,17 @@ def test_a_code_leads_to_its_student_as_long_as_the_key_is_that_of_the_paper(cop
     path.write_text(path.read_text(encoding="utf-8").replace(identity, '"other"'), encoding="utf-8")
     with pytest.raises(ClassError, match="has been changed"):
         folder.whose(code)
+
+
+def test_for_the_printer_every_paper_begins_on_a_right_hand_page(copied):
+    folder, _ = copied
+    print_file(folder, STUDENTS)
+    with pikepdf.open(folder.path / "print.pdf") as whole:
+        at = 0
+        for one in STUDENTS:
+            with pikepdf.open(folder.path / f"papers/{one.file}.pdf") as paper:
+                assert at % 2 == 0
+                first = whole.pages[at].Contents.read_bytes()
+                assert first == paper.pages[0].Contents.read_bytes()
+                at += len(paper.pages) + len(paper.pages) % 2
+        assert len(whole.pages) == at
