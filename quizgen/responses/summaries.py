@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Iterable, Mapping, Sequence
+from functools import lru_cache
 
 from quizgen.marking.echo import safe
 from quizgen.maths.notation import ReadError
@@ -139,6 +140,12 @@ def _bare(text: str) -> str:
     return _IGNORED.sub("", unicodedata.normalize("NFKC", text))
 
 
+@lru_cache(maxsize=8192)
+def _ours(text: str) -> str:
+    """The same of what an option says, which is compared with every response."""
+    return _bare(text)
+
+
 def _which(options: Mapping[str, Iterable[str]], text: str) -> str:
     """The letter of the one option that says this.
 
@@ -147,9 +154,10 @@ def _which(options: Mapping[str, Iterable[str]], text: str) -> str:
     ReadError
         If none does, or several do.
     """
-    for read in (_bare, lambda told: _bare(told).casefold()):
-        wanted = read(text)
-        hits = [mark for mark, texts in options.items() if wanted in map(read, texts)]
+    said = _bare(text)
+    for fold in (str, str.casefold):
+        wanted = fold(said)
+        hits = [m for m, texts in options.items() if wanted in map(fold, map(_ours, texts))]
         if len(hits) == 1:
             return hits[0]
         if hits:
@@ -163,13 +171,14 @@ def _listed(options: Mapping[str, Iterable[str]], text: str) -> Values:
     Texts may hold semicolons themselves, so longer runs of pieces are tried as well.
     """
     pieces = text.split(";")
+    longest = 1 + max(told.count(";") for texts in options.values() for told in texts)
     found: Values = []
     while pieces:
-        for count in range(1, len(pieces) + 1):
+        for count in range(1, longest + 1):
             try:
                 found.append(_which(options, ";".join(pieces[:count])))
             except ReadError:
-                if count == len(pieces):
+                if count == longest:
                     raise
             else:
                 del pieces[:count]
