@@ -23,6 +23,8 @@ from quizgen.render.layouts import environment
 from quizgen.render.typ import compiled, document, string
 
 MOST_TO_REVISE = 5
+NOT_TYPED = frozenset({"text", "sketch"})
+"""Kinds whose key nobody types."""
 PACKAGE = "quizgen.classes"
 
 
@@ -172,12 +174,21 @@ def _rows(question: KeyQuestion, marks: Marks) -> Iterator[Row]:
         message = "" if again.blank or found.marks == found.points else again.verdict.message
         yield Row(
             part.id.removeprefix(question.number),
-            visible(found.typed, "") if found.typed.strip() else words["blank"],
-            show(part.in_order(), known(marks.lang)),
+            _typed(found.typed, part.spec["kind"], words),
+            words["solution"]
+            if part.spec["kind"] in NOT_TYPED
+            else show(part.in_order(), known(marks.lang)),
             _points(found, words),
             message,
             _said(found, words),
         )
+
+
+def _typed(typed: str, kind: str, words: Mapping[str, str]) -> str:
+    """An answer as it stands in a cell."""
+    if not typed.strip():
+        return words["blank"]
+    return words["drawn"] if kind == "sketch" else visible(typed, "")
 
 
 def _points(part: PartMark, words: Mapping[str, str]) -> str:

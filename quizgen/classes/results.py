@@ -11,8 +11,9 @@ from quizgen.classes.history import History
 from quizgen.classes.keys import Keys
 from quizgen.classes.reports import report_html, report_of, report_pdf
 from quizgen.classes.scale import read_scale
-from quizgen.errors import ClassError
+from quizgen.errors import ClassError, KeyFileError
 from quizgen.files import write_all
+from quizgen.outside import located
 
 REPORTS = "reports"
 CHUNK = 50
@@ -45,11 +46,10 @@ def grade(
     scale = read_scale(folder.path)
     lines = graded(folder.students(), folder.heads(), marked, scale)
     files = write_grades(folder.path, lines, scale)
+    keys, place = Keys(folder), folder.path / FOLDER / REPORTS
     for chunk in _chunks([one for one in lines if one.marks] if formats else []):
-        write_all(
-            folder.path / FOLDER / REPORTS, _reports(folder, chunk, formats, anonymous), PRIVATE
-        )
-    return lines, [*files, *([folder.path / FOLDER / REPORTS] if formats else [])]
+        write_all(place, _reports(keys, chunk, formats, anonymous), PRIVATE)
+    return lines, [*files, *([place] if formats else [])]
 
 
 def _chunks(lines: Sequence[Graded]) -> Iterator[Sequence[Graded]]:
@@ -58,14 +58,14 @@ def _chunks(lines: Sequence[Graded]) -> Iterator[Sequence[Graded]]:
 
 
 def _reports(
-    folder: ClassFolder, lines: Sequence[Graded], formats: Sequence[str], anonymous: bool
+    keys: Keys, lines: Sequence[Graded], formats: Sequence[str], anonymous: bool
 ) -> dict[str, bytes]:
     """Name of each file and its bytes."""
-    keys = Keys(folder)
     render = {"html": report_html, "pdf": report_pdf}
     made: dict[str, bytes] = {}
     for line in lines:
-        report = report_of(line, keys.key(line.student.id), anonymous=anonymous)
+        with located(keys.path, KeyFileError):
+            report = report_of(line, keys.key(line.student.id), anonymous=anonymous)
         name = line.code if anonymous else line.student.file
         made |= {f"{name}.{form}": render[form](report) for form in formats}
     return made

@@ -16,8 +16,9 @@ from quizgen.classes.history import History, Outcome
 from quizgen.classes.keys import Keys, key_at
 from quizgen.classes.mark import Marks, Sheet, mark_sheet
 from quizgen.classes.rulings import FILE, Book, Ruling, append_rulings, read_rulings
-from quizgen.errors import ClassError
+from quizgen.errors import ClassError, KeyFileError
 from quizgen.locale import FIRST
+from quizgen.outside import located
 
 CHUNK = 50
 """Students of a job."""
@@ -101,4 +102,5 @@ def _jobs(sheets: Iterable[Sheet], keys: Keys, rulings: tuple[Ruling, ...]) -> I
 def marked(job: Job) -> list[Marks]:
     """Mark the sheets of a job."""
     book = Book(job.rulings)
-    return [mark_sheet(key_at(job.keys, at), sheet, book) for sheet, at in job.sheets]
+    with located(job.keys, KeyFileError):
+        return [mark_sheet(key_at(job.keys, at), sheet, book) for sheet, at in job.sheets]

@@ -223,6 +223,7 @@ def test_students_get_a_report_and_nobody_a_formula(decided):
     page = (reports / "1000.html").read_text("utf-8")
     assert "Ada &#34;the first&#34; Lovelace" in page
     assert "see the notes" in page
+    assert "see the worked solutions" in page
     assert 'lang="bn"' in (reports / "1001.html").read_text("utf-8")
     with (folder / "results" / "grades.csv").open(encoding="utf-8-sig", newline="") as stream:
         cells = [cell for row in csv.reader(stream) for cell in row]
