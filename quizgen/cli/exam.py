@@ -113,9 +113,11 @@ def _filled_in(form: Path, paper: Paper) -> bool:
     Raises
     ------
     RenderError
-        If its folder has one with answers to another, which would be separated from its key.
+        If its folder has one with answers to another, or the key of another: answers to that may
+        still come, from a printed page or from where a browser saved them.
     """
     from quizgen.paper.form import code_of_answers, holds_answers
+    from quizgen.paper.key import code_of_key
 
     for path in sorted(p for p in form.parent.glob("*") if p.suffix.lower() in SUFFIXES):
         code = code_of_answers(path)
@@ -123,6 +125,12 @@ def _filled_in(form: Path, paper: Paper) -> bool:
         if unclear or code not in {"", paper.code}:
             what = f"holds answers to {visible(code)}" if code else "may hold answers"
             raise RenderError(f"{path} {what}; nothing was written. Name another folder with --out")
+    code = code_of_key(form.parent / KEY)
+    if code not in {"", paper.code}:
+        raise RenderError(
+            f"{form.parent / KEY} is the key of {visible(code)}, whose answers may still come; "
+            "nothing was written. Name another folder with --out"
+        )
     return holds_answers(form)
 
 

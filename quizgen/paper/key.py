@@ -272,3 +272,11 @@ def read_key(path: Path) -> Key:
         Naming file and field or line.
     """
     return load_key(read_table(path), str(path))
+
+
+def code_of_key(path: Path) -> str:
+    """The code of the paper that a key is of; empty for any other file, or none."""
+    try:
+        return str(read_table(path).get("code", ""))
+    except KeyFileError:
+        return ""

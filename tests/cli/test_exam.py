@@ -135,6 +135,16 @@ def test_a_filled_form_is_never_separated_from_its_key(tmp_path, name):
     assert {path.name: path.read_bytes() for path in (tmp_path / "o").iterdir()} == before
 
 
+def test_a_key_whose_answers_may_still_come_is_never_replaced(tmp_path):
+    run(*TRIAL, "4", "--out", "o", cwd=tmp_path)
+    before = {path.name: path.read_bytes() for path in (tmp_path / "o").iterdir()}
+    result = run(*TRIAL, "5", "--out", "o", cwd=tmp_path)
+    assert result.returncode == 2
+    assert "whose answers may still come; nothing was written" in result.stderr
+    assert {path.name: path.read_bytes() for path in (tmp_path / "o").iterdir()} == before
+    assert run(*TRIAL, "4", "--out", "o", cwd=tmp_path).returncode == 0
+
+
 def test_a_form_that_cannot_be_read_is_never_overwritten(tmp_path):
     (tmp_path / "o").mkdir()
     form = tmp_path / "o" / "answers.toml"
