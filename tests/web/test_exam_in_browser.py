@@ -84,6 +84,17 @@ def test_what_is_typed_before_the_script_runs_is_saved(exam):
     expect(boxes(page).first).to_have_value("8.25")
 
 
+def test_a_second_click_begins_no_second_exam(opened, served):
+    page = opened()
+    page.goto(served.address + "/exam")
+    before = page.locator("main li").count()
+    button = page.get_by_role("button", name="Begin the exam")
+    button.evaluate("button => { button.click(); setTimeout(() => button.click(), 200); }")
+    expect(page.locator("#exam")).to_be_visible()
+    page.goto(served.address + "/exam")
+    expect(page.locator("main li")).to_have_count(before + 1)
+
+
 def test_enter_keeps_and_changes_nothing_else(exam):
     page = exam()
     boxes(page).first.fill("7")

@@ -1,6 +1,13 @@
 "use strict";
 // What pages do beyond plain forms. Everything works without it.
 
+// A second click, while what the first one sent is on its way, sends nothing.
+document.addEventListener("submit", (event) => {
+  const form = event.target;
+  if (event.defaultPrevented) { return; }
+  if (Date.now() - (form.dataset.sent ?? 0) < 5000) { event.preventDefault(); } else { form.dataset.sent = Date.now(); }
+});
+
 // The fields of a part, and what stands in them.
 const fields = (part) => [...part.querySelectorAll("input:not([type=hidden]), select, textarea")];
 const ticks = (field) => field.type === "radio" || field.type === "checkbox";
