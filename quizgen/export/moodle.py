@@ -70,7 +70,6 @@ class Entry:
     item: Item
     kind: str
     suffix: str
-    body: Markup
     parts: Sequence[Asking]
     ask: Ask | None = None
 
@@ -97,7 +96,10 @@ class Entry:
     @property
     def text(self) -> Markup:
         """What it says, and behind it what tells its responses from those to others."""
-        return self.body + signed(self.item, self.suffix)
+        item = self.item
+        above = stem(item, _picture("figure.svg", item.question.figure))
+        asking = _with_fields(self) if self.kind == "cloze" else _bodies(self)
+        return above + asking + signed(item, self.suffix)
 
 
 def write(items: Iterable[Item]) -> bytes:
@@ -159,27 +161,24 @@ def _picture(name: str, figure: Figure | None) -> Markup:
 def entries(item: Item) -> Iterator[Entry]:
     """The questions that an item becomes: one, and an essay for each part that a person marks."""
     by_machine = [(part, found) for part, found in item.parts if not by_person(found)]
-    above = stem(item, _picture("figure.svg", item.question.figure))
     if by_machine:
-        yield _one(item, above) or _cloze(item, above, by_machine)
+        yield _one(item) or Entry(item, "cloze", "", by_machine)
     for part, found in item.parts:
         for ask in found:
             if isinstance(ask, Write):
                 suffix = f".{part.label}" if part.label else ""
-                text = above + body(part, found, item.lang)
-                yield Entry(item, "essay", suffix, text, [(part, found)], ask)
+                yield Entry(item, "essay", suffix, [(part, found)], ask)
 
 
-def _one(item: Item, above: Markup) -> Entry | None:
+def _one(item: Item) -> Entry | None:
     """A question of Moodle's own type, if only one thing is asked."""
-    part, found = item.parts[0]
+    _, found = item.parts[0]
     if len(item.parts) > 1 or len(found) > 1:
         return None
     (ask,) = found
     if isinstance(ask, Order) and not ask.whole:
         ask = as_pairs(ask, item.lang)
-    text = above + body(part, found, item.lang)
-    return Entry(item, _kind(ask), "", text, item.parts, ask)
+    return Entry(item, _kind(ask), "", item.parts, ask)
 
 
 @singledispatch
@@ -195,16 +194,22 @@ _kind.register(Order, lambda _ask: "ordering")
 _kind.register(Fill, lambda _ask: "shortanswer")
 
 
-def _cloze(item: Item, above: Markup, parts: Sequence[Asking]) -> Entry:
-    """One question with a field in its text for each value."""
-    shares = [part.points / _fields(found, item.lang) for part, found in parts]
+def _bodies(entry: Entry) -> Markup:
+    lang = entry.item.lang
+    return Markup("").join(body(part, found, lang) for part, found in entry.parts)
+
+
+def _with_fields(entry: Entry) -> Markup:
+    """The parts with a field in their text for each value."""
+    lang = entry.item.lang
+    shares = [part.points / _fields(found, lang) for part, found in entry.parts]
     scale = lcm(*(share.denominator for share in shares))
-    text = above
-    for (part, found), share in zip(parts, shares, strict=True):
-        text += body(part, found, item.lang)
+    text = Markup("")
+    for (part, found), share in zip(entry.parts, shares, strict=True):
+        text += body(part, found, lang)
         for ask in found:
-            text += _embedded(ask, int(share * scale), item.lang)
-    return Entry(item, "cloze", "", text, parts)
+            text += _embedded(ask, int(share * scale), lang)
+    return text
 
 
 def _fields(found: Sequence[Ask], lang: str) -> int:
