@@ -106,7 +106,8 @@ def test_titles_are_shown_as_they_are(odd_bank, monkeypatch, title, columns):
 @pytest.mark.parametrize("name", COMMANDS)
 def test_every_command_stands_in_the_module_of_its_name(name):
     module, line = COMMANDS[name]
-    assert module == f"quizgen.cli.{name}"
+    # No module can be imported by a keyword's name.
+    assert module == f"quizgen.cli.{'classes' if name == 'class' else name}"
     done = CliRunner().invoke(group, [name, "--help"])
     assert done.exit_code == 0
     assert line
