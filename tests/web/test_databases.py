@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
+import sqlite3
 import sys
+import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
 from hashlib import sha256
@@ -139,6 +142,18 @@ def test_servers_that_begin_at_once_make_the_tables_once(database):
         assert len(set(threads.map(lambda s: s.lasting("token", str(id(s))), stores))) == 1
     for store in stores:
         store.close()
+
+
+def test_a_new_file_is_opened_while_another_hand_writes_to_it(tmp_path):
+    file = tmp_path / "learning.sqlite3"
+    with contextlib.closing(sqlite3.connect(file, check_same_thread=False)) as other:
+        other.execute("BEGIN IMMEDIATE")
+        done = threading.Timer(0.3, other.rollback)
+        done.start()
+        store = Store(f"sqlite:///{file}")
+        done.join()
+    assert store.learner().id == 1
+    store.close()
 
 
 def test_of_what_comes_at_once_from_two_servers_nothing_is_lost(database):
