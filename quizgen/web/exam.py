@@ -133,7 +133,7 @@ async def sit(request: Request) -> Response:
     if sitting.handed is None and sitting.over(time.time()):
         await _hand_in(request, sitting)
         sitting = await _sitting(request)
-    paper = await _paper(request, sitting)
+    paper, now = await _paper(request, sitting), time.time()
     store = request.app.state.site.store.sittings
     answers = await run_in_threadpool(store.answers, sitting)
     if sitting.handed is not None:
@@ -141,7 +141,7 @@ async def sit(request: Request) -> Response:
         return page(request, "results.html.j2", sitting=sitting, paper=paper, results=results)
     flags = await run_in_threadpool(store.flags, sitting)
     return page(request, "exam.html.j2", sitting=sitting, paper=paper, answers=answers,
-                flags=flags, now=time.time())  # fmt: skip
+                flags=flags, now=now)  # fmt: skip
 
 
 def _fields(form: FormData) -> dict[str, list[str]]:
@@ -193,7 +193,7 @@ async def save(request: Request) -> Response:
     elif one(form, "do") in {"rest", "go-on"}:
         await run_in_threadpool(store.rest, sitting, on=one(form, "do") == "rest")
     elif request.headers.get("accept", "").startswith("application/json"):
-        return JSONResponse({"kept": kept}, 200 if kept else 409)
+        return JSONResponse({"kept": kept, "at": time.time()}, 200 if kept else 409)
     return to(f"/exam/{sitting.id}")
 
 

@@ -71,6 +71,30 @@ def test_a_reload_and_the_way_back_keep_what_was_typed(exam, served):
     expect(boxes(page).first).to_have_value("13")
 
 
+def test_what_is_saved_while_the_next_page_is_on_its_way_stands_in_it(exam):
+    page = exam()
+    read_before = page.context.request.get(page.url)
+    chosen = page.locator("#exam input[type=radio]").first
+    chosen.check()
+    shown = page.locator(f"[name={chosen.get_attribute('name').replace('a-', 'on-')}]")
+    expect(shown).to_have_value('["A"]')  # the server has it
+    page.route(page.url, lambda route: route.fulfill(response=read_before))
+    page.reload()
+    expect(chosen).to_be_checked()
+    expect(shown).to_have_value('["A"]')
+    page.unroute_all()
+
+
+def test_what_another_tab_saved_later_is_not_written_over(exam):
+    page = exam()
+    typed(page, 0, "12.5")
+    other = page.context.new_page()
+    other.goto(page.url)
+    typed(other, 0, "7")
+    page.reload()
+    expect(boxes(page).first).to_have_value("7")
+
+
 def test_what_is_typed_before_the_script_runs_is_saved(exam):
     page, late = exam(), []
     page.route("**/static/app.js", lambda route: late.append(route))  # noqa: PLW0108 (Playwright marks what it is given)

@@ -41,25 +41,30 @@ document.addEventListener("htmx:after:swap", () => {
   next?.focus({ preventScroll: true });
 });
 
-// An exam: each change is kept in this browser first and sent to the server; what the server has
-// confirmed leaves the browser. While the server is away it is tried again.
+// An exam: each change is kept in this browser first and sent to the server. While the server is
+// away it is tried again. What the server has confirmed only this tab remembers, with when: a page
+// that was read before, and comes after, shows it too.
 (() => {
+  const kinds = { unsent: () => localStorage, confirmed: () => sessionStorage };
   const handed = document.querySelector("[data-handed]");
   if (handed) {
-    try {
-      const old = Object.keys(localStorage).filter((name) => name.startsWith("quizgen/exam/" + handed.dataset.handed + "/"));
-      old.forEach((name) => localStorage.removeItem(name));
-    } catch { /* forbidden */ }
+    for (const kind of Object.values(kinds)) {
+      try {
+        const old = Object.keys(kind()).filter((name) => name.startsWith("quizgen/exam/" + handed.dataset.handed + "/"));
+        old.forEach((name) => kind().removeItem(name));
+      } catch { /* forbidden */ }
+    }
   }
   const form = document.getElementById("exam");
   if (!form) { return; }
   const place = "quizgen/exam/" + form.dataset.exam + "/";
   const said = document.getElementById("kept");
-  const store = {
-    get(name) { try { return JSON.parse(localStorage.getItem(place + name)); } catch { return null; } },
-    set(name, value) { try { localStorage.setItem(place + name, JSON.stringify(value)); } catch { /* full or forbidden */ } },
-    drop(name) { try { localStorage.removeItem(place + name); } catch { /* forbidden */ } },
-  };
+  const store = (kind) => ({
+    get(name) { try { return JSON.parse(kind().getItem(place + name)); } catch { return null; } },
+    set(name, value) { try { kind().setItem(place + name, JSON.stringify(value)); } catch { /* full or forbidden */ } },
+    drop(name) { try { kind().removeItem(place + name); } catch { /* forbidden */ } },
+  });
+  const unsent = store(kinds.unsent), confirmed = store(kinds.confirmed);
   const parts = [...form.querySelectorAll("fieldset[data-part]")];
   // As ``practice/boxes.py`` says it: every box, but any place of an order.
   const complete = (part) => {
@@ -92,10 +97,12 @@ document.addEventListener("htmx:after:swap", () => {
       const answer = await fetch(form.action, { method: "POST", body, keepalive, headers: { Accept: "application/json" } });
       if (answer.status === 409) { said.textContent = form.dataset.over; waiting.clear(); location.reload(); return false; }
       if (!answer.ok) { throw new Error(answer.status); }
+      const { at } = await answer.json();
       for (const part of parts.filter((p) => sent.has(p.dataset.part))) {
         const name = part.dataset.part;
         form.elements["on-" + name].value = sent.get(name);
-        if (sent.get(name) === JSON.stringify(values(part))) { waiting.delete(name); store.drop(name); }
+        confirmed.set(name, { at, text: sent.get(name) });
+        if (sent.get(name) === JSON.stringify(values(part))) { waiting.delete(name); unsent.drop(name); }
       }
       wait = 0;
       said.textContent = waiting.size ? "" : form.dataset.saved;
@@ -119,12 +126,16 @@ document.addEventListener("htmx:after:swap", () => {
     return plain(values(part)) !== plain(JSON.parse(form.elements["on-" + part.dataset.part].value));
   };
   for (const part of parts) {
-    const kept = store.get(part.dataset.part);
-    if (already(part)) { store.set(part.dataset.part, values(part)); waiting.add(part.dataset.part); }
-    else if (Array.isArray(kept)) { fill(part, kept); waiting.add(part.dataset.part); }
+    const name = part.dataset.part, kept = unsent.get(name), last = confirmed.get(name);
+    if (already(part)) { unsent.set(name, values(part)); waiting.add(name); }
+    else if (Array.isArray(kept)) { fill(part, kept); waiting.add(name); }
+    else if (last?.at > Number(form.dataset.read)) {
+      fill(part, JSON.parse(last.text));
+      form.elements["on-" + name].value = last.text;
+    }
     part.addEventListener("input", () => {
-      store.set(part.dataset.part, values(part));
-      waiting.add(part.dataset.part);
+      unsent.set(name, values(part));
+      waiting.add(name);
       overview();
       soon(400);
     });
