@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from fingers import Screen
 from playwright.sync_api import expect
 
 pytestmark = pytest.mark.browser
@@ -13,7 +14,7 @@ SKETCH = "recognise-and-sketch-distortion"
 @pytest.fixture
 def field(opened, served):
     """The part to draw in, and what its text says is wanted."""
-    page = opened()
+    page = opened(has_touch=True)
     token = page.locator("[name=token]").first.input_value()
     sent = {"token": token, "template": SKETCH}
     page.goto(page.request.post(served.address + "/practice", form=sent).url)
@@ -37,8 +38,8 @@ def wanted(k: float) -> list[list[tuple[float, float]]]:
     ]
 
 
-def drawer(page, part):
-    """What draws a line by mouse, from point to point of the field."""
+def placed(part):
+    """Says where on the screen a point of the field is."""
     svg = part.locator("svg.strokes").first
     svg.scroll_into_view_if_needed()
     box = svg.bounding_box()
@@ -52,6 +53,13 @@ def drawer(page, part):
     def place(x: float, y: float) -> tuple[float, float]:
         at = x0 + (x - left) / (right - left) * w, y0 + (high - y) / (high - low) * h
         return box["x"] + at[0] * scale, box["y"] + at[1] * scale
+
+    return place
+
+
+def drawer(page, part):
+    """What draws a line by mouse, from point to point of the field."""
+    place = placed(part)
 
     def draw(line) -> None:
         page.mouse.move(*place(*line[0]))
@@ -79,6 +87,17 @@ def test_a_grid_is_drawn_by_mouse(field):
     solved = part.locator(".board").last
     expect(solved.locator("polyline")).to_have_count(6)
     expect(solved.locator("[data-part=wanted]")).to_have_count(1)
+
+
+def test_a_line_by_a_finger_is_the_same_with_another_finger_on_the_field(field):
+    page, part, k = field
+    place, area, line = placed(part), part.locator("textarea"), wanted(k)[0]
+    Screen(page).finger([place(*point) for point in line], beside=place(1.2, -1.2))
+    expect(part.locator("svg.strokes polyline")).to_have_count(1)
+    drawn = [tuple(map(float, point.split(","))) for point in area.input_value().split()]
+    assert drawn[0] == pytest.approx(line[0], abs=0.03)
+    assert drawn[-1] == pytest.approx(line[-1], abs=0.03)
+    assert min(y for _, y in drawn) > 0.5
 
 
 def test_lines_are_drawn_by_keys_and_what_is_typed_is_drawn(field):

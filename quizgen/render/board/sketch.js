@@ -19,7 +19,7 @@ const sketching = (box) => {
   const typed = () => area.value.replaceAll("\u2212", "-").split(/[;\n]/)
     .map((line) => [...line.matchAll(/(-?[\d.]+) ?, ?(-?[\d.]+)/g)].map((found) => [Number(found[1]), Number(found[2])]))
     .filter((line) => line.length && line.flat().every(Number.isFinite));
-  let now = null, cursor = null, setting = false;
+  let now = null, cursor = null, setting = false, pointer = null;
   const on = (name) => box.querySelector(`[data-tool=${name}]`).getAttribute("aria-pressed") === "true";
   const say = (text) => { document.getElementById("said").textContent = text; };
   const told = (key, point) => box.dataset[key].replace("{x}", number(point[0], 0)).replace("{y}", number(point[1], 1));
@@ -66,19 +66,22 @@ const sketching = (box) => {
     return on("snap") ? snapped(point) : point;
   };
   svg.addEventListener("pointerdown", (event) => {
-    if (event.button) { return; }
+    if (event.button || pointer !== null) { return; } // another finger
     event.preventDefault();
-    svg.setPointerCapture(event.pointerId);
+    pointer = event.pointerId;
+    svg.setPointerCapture(pointer);
     now = [at(event)];
     setting = false;
     show();
   });
   svg.addEventListener("pointermove", (event) => {
-    if (!now || setting) { return; }
+    if (event.pointerId !== pointer || !now || setting) { return; }
     now = on("ruler") ? [now[0], at(event)] : [...now, at(event)];
     show();
   });
-  const finish = () => {
+  const finish = (event) => {
+    if (event.pointerId !== pointer) { return; }
+    pointer = null;
     if (!now || setting) { return; }
     const line = now;
     now = null;
