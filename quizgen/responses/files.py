@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import lzma
 import zipfile
+import zlib
 from collections.abc import Callable, Collection, Iterable, Iterator
 from io import BytesIO
 from pathlib import Path
@@ -16,6 +18,10 @@ from quizgen.responses.tables import from_csv, from_json
 LARGEST = 60_000_000
 """Bytes of the largest report that is read, unpacked."""
 MOST_FILES = 20_000
+DAMAGED = (
+    zipfile.BadZipFile, zlib.error, lzma.LZMAError, RuntimeError, ValueError, EOFError, OSError,
+)  # fmt: skip
+"""What reading an archive raises if it is damaged, locked or packed in an unknown way."""
 
 Reader = Callable[[str, Path, Collection[str], Lost], Iterator[Attempt]]
 
@@ -79,5 +85,5 @@ def _unpacked(path: Path, data: bytes) -> Iterator[tuple[Path, bytes]]:
                 if left < 0:
                     raise KeyFileError(f"{path}: larger than {LARGEST // 10**6} MB unpacked")
                 yield path / one.filename, content
-    except (zipfile.BadZipFile, NotImplementedError, RuntimeError, EOFError, OSError) as error:
+    except DAMAGED as error:
         raise KeyFileError(f"{path}: not an archive that can be read ({error})") from None

@@ -87,10 +87,9 @@ def variables(entry: Entry, given: Mapping[str, list[str]]) -> list[Values | Rea
 
 
 def _tried(ask: Asked, given: list[str]) -> Values | ReadError:
-    if not any(value.strip() for value in given):
-        return []
+    there = [value for value in given if value.strip()]
     try:
-        return _values(ask, given)
+        return _values(ask, there) if there else []
     except ReadError as error:
         return error
 
@@ -103,14 +102,19 @@ def _values(ask: Asked, given: list[str]) -> Values:
             return [marks[0][0]]
         case "one" | "many":
             return [_known(one[0], ask.options) for one in marks]
-        case "pairs" | "order" if len(marks[0]) > 1:
-            chosen = {_known(one[0], ask.options): _known(one[1], ask.targets) for one in marks}
+        case "order" if all(len(one) == 1 for one in marks):
+            return [_known(one[0], ask.options) for one in marks]
+        case "pairs" | "order":
+            chosen = dict(_pair(one, ask) for one in marks)
             places = [chosen.get(mark, "") for mark in ask.options]
             return in_places(places, ask) if ask.kind == "order" else places
-        case "order":
-            return [_known(one[0], ask.options) for one in marks]
         case _:
             return [with_unit(given[0], ask.unit)]
+
+
+def _pair(marks: list[str], ask: Asked) -> tuple[str, str]:
+    stem, target = (*marks, "")[:2]
+    return _known(stem, ask.options), _known(target, ask.targets)
 
 
 def _known(mark: str, marks: Collection[str]) -> str:

@@ -84,6 +84,23 @@ def test_a_bomb_is_not_unpacked(tmp_path):
     assert "60 MB unpacked" in refused(path)
 
 
+METHODS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED, zipfile.ZIP_BZIP2, zipfile.ZIP_LZMA)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_an_archive_with_a_wrong_byte_raises_nothing_else(tmp_path, method):
+    """Wherever it is: the archive is read all the same, or named as one that cannot be."""
+    path = tmp_path / "a.zip"
+    with zipfile.ZipFile(path, "w", method) as archive:
+        archive.writestr("\u00f6.csv", HEAD + "Oz,Cem,[abcd-2345],1\n")
+    good, told = path.read_bytes(), []
+    for place, byte in enumerate(good):
+        path.write_bytes(good[:place] + bytes([byte ^ 0xA5]) + good[place + 1 :])
+        list(attempts([path], KNOWN, told.append))
+    assert any("not an archive that can be read" in line for line in told)
+    assert all(line.startswith(str(path)) for line in told)
+
+
 def test_a_file_of_a_hundred_megabytes(tmp_path):
     path = tmp_path / "long.csv"
     with path.open("wb") as stream:
