@@ -29,7 +29,8 @@ def check(path: Path, files: Sequence[Path], lang: str | None, flags: Mapping[st
 
     keys = read(path)
     lost: list[str] = []
-    found = list(marked(keys, attempts(files, keys.found, lost.append), lang))
+    given = attempts(files, keys.found, lost.append)
+    found = list(marked(keys, given, lang, settle=not flags["no_settle"]))
     for line in (*lost, *_untold(found)):
         click.echo(f"quizgen: {visible(' '.join(line.split()))}", err=True)
     there = [one for one in found if one.attempt.responses]

@@ -6,6 +6,8 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
+from msgspec import structs
+
 from quizgen.marking.options import Options
 from quizgen.maths.notation import ReadError
 from quizgen.paper.marking import Marker, PaperResult, PartResult
@@ -42,7 +44,9 @@ class Marked:
     foreign: tuple[str, ...]
 
 
-def marked(keys: Keys, attempts: Iterable[Attempt], lang: str | None = None) -> Iterator[Marked]:
+def marked(
+    keys: Keys, attempts: Iterable[Attempt], lang: str | None = None, *, settle: bool = False
+) -> Iterator[Marked]:
     """Mark attempts one after another.
 
     Parameters
@@ -51,6 +55,8 @@ def marked(keys: Keys, attempts: Iterable[Attempt], lang: str | None = None) -> 
     attempts : iterable of Attempt
     lang : str, optional
         Language of the remarks; else that of each question.
+    settle : bool
+        As of ``quizgen.paper.marking.mark_paper``.
 
     Raises
     ------
@@ -60,10 +66,10 @@ def marked(keys: Keys, attempts: Iterable[Attempt], lang: str | None = None) -> 
     seen = Counter[tuple[str, str]]()
     for attempt in attempts:
         seen[attempt.who] += 1
-        yield _marked(keys, attempt, seen[attempt.who], lang)
+        yield _marked(keys, attempt, seen[attempt.who], Options(lang or "", settle=settle))
 
 
-def _marked(keys: Keys, attempt: Attempt, number: int, lang: str | None) -> Marked:
+def _marked(keys: Keys, attempt: Attempt, number: int, options: Options) -> Marked:
     known: dict[str, tuple[Kept, list[tuple[Response, Entry]]]] = {}
     questions: dict[str, str] = {}
     foreign: list[str] = []
@@ -76,21 +82,21 @@ def _marked(keys: Keys, attempt: Attempt, number: int, lang: str | None) -> Mark
         response = replace(one, number=one.number or place)
         known.setdefault(kept.id, (kept, []))[1].append((response, entry))
         questions[response.number] = entry.id
-    parts = [part for kept, given in known.values() for part in _parts(kept, given, lang)]
+    parts = [part for kept, given in known.values() for part in _parts(kept, given, options)]
     places = [*questions]
     parts.sort(key=lambda part: places.index(part.number))
     return Marked(attempt, number, PaperResult("", tuple(parts)), questions, tuple(foreign))
 
 
 def _parts(
-    kept: Kept, given: Iterable[tuple[Response, Entry]], lang: str | None
+    kept: Kept, given: Iterable[tuple[Response, Entry]], options: Options
 ) -> Iterator[PartResult]:
     """The parts of one question, which a system may have asked as several."""
     typed: dict[str, tuple[str, Typed]] = {}
     for response, entry in given:
         for name, text in _typed(kept, entry, response).items():
             typed[name] = (response.number, text)
-    marker = Marker(kept.key, Options(lang or kept.lang))
+    marker = Marker(kept.key, structs.replace(options, lang=options.lang or kept.lang))
     for part in kept.key.parts:
         if part.id in typed:
             number, text = typed[part.id]
