@@ -44,7 +44,7 @@ class Session:
                             self.rule(one)
                         return
             case other:
-                raise NotImplementedError(other)
+                raise AssertionError(f"a rule that this engine does not know: {other}")
 
     def value(self, one: ET.Element):
         """What an expression gives, of what those inside it give."""
