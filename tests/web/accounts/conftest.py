@@ -1,0 +1,54 @@
+"""A server on which people sign in, those who manage it and those whom they invite."""
+
+from __future__ import annotations
+
+import argon2
+import pytest
+from people import Somebody
+from sqlalchemy import delete
+
+from quizgen.web import passwords
+from quizgen.web.passwords import Patience
+from quizgen.web.settings import Settings
+from quizgen.web.store.tables import INVITATION, LEARNER
+
+
+@pytest.fixture(scope="module")
+def settings(database):
+    return Settings(database(), host="0.0.0.0", workers=1)
+
+
+@pytest.fixture(autouse=True)
+def quick(monkeypatch):
+    """Passwords that take no time; how long they take is Argon2's own matter."""
+    cheap = argon2.PasswordHasher(time_cost=1, memory_cost=8, parallelism=1)
+    other = cheap.hash(b"nobody's")
+    monkeypatch.setattr(passwords, "_hasher", lambda: cheap)
+    monkeypatch.setattr(passwords, "_other", lambda: other)
+
+
+@pytest.fixture
+def site(app):
+    """A server on which nobody has an account."""
+    site = app.state.site
+    with site.store.database.writing() as connection:
+        for table in (INVITATION, LEARNER):
+            connection.execute(delete(table))
+    site.patience = Patience()
+    return site
+
+
+@pytest.fixture
+def manager(app, site):
+    """The first one, who manages."""
+    found = Somebody(app)
+    found.join(f"/invited?key={site.store.accounts.invite(manages=True)}", "Farida")
+    return found
+
+
+@pytest.fixture
+def learner(app, manager):
+    """Somebody whom they have invited."""
+    found = Somebody(app)
+    found.join(manager.link(), "রহিম উদ্দিন")
+    return found
