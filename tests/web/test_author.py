@@ -15,9 +15,8 @@ from quizgen.web.settings import Settings
 
 
 @pytest.fixture(scope="module")
-def author(root, tmp_path_factory):
-    file = tmp_path_factory.mktemp("data") / "learning.sqlite3"
-    settings = Settings(f"sqlite:///{file}", root, trusted=True, workers=1, examine=problems_of)
+def author(root, database):
+    settings = Settings(database(), root, trusted=True, workers=1, examine=problems_of)
     app = application(settings)
     with TestClient(app, "http://127.0.0.1:8000") as client:
         client.get(f"/enter?key={app.state.site.settings.token}")
@@ -41,12 +40,11 @@ def test_a_template_stands_with_its_solution_in_both_languages(author):
 
 
 @pytest.mark.browser
-def test_the_page_of_a_template_in_a_browser(browser, tmp_path_factory, root, barriers):
+def test_the_page_of_a_template_in_a_browser(browser, database, root, barriers):
     from playwright.sync_api import expect
     from served import Served
 
-    folder = tmp_path_factory.mktemp("served")
-    server = Served(f"sqlite:///{folder / 'x.sqlite3'}", "--bank", str(root), "--trust", "--author")
+    server = Served(database(), "--bank", str(root), "--trust", "--author")
     context = browser.new_context(viewport={"width": 390, "height": 800})
     try:
         page = context.new_page()

@@ -16,12 +16,12 @@ TYPED = ("98765.4321", "abweichend")
 
 
 @pytest.fixture
-def started(tmp_path):
+def started(database):
     """Starts servers of one database."""
-    running = []
+    address, running = database(), []
 
     def start(*more: str) -> Served:
-        running.append(Served(f"sqlite:///{tmp_path / 'x.sqlite3'}", *more))
+        running.append(Served(address, *more))
         return running[-1]
 
     yield start
