@@ -22,14 +22,13 @@ from quizgen.outside import parse_json, parse_toml, read_text
 STALE = 3600.0
 """Seconds after which what a killed run left behind is swept away."""
 
+USUAL, PRIVATE = 0o666, 0o600
+"""Mode of a new file, less what the process takes away; that of one which only its owner reads."""
+
 _DAY = (1980, 1, 1, 0, 0, 0)
 """The date of everything in an archive."""
 
 _LEFT_BEHIND = re.compile(r"\..*\.\d+-[0-9a-f]{8}\.part", re.DOTALL)
-
-
-USUAL, PRIVATE = 0o666, 0o600
-"""Mode of a new file, less what the process takes away; that of one which only its owner reads."""
 
 
 def zipped(contents: Mapping[str, bytes], *, packed: bool = True) -> bytes:
