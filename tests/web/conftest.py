@@ -21,9 +21,10 @@ ADDRESS = "http://127.0.0.1:8000"
 
 def pytest_generate_tests(metafunc):
     if "database" in metafunc.fixturenames:
-        both = metafunc.definition.get_closest_marker("both_databases")
-        names = ["sqlite", "postgresql"] if both else ["sqlite"]
-        metafunc.parametrize("database", names, indirect=True, scope="module")
+        marked = metafunc.definition.get_closest_marker
+        long = [pytest.mark.slow] if marked("browser") else []
+        both = [pytest.param("postgresql", marks=long)] if marked("both_databases") else []
+        metafunc.parametrize("database", ["sqlite", *both], indirect=True, scope="module")
 
 
 @pytest.fixture(scope="session")
