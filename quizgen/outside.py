@@ -16,7 +16,7 @@ import re
 import stat
 import tomllib
 import unicodedata
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TypeAlias
@@ -102,6 +102,12 @@ def defused(cell: str) -> str:
     full-width signs, too.
     """
     return f"'{cell}" if _first(cell) in _STARTS_FORMULA else cell
+
+
+def undefused(cell: str) -> str:
+    """A cell as it was before it was made inert for spreadsheets."""
+    bare = cell.removeprefix("'")
+    return bare if bare != cell and defused(bare) == cell else cell
 
 
 def _first(cell: str) -> str:
@@ -227,6 +233,14 @@ def parse_csv(text: str, where: object, error: Failure) -> list[tuple[int, list[
     except csv.Error as found:
         raise error(f"{where}: line {reader.line_num}: {_short(found)}") from None
     return rows[1:] if said else rows
+
+
+def csv_text(rows: Iterable[Iterable[str]]) -> str:
+    """Rows of cells as CSV that no spreadsheet runs and no terminal obeys."""
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerows([defused(visible(cell)) for cell in row] for row in rows)
+    return out.getvalue()
 
 
 def parse_toml(

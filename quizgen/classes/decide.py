@@ -8,8 +8,6 @@ here gives points: key points that were found are a suggestion.
 
 from __future__ import annotations
 
-import csv
-import io
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -18,16 +16,16 @@ from functools import lru_cache
 from pathlib import Path
 
 from quizgen.classes.mark import Marks, item_of
-from quizgen.classes.rulings import DECIDE, SECOND, Ruling, alike, undefused
+from quizgen.classes.rulings import DECIDE, SECOND, Ruling, alike
 from quizgen.classes.statistics import kappa
 from quizgen.errors import ClassError, FormulaError
-from quizgen.files import write_all
+from quizgen.files import PRIVATE, write_all
 from quizgen.marking.judging.wording import another_word, budget, fold, slips
 from quizgen.marking.kinds.text import Spec as Text
 from quizgen.marking.mark import explained, judge, load_spec
 from quizgen.marking.options import Options
 from quizgen.maths.numbers import written
-from quizgen.outside import defused, parse_csv, read_text, visible
+from quizgen.outside import csv_text, parse_csv, read_text, undefused
 from quizgen.paper.key import Key
 from quizgen.paper.marking import in_quarters
 
@@ -240,18 +238,17 @@ def write_queue(folder: Path, groups: Iterable[list[Case]], kept: Mapping[str, s
     kept : mapping of str to str
         Comments that stand there already, by group.
     """
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(COLUMNS)
-    for number, group in enumerate(groups, 1):
-        for case in group:
-            answer = case.answer
-            suggested = "" if case.suggestion is None else f"{float(case.suggestion):g}"
-            cells = [answer.item, str(number), answer.typed, str(answer.students), case.key,
-                     case.seen, suggested, f"{answer.worth:g}", "", "",
-                     kept.get(answer.group, ""), "", answer.group]  # fmt: skip
-            writer.writerow([defused(visible(cell)) for cell in cells])
-    return write_all(folder, {FILE: out.getvalue().encode("utf-8-sig")}, mode=0o600)[0]
+    rows = (_cells(case, number, kept) for number, group in enumerate(groups, 1) for case in group)
+    text = csv_text([COLUMNS, *rows])
+    return write_all(folder, {FILE: text.encode("utf-8-sig")}, PRIVATE)[0]
+
+
+def _cells(case: Case, number: int, kept: Mapping[str, str]) -> list[str]:
+    answer = case.answer
+    suggested = "" if case.suggestion is None else f"{float(case.suggestion):g}"
+    return [answer.item, str(number), answer.typed, str(answer.students), case.key, case.seen,
+            suggested, f"{answer.worth:g}", "", "", kept.get(answer.group, ""), "",
+            answer.group]  # fmt: skip
 
 
 def read_queue(folder: Path) -> tuple[list[Ruling], dict[str, str]]:

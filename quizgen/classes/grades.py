@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import io
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -14,7 +13,7 @@ from quizgen.classes.mark import Marks
 from quizgen.classes.roster import Student
 from quizgen.classes.scale import Scale
 from quizgen.files import write_all
-from quizgen.outside import defused, visible
+from quizgen.outside import csv_text, visible
 
 FOLDER = "results"
 TABLE, BOOK, POSTED = "grades.csv", "grades.xlsx", "posted.csv"
@@ -123,13 +122,12 @@ def _posted(lines: Iterable[Graded], scale: Scale) -> list[list[Cell]]:
 
 
 def _csv(rows: Iterable[Sequence[Cell]]) -> bytes:
-    out = io.StringIO()
-    csv.writer(out, lineterminator="\n").writerows([_text(cell) for cell in row] for row in rows)
-    return out.getvalue().encode("utf-8-sig")
+    text = csv_text(map(_text, row) for row in rows)
+    return text.encode("utf-8-sig")
 
 
 def _text(cell: Cell) -> str:
-    return defused(visible(cell)) if isinstance(cell, str) else f"{cell:g}"
+    return cell if isinstance(cell, str) else f"{cell:g}"
 
 
 def _xlsx(rows: Sequence[Sequence[Cell]], scale: Scale) -> bytes:

@@ -7,7 +7,6 @@ changed. Nothing is ever written over: a student's last line counts, the others 
 from __future__ import annotations
 
 import contextlib
-import csv
 import io
 import os
 from collections.abc import Iterable, Iterator
@@ -19,7 +18,7 @@ import msgspec
 
 from quizgen.classes.mark import Marks, PartMark
 from quizgen.errors import ClassError
-from quizgen.outside import defused, visible
+from quizgen.outside import csv_text
 
 FOLDER, CHANGES = "marks", "changes.csv"
 PRIVATE = 0o600
@@ -138,13 +137,10 @@ class History:
             return
         now = datetime.now(UTC).strftime("%Y-%m-%d %H:%M:%S")
         path = self.folder / CHANGES
-        out = io.StringIO()
-        writer = csv.writer(out, lineterminator="\n")
-        writer.writerows([] if path.exists() else [HEAD])
-        for change in changes:
-            writer.writerow([number, now, *(_cell(value) for value in change)])
+        rows = [[str(number), now, *map(_cell, change)] for change in changes]
+        lines = csv_text(rows if path.exists() else [HEAD, *rows])
         with os.fdopen(os.open(path, os.O_WRONLY | os.O_APPEND | os.O_CREAT, PRIVATE), "ab") as to:
-            to.write(out.getvalue().encode())
+            to.write(lines.encode())
 
 
 class _Lines(contextlib.AbstractContextManager["_Lines"]):
@@ -217,5 +213,5 @@ def _why(was: PartMark | None, now: PartMark) -> str:
 
 def _cell(value: str | float | None) -> str:
     if isinstance(value, str):
-        return defused(visible(value))
+        return value
     return "" if value is None else f"{value:g}"

@@ -21,7 +21,7 @@ import msgspec
 
 from quizgen.errors import ClassError
 from quizgen.locale import choices
-from quizgen.outside import defused, is_name, parse_csv, read_text, visible
+from quizgen.outside import defused, is_name, parse_csv, read_text, undefused, visible
 
 COLUMNS = ("id", "name", "lang", "extra", "group", "seat")
 LONGEST = 200
@@ -127,7 +127,7 @@ def _places(head: Sequence[str], columns: Mapping[str, str], path: Path) -> dict
 
 def _student(row: Sequence[str], places: Mapping[str, int], where: str) -> Student:
     cells = {
-        name: _plain(_clean(row[place])) if place < len(row) else ""
+        name: undefused(_clean(row[place])) if place < len(row) else ""
         for name, place in places.items()
     }
     for name, cell in cells.items():
@@ -148,11 +148,6 @@ def _clean(cell: str) -> str:
     whole = unicodedata.normalize("NFC", cell)
     seen = (c if _is_seen(c) else " " if c.isspace() else "" for c in whole)
     return " ".join("".join(seen).split())
-
-
-def _plain(cell: str) -> str:
-    """A cell without the sign that ``roster_bytes`` puts before what a spreadsheet would run."""
-    return cell[1:] if cell[:1] == "'" and defused(cell[1:]) == cell else cell
 
 
 def _is_seen(character: str) -> bool:

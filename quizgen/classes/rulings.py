@@ -20,9 +20,7 @@ With a student's id in ``student`` a line is about that student alone.
 
 from __future__ import annotations
 
-import csv
 import hashlib
-import io
 import os
 import re
 import unicodedata
@@ -35,7 +33,7 @@ import msgspec
 
 from quizgen.errors import ClassError, FormulaError
 from quizgen.maths.numbers import written
-from quizgen.outside import defused, parse_csv, read_text, visible
+from quizgen.outside import csv_text, parse_csv, read_text, undefused
 from quizgen.paper.marking import QUARTERS
 
 FILE = "rulings.csv"
@@ -173,20 +171,12 @@ def append_rulings(folder: Path, rulings: Iterable[Ruling]) -> list[Ruling]:
     for one in added:
         one.check()
     path = folder / FILE
-    rows = [[defused(visible(getattr(one, name))) for name in COLUMNS] for one in added]
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerows(rows if path.exists() else [COLUMNS, *rows])
+    rows = [[getattr(one, name) for name in COLUMNS] for one in added]
+    lines = csv_text(rows if path.exists() else [COLUMNS, *rows])
     number = os.open(path, os.O_WRONLY | os.O_APPEND | os.O_CREAT, 0o600)
     with os.fdopen(number, "ab") as stream:  # one write at the end: two at once do not mix
-        stream.write(out.getvalue().encode())
+        stream.write(lines.encode())
     return added
-
-
-def undefused(cell: str) -> str:
-    """A cell as it was before it was made inert for spreadsheets."""
-    bare = cell.removeprefix("'")
-    return bare if bare != cell and defused(bare) == cell else cell
 
 
 def alike(answer: str, *, words: bool) -> str:

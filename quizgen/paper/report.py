@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import unicodedata
 from collections.abc import Iterable
 from fractions import Fraction
 
 from quizgen.marking.echo import safe
 from quizgen.marking.messages import words
-from quizgen.outside import defused, visible
+from quizgen.outside import csv_text
 from quizgen.paper.marking import PaperResult, PartResult
 
 COLOURS = {
@@ -104,29 +102,17 @@ def class_csv(results: list[tuple[str, str, str, PaperResult]]) -> str:
         All of one paper.
     """
     ids = [part.id for part in results[0][3].parts] if results else []
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(
-        ["file", "name", "matriculation", "marks", "points", "asked_back", "to_decide"]
-        + [_cell(f"{name} marks") for name in ids]
-        + [_cell(f"{name} note") for name in ids]
-    )
-    for *student, result in results:
-        writer.writerow([*map(_cell, student), *_class_row(result)])
-    return out.getvalue()
+    head = ["file", "name", "matriculation", "marks", "points", "asked_back", "to_decide"]
+    titles = [f"{name} {what}" for what in ("marks", "note") for name in ids]
+    rows = ([*student, *_class_row(result)] for *student, result in results)
+    return csv_text([[*head, *titles], *rows])
 
 
 def _class_row(result: PaperResult) -> list[str]:
     totals = [points_text(result.marks), points_text(result.points)]
     counts = [str(result.asked_back), str(result.to_decide)]
     marks = ["" if part.marks is None else points_text(part.marks) for part in result.parts]
-    notes = map(note, result.parts)
-    return [*totals, *counts, *marks, *map(_cell, notes)]
-
-
-def _cell(text: str) -> str:
-    """A text that a spreadsheet does not run and a terminal does not obey."""
-    return defused(visible(text))
+    return [*totals, *counts, *marks, *map(note, result.parts)]
 
 
 def note(part: PartResult) -> str:

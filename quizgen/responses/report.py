@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from statistics import correlation, fmean
 
-from quizgen.outside import defused, visible
+from quizgen.outside import csv_text, visible
 from quizgen.paper.marking import PartResult
 from quizgen.paper.report import note, points_text, width
 from quizgen.responses.marks import Marked
@@ -91,18 +89,17 @@ def as_csv(marked: Sequence[Marked]) -> str:
     """One row for each attempt: which question stood where, marks and notes of every part."""
     numbers = list(dict.fromkeys(number for one in marked for number in one.questions))
     parts = list(dict.fromkeys(part.id for one in marked for part in one.result.parts))
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
     titles = [f"{number} question" for number in numbers]
     titles += [f"{part} {what}" for what in ("typed", "marks", "note") for part in parts]
-    writer.writerow(map(_cell, (*HEAD, *titles)))
-    for one in marked:
-        found = {part.id: part for part in one.result.parts}
-        row = [*_person(one), *(one.questions.get(number, "") for number in numbers)]
-        for shown in (_typed, _given, note):
-            row += [shown(found[part]) if part in found else "" for part in parts]
-        writer.writerow(map(_cell, row))
-    return out.getvalue()
+    return csv_text([(*HEAD, *titles), *(_attempt(one, numbers, parts) for one in marked)])
+
+
+def _attempt(one: Marked, numbers: Sequence[str], parts: Sequence[str]) -> list[str]:
+    found = {part.id: part for part in one.result.parts}
+    row = [*_person(one), *(one.questions.get(number, "") for number in numbers)]
+    for shown in (_typed, _given, note):
+        row += [shown(found[part]) if part in found else "" for part in parts]
+    return row
 
 
 def _person(one: Marked) -> list[str]:
@@ -120,11 +117,6 @@ def _typed(part: PartResult) -> str:
 
 def _given(part: PartResult) -> str:
     return "" if part.marks is None else points_text(part.marks)
-
-
-def _cell(text: str) -> str:
-    """A text that a spreadsheet does not run and a terminal does not obey."""
-    return defused(visible(text))
 
 
 def as_json(one: Marked) -> dict[str, object]:

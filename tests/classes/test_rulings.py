@@ -8,7 +8,7 @@ from fractions import Fraction
 import pytest
 
 from quizgen.classes.mark import Sheet, mark_sheet
-from quizgen.classes.rulings import Book, Ruling, append_rulings, read_rulings, undefused
+from quizgen.classes.rulings import Book, Ruling, append_rulings, read_rulings
 from quizgen.errors import ClassError
 from quizgen.paper.key import Key, KeyPart, KeyQuestion
 
@@ -124,14 +124,3 @@ def test_a_line_that_says_nothing_is_refused_with_its_place(tmp_path, text, said
     (tmp_path / "rulings.csv").write_text(text, "utf-8")
     with pytest.raises(ClassError, match=said):
         read_rulings(tmp_path)
-
-
-def test_only_what_was_made_inert_is_undone():
-    assert [undefused(cell) for cell in ("'=1", "'a", "=1", "'", "''=1", "' +")] == [
-        "=1",
-        "'a",
-        "=1",
-        "'",
-        "''=1",
-        " +",
-    ]

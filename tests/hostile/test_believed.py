@@ -19,7 +19,17 @@ from quizgen.cards import build
 from quizgen.cards.mistakes import from_marks
 from quizgen.cards.tables import as_csv, tsv
 from quizgen.errors import BankError, BlueprintError, CodeError, KeyFileError
-from quizgen.outside import DEEPEST, defused, is_name, parse_json, parse_toml, read_bytes, visible
+from quizgen.outside import (
+    DEEPEST,
+    csv_text,
+    defused,
+    is_name,
+    parse_json,
+    parse_toml,
+    read_bytes,
+    undefused,
+    visible,
+)
 from quizgen.paper.blueprint import load_blueprint
 from quizgen.paper.key import FORMAT, load_key
 from quizgen.png import decode
@@ -344,6 +354,19 @@ def test_a_cell_is_no_formula(start):
 @pytest.mark.parametrize("text", ["", "Rahim", "1 = 1", "রহিম", "'x", " a", "<p>=1</p>"])
 def test_a_harmless_cell_stays_as_it_is(text):
     assert defused(text) == text
+
+
+@pytest.mark.parametrize(
+    ("cell", "bare"),
+    [("'=1", "=1"), ("'a", "'a"), ("=1", "=1"), ("'", "'"), ("''=1", "''=1"), ("' +", " +")],
+)
+def test_only_what_was_made_inert_is_undone(cell, bare):
+    assert undefused(cell) == bare
+
+
+def test_cells_of_a_table_are_inert_and_steer_no_terminal():
+    made = csv_text([("a", "b"), ("=1+1", 'x, "y"'), ("\x1b[2J", "এক\nদুই")])
+    assert made == 'a,b\n\'=1+1,"x, ""y"""\n[U+001B control character][2J,"এক\nদুই"\n'
 
 
 def test_a_title_that_is_a_formula_is_none_in_the_deck(tmp_path):
