@@ -216,7 +216,7 @@ def report_html(report: Report) -> bytes:
         .render(
             report=report,
             words=report.words,
-            style=Markup(line_heights(":lang({})") + style()),
+            style=Markup(line_heights(":lang({})")) + style(),
             faces={400: bangla_uri(), 700: bangla_uri("Bold")} if bangla else {},
         )
     )
@@ -230,9 +230,9 @@ def layouts() -> jinja2.Environment:
 
 
 @cache
-def style() -> str:
+def style() -> Markup:
     """How they look."""
-    return (files(PACKAGE) / "pages" / "report.css").read_text(encoding="utf-8")
+    return Markup((files(PACKAGE) / "pages" / "report.css").read_text(encoding="utf-8"))
 
 
 def report_pdf(report: Report) -> bytes:
