@@ -9,14 +9,14 @@ here gives points: key points that were found are a suggestion.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache
 from pathlib import Path
 
 from quizgen.classes.mark import Marks, item_of
-from quizgen.classes.rulings import DECIDE, SECOND, Ruling, alike
+from quizgen.classes.rulings import DECIDE, SECOND, Ruling, alike, last_words
 from quizgen.classes.statistics import kappa
 from quizgen.errors import ClassError, FormulaError
 from quizgen.files import PRIVATE, write_all
@@ -336,14 +336,10 @@ class Agreement:
     apart: tuple[tuple[Ruling, Ruling], ...]
 
 
-def agreement(rulings: Iterable[Ruling]) -> Agreement:
+def agreement(rulings: Sequence[Ruling]) -> Agreement:
     """Compare the first and the second marker, by their last word on each group."""
-    last = {(one.what, one.group): one for one in rulings if one.what in {DECIDE, SECOND}}
-    both = [
-        (one, last[SECOND, group])
-        for (what, group), one in last.items()
-        if what == DECIDE and (SECOND, group) in last and one.value
-    ]
+    first, second = last_words(rulings, DECIDE), last_words(rulings, SECOND)
+    both = [(one, second[group]) for group, one in first.items() if group in second]
     said = [(a.points, b.points) for a, b in both]
     apart = tuple(pair for pair, (a, b) in zip(both, said, strict=True) if a != b)
     return Agreement(len(both), kappa(said), apart)

@@ -198,6 +198,12 @@ def group_of(item: str, key: str, answer: str, *, words: bool) -> str:
     return f"g{hashlib.sha256(whole.encode()).hexdigest()[:10]}"
 
 
+def last_words(rulings: Iterable[Ruling], what: str) -> dict[str, Ruling]:
+    """Group of equal answers to the last line of a kind about it, where that was not taken back."""
+    last = {one.group: one for one in rulings if one.what == what and one.group}
+    return {group: one for group, one in last.items() if one.value}
+
+
 class Book:
     """All rulings, ready to be asked.
 

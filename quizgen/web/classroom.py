@@ -18,7 +18,14 @@ from quizgen.classes.executors import Here
 from quizgen.classes.folder import ClassFolder
 from quizgen.classes.history import History
 from quizgen.classes.keys import Keys
-from quizgen.classes.rulings import DECIDE, SECOND, Ruling, append_rulings, read_rulings
+from quizgen.classes.rulings import (
+    DECIDE,
+    SECOND,
+    Ruling,
+    append_rulings,
+    last_words,
+    read_rulings,
+)
 from quizgen.classes.run import mark_class
 from quizgen.errors import ClassError, FormulaError
 from quizgen.web.forms import every, one, posted
@@ -40,8 +47,8 @@ def _folder(request: Request) -> Path:
 def _groups(folder: Path, lang: str, *, second: bool) -> tuple[list[list[Case]], Agreement]:
     """What is still to be decided, or what a second marker has not seen."""
     rulings = read_rulings(folder)
-    settled = {one.group for one in rulings if one.what == DECIDE and one.value}
-    seen = {one.group for one in rulings if one.what == SECOND}
+    settled = last_words(rulings, DECIDE).keys()
+    seen = last_words(rulings, SECOND).keys()
     marked = list(History(folder).current())
     answers = waiting(marked) + (waiting(marked, decided=True) if second else [])
     wanted = settled - seen if second else {a.group for a in answers} - settled

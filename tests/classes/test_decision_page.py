@@ -10,6 +10,7 @@ import pytest
 from made import made, run
 from starlette.testclient import TestClient
 
+from quizgen.classes.rulings import Ruling, append_rulings
 from quizgen.web.app import application
 from quizgen.web.door import form_token
 from quizgen.web.settings import Settings
@@ -66,6 +67,16 @@ def test_equal_answers_are_one_group_and_the_contrary_is_another(asked):
     assert "<mark>cone</mark>" in page
     assert "Key points found: 1 / 2: cone" in page
     assert "Suggestion: 0.5" in page
+
+
+def test_what_was_taken_back_is_asked_again(asked, folder):
+    client, _ = asked
+    before = groups(client.get("/class").text)
+    decided = Ruling("decide", "blur-and-light-factors/b", value="0.5", group=before[0][0])
+    append_rulings(folder, [decided])
+    assert groups(client.get("/class").text) == before[1:]
+    append_rulings(folder, [Ruling("decide", decided.item, group=decided.group)])
+    assert groups(client.get("/class").text) == before
 
 
 def test_one_decision_settles_a_group_and_marking_counts_it(asked, folder):
