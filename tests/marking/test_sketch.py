@@ -180,6 +180,10 @@ def test_the_printed_key_is_right_and_a_minus_sign_is_one():
         assert mark(spec, show(spec).replace("\u2212", "-")).verdict == "correct"
 
 
+MOVED = {"reads": "moved", "of": ["l"], "circle": [0, 0, 1], "within": 2}
+TOP = {"reads": "curve", "of": ["l"], "top": True}
+
+
 @pytest.mark.parametrize(
     ("change", "said"),
     [
@@ -190,6 +194,14 @@ def test_the_printed_key_is_right_and_a_minus_sign_is_one():
         ({"lines": {"l": "0,0"}}, "two ends"),
         ({"lines": {"l": "0,0 1,1 0,0"}}, "two ends"),
         ({"traps": {"t": {"m": "0,0 1,1"}}}, "lines that the key has"),
+        ({"cuts": ["1e999"]}, "beyond all floats"),
+        ({"features": {"a": {"reads": "line", "of": ["l"], "circle": [0, 0, 0]}}}, "radius"),
+        ({"features": {"a": {**MOVED, "circle": [0, 0, 0]}}}, "radius"),
+        ({"features": {"a": {**MOVED, "within": 1}}}, "within"),
+        ({"features": {"a": {"reads": "curve", "of": ["l"]}}}, "must be asked"),
+        ({"features": {"a": TOP}, "lines": {"l": "0,0 0,1"}}, "one height"),
+        ({"features": {"a": TOP}, "lines": {"l": "-1,-1 1,-1"}}, "one height"),
+        ({"features": {"a": TOP}, "lines": {"l": "-1,0 1,0 1,1 -1,1"}}, "one height"),
     ],
 )
 def test_a_key_that_cannot_be_judged_by_is_refused(change, said):
@@ -198,3 +210,16 @@ def test_a_key_that_cannot_be_judged_by_is_refused(change, said):
     load_spec(table)
     with pytest.raises(KeyFileError, match=said):
         load_spec({**table, **change})
+
+
+@pytest.mark.parametrize(
+    ("lines", "feature"),
+    [
+        ({"l": "-1,0 1,0"}, MOVED),  # its ends have not left the circle
+        ({"l": "-1,0 0,1 1,0", "beside": "0,0 0,1"}, TOP),
+    ],
+)
+def test_wanted_lines_that_a_feature_cannot_read_are_no_failure(lines, feature):
+    table = {"kind": "sketch", "view": [-1, 1, 0, 1], "lines": lines, "features": {"a": feature}}
+    for typed in [*lines.values(), "-1,0 1,0.1", "0,0 0,1"]:
+        assert mark(table, typed).verdict in {"correct", "wrong"}

@@ -43,22 +43,22 @@ class Curve(Feature, frozen=True):
     top: bool = False
     ends: bool = False
 
-    def validate(self) -> None:
-        """Of a curve something must be asked."""
+    def validate(self, sheet: Sheet, /) -> None:
+        """Of a curve something must be asked, and it must have heights."""
         if not (self.peaks or self.top or self.ends):
             raise ValueError("peaks, top or ends must be asked of a curve")
+        if not all(sheet.once(wanted_heights)[name] for name in self.of):
+            raise ValueError("a curve runs along x and has one height at each place, above 0")
 
     def seen(self, sheet: Sheet, /) -> bool:
         """Whether there is a line above or below any of the wanted ones."""
-        return any(_heights(sheet, line) for line in sheet.wanted.values())
+        return any(sheet.once(drawn_heights)[name] for name in self.of)
 
     def has(self, name: str, sheet: Sheet, /) -> bool:
         """Whether a curve has it."""
-        line = sheet.wanted[name]
-        drawn = _heights(sheet, line)
+        drawn, wanted = sheet.once(drawn_heights)[name], sheet.once(wanted_heights)[name]
         if len(drawn) < COVERED * PLACES:
             return False
-        wanted = _profile([line], line)
         return (
             (not self.peaks or _peaks(drawn) == _peaks(wanted))
             and (not self.top or self._beside(sheet, name, drawn))
@@ -72,14 +72,22 @@ class Curve(Feature, frozen=True):
         return abs(_summit(drawn) - own) <= min([BESIDE, *apart]) and abs(most / tall - 1) <= HIGH
 
 
-def _heights(sheet: Sheet, line: Stroke) -> list[Point]:
-    """What was drawn over the places of a curve; nothing if it has several heights at many."""
-    return _profile(sheet.strokes, line)
+def drawn_heights(sheet: Sheet) -> dict[str, list[Point]]:
+    """What was drawn over the places of each wanted line."""
+    return {name: _profile(sheet.strokes, line) for name, line in sheet.wanted.items()}
+
+
+def wanted_heights(sheet: Sheet) -> dict[str, list[Point]]:
+    """What was wanted there."""
+    return {name: _profile([line], line) for name, line in sheet.wanted.items()}
 
 
 def _profile(strokes: Sequence[Stroke], line: Stroke) -> list[Point]:
+    """Heights over the places of a line; none if it has no width or height, or several at many."""
     left, right = min(x for x, _ in line), max(x for x, _ in line)
     step, tall = (right - left) / (PLACES - 1), max(y for _, y in line)
+    if step <= 0 or tall <= 0:
+        return []
     found: list[list[float]] = [[] for _ in range(PLACES)]
     for stroke in strokes:
         for x, y in resampled(stroke, FINE):

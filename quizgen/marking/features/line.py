@@ -45,9 +45,11 @@ class Line(Feature, frozen=True):
     ends: bool = False
     circle: tuple[Scalar, Scalar, Scalar] | None = None
 
-    def validate(self) -> None:
-        """Check the circle."""
-        numbers(self.circle or ())
+    def validate(self, sheet: Sheet, /) -> None:
+        """Check lines and circle."""
+        sheet.once(wishes)
+        if self.circle:
+            round_about(self.circle, sheet)
 
     def seen(self, sheet: Sheet, /) -> bool:
         """Whether any line lies where one is wanted."""
@@ -161,5 +163,7 @@ def _sides(circle: tuple[Scalar, ...], sheet: Sheet, wish: Wish, drawn: Fit) -> 
 def round_about(circle: tuple[Scalar, ...], sheet: Sheet) -> tuple[Point, float]:
     """Centre and radius of a circle on a sheet."""
     x, y, radius = numbers(circle)
+    if radius <= 0:
+        raise ValueError("circle: its radius must be above 0")
     centre, rim = sheet.scale.line([(x, y), (x + radius, y)])
     return centre, math.dist(centre, rim)

@@ -21,9 +21,11 @@ class Moved(Feature, frozen=True):
     circle: tuple[Scalar, Scalar, Scalar]
     within: Scalar
 
-    def validate(self) -> None:
-        """Check circle and factor."""
-        if not min(numbers([*self.circle[2:], self.within])) > 0 or numbers([self.within])[0] <= 1:
+    def validate(self, sheet: Sheet, /) -> None:
+        """Check lines, circle and factor."""
+        sheet.once(wishes)
+        round_about(self.circle, sheet)
+        if numbers([self.within])[0] <= 1:
             raise ValueError("within: a factor above 1")
 
     def seen(self, sheet: Sheet, /) -> bool:
@@ -35,8 +37,8 @@ class Moved(Feature, frozen=True):
         drawn = sheet.once(fits).get(name)
         if drawn is None or not sheet.once(wishes)[name].found(drawn):
             return False
-        (within,) = numbers([self.within])
-        return 1 / within <= median(self._ratios(sheet)) <= within
+        (within,), ratios = numbers([self.within]), [*self._ratios(sheet)]
+        return bool(ratios) and 1 / within <= median(ratios) <= within
 
     def _ratios(self, sheet: Sheet) -> Iterator[float]:
         """What each end has moved by over what was wanted of it."""

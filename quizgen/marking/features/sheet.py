@@ -82,8 +82,8 @@ class Feature(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
     of: list[str]
     worth: int = 1
 
-    def validate(self) -> None:
-        """Check what types cannot say."""
+    def validate(self, sheet: Sheet, /) -> None:
+        """Check what types cannot say, also of the wanted lines, so that nothing drawn raises."""
 
     @abstractmethod
     def seen(self, sheet: Sheet, /) -> bool:
@@ -100,4 +100,7 @@ class Feature(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
 
 def numbers(scalars: Sequence[Scalar]) -> list[float]:
     """What a key stores, as floats."""
-    return [float(written(one)) for one in scalars]
+    try:
+        return [float(written(one)) for one in scalars]
+    except OverflowError:
+        raise ValueError("a number is beyond all floats") from None

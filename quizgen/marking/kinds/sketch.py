@@ -11,7 +11,6 @@ import msgspec
 
 from quizgen.marking.echo import safe
 from quizgen.marking.features import AnyFeature
-from quizgen.marking.features.line import wishes
 from quizgen.marking.features.sheet import Scale, Sheet, numbers
 from quizgen.marking.options import Options
 from quizgen.marking.reading.strokes import (
@@ -59,12 +58,11 @@ class Spec(Worded, kw_only=True, frozen=True):
         if any({*lines} != {*self.lines} for lines in self.traps.values()):
             raise ValueError("every mistake has the lines that the key has")
         numbers([self.tall, *self.cuts])
+        if any(not one.of or not {*one.of} <= {*self.lines} for one in self.features.values()):
+            raise ValueError("features: of names lines")
         for sheet in self._sheets([]):
-            wishes(sheet)
-        for one in self.features.values():
-            if not one.of or not {*one.of} <= {*self.lines}:
-                raise ValueError("features: of names lines")
-            one.validate()
+            for one in self.features.values():
+                one.validate(sheet)
 
     @property
     def field(self) -> View:
