@@ -44,10 +44,9 @@ def choose(bank: Bank, blueprint: Blueprint, seed: int | str) -> list[str]:
 def _as_a_whole(bank: Bank, blueprint: Blueprint, seed: int | str) -> list[str]:
     """Fill the slots so that the paper holds what its blueprint asks for as a whole."""
     slots = [n for n, slot in enumerate(blueprint.slot, 1) for _ in range(slot.count)]
-    worth = [points for points, _ in zip(weights(blueprint), slots, strict=False)]
     places = [
-        [candidate(bank, name, points) for name in _fitting(bank, blueprint, index)]
-        for index, points in zip(slots, worth, strict=True)
+        [candidate(bank, name, points) for name in fitting]
+        for fitting, points in zip(_open_to(bank, blueprint), weights(blueprint), strict=False)
     ]
     for n in range(ORDERS):
         salt = f"{seed}/{n}" if n else str(seed)

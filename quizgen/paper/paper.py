@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from fractions import Fraction
-from itertools import repeat
 from typing import NamedTuple
 
 import msgspec
@@ -292,18 +291,14 @@ def reference_paper(
     """
     if not blueprint.reference:
         raise BlueprintError(f"blueprint {blueprint.name!r} lists no reference questions")
-    langs = chosen(choice, bank.languages)
     with located(blueprint.file):
         folders = [bank.folder_of(name) for name in blueprint.reference]
     templates = [bank.template(folder.name) for folder in folders]
     drawn = [instance(t, REFERENCE if t.rules.reference is not None else 0) for t in templates]
-    asked = [*_levels(drawn, repeat(blueprint.level))]
-    items = []
-    for number, one in enumerate(asked, 1):
-        items.append(_item(one, langs, str(number), figures=figures))
-        progress(one.drawn.template.id)
     named = Code(blueprint.name, REFERENCE, choice, level=blueprint.level)
-    return Paper(str(_digested(named, blueprint, asked)), blueprint, langs, tuple(items))
+    slotless = msgspec.structs.replace(blueprint, slot=())  # its slots are for other questions
+    ready = composed(bank, slotless, drawn, named, figures=figures, progress=progress)
+    return replace(ready, blueprint=blueprint)
 
 
 def single(
