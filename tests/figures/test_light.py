@@ -67,8 +67,7 @@ def test_lines_pictures_and_labels_are_the_same(name, quiz):
     assert exact.get("viewBox") == light.get("viewBox")
     for one, other in zip(pixels(exact), pixels(light), strict=True):
         assert np.array_equal(one, other)
-    groups = {"labels"}
-    drawn = [path for group in exact.iter(f"{SVG}g") if group.get("data-part") not in groups
+    drawn = [path for group in exact.iter(f"{SVG}g") if group.get("data-part") != "labels"
              for path in group if path.tag == f"{SVG}path"]  # fmt: skip
     paper = figure.dark == "keep"
     others = list(light.iter(f"{SVG}path"))[paper:]
