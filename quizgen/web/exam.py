@@ -76,8 +76,11 @@ def _choice(request: Request, name: str) -> Choice | None:
 
 
 def _title(request: Request, sitting: Sitting) -> str:
-    """Title of a paper; its code, if its blueprint is gone."""
-    found = _choice(request, parse_code(sitting.code).blueprint)
+    """Title of a paper; its code, if its blueprint or its language is gone."""
+    try:
+        found = _choice(request, parse_code(sitting.code).blueprint)
+    except CodeError:
+        found = None
     return found.title if found else sitting.code
 
 
