@@ -49,30 +49,29 @@ def exporter(name: str) -> Exporter:
     ChoiceError
         Naming the formats there are.
     """
-    match one_of("format", name, FORMATS):
+    chosen = one_of("format", name, FORMATS)
+    from quizgen.export.items import by_hand
+
+    match chosen:
         case "gift":
             from quizgen.export import gift
 
             return Exporter(gift.write, gift.by_hand, gift.kept)
         case "canvas":
             from quizgen.export import canvas
-            from quizgen.export.items import by_hand
 
             return Exporter(canvas.write, by_hand, canvas.kept)
         case "qti21":
-            from quizgen.export.items import by_hand
             from quizgen.export.qti.item import kept
             from quizgen.export.qti.package import write_qti21
 
             return Exporter(write_qti21, by_hand, kept)
         case "qti3":
-            from quizgen.export.items import by_hand
             from quizgen.export.qti.item import kept
             from quizgen.export.qti.package import write_qti3
 
             return Exporter(write_qti3, by_hand, kept)
         case _:
             from quizgen.export import moodle
-            from quizgen.export.items import by_hand
 
             return Exporter(moodle.write, by_hand, moodle.kept)

@@ -21,7 +21,7 @@ from markupsafe import Markup
 
 from quizgen.export.answers import answers
 from quizgen.export.asks import Ask, Choose, Fill, Numeric, Order, Pairs, Truth, Write, as_pairs
-from quizgen.export.items import Item, by_slot
+from quizgen.export.items import Item, by_slot, suffix
 from quizgen.export.kept import asked
 from quizgen.export.wording import body, image, inline, marked, signed, solution, stem, targets
 from quizgen.figures import Figure
@@ -55,7 +55,7 @@ class Query:
     @property
     def title(self) -> str:
         """What a course shows of it."""
-        return f"{self.item.question.title} ({self.item.number}{self.suffix})"
+        return self.item.called(self.suffix)
 
     @property
     def group(self) -> str:
@@ -112,7 +112,7 @@ _kind.register(Write, lambda _ask: "essay")
 def queries(item: Item) -> Iterator[Query]:
     """The questions that an item becomes."""
     for part, found in item.parts:
-        label = f".{part.label}" if part.label else ""
+        label = suffix(part)
         if len(found) == 1 or all(isinstance(ask, Fill) for ask in found):
             yield Query(item, part, found, part.points, label)
             continue

@@ -17,7 +17,7 @@ from markupsafe import Markup
 
 from quizgen.export.answers import Answer, answers, lettered
 from quizgen.export.asks import Ask, Choose, Fill, Numeric, Order, Pairs, Truth, Write, as_pairs
-from quizgen.export.items import Item, by_slot
+from quizgen.export.items import Item, by_slot, suffix
 from quizgen.export.kept import asked
 from quizgen.export.wording import body, image, inline, marked, signed, solution, stem, targets
 from quizgen.figures import Figure
@@ -53,13 +53,8 @@ def by_hand(item: Item) -> Iterator[tuple[str, str]]:
 def kept(item: Item) -> Iterator[keys.Entry]:
     """How the one field of each part is read back."""
     for part, found in item.parts:
-        ask, suffix = _only(found), _suffix(part)
-        fields = [asked(ask, part, item.lang)]
-        yield keys.Entry(item.mark(suffix), f"{item.id}{suffix}", fields)
-
-
-def _suffix(part: Part) -> str:
-    return f".{part.label}" if part.label else ""
+        fields, behind = [asked(_only(found), part, item.lang)], suffix(part)
+        yield keys.Entry(item.mark(behind), f"{item.id}{behind}", fields)
 
 
 def _blocks(items: Iterable[Item]) -> Iterator[str]:
@@ -76,14 +71,14 @@ def _only(found: tuple[Ask, ...]) -> Ask:
 
 
 def _question(item: Item, part: Part, ask: Ask) -> str:
-    suffix = _suffix(part)
+    behind = suffix(part)
     text = stem(item, _picture(item.question.figure)) + body(part, (ask,), item.lang)
-    text += signed(item, suffix)
+    text += signed(item, behind)
     told = solution(item, _picture(item.solved_figure), (part.label,))
     tags = "".join(f" [tag:{tag}]" for tag in item.tags)
-    name = _text(f"{item.question.title} ({item.number}{suffix})")
+    name = _text(item.called(behind))
     inside = f"{_inside(ask, item.lang)}####{_text(told)}"
-    return f"// [id:{item.id}{suffix}]{tags}\n::{name}::[html]{_text(text)}{{{inside}}}"
+    return f"// [id:{item.id}{behind}]{tags}\n::{name}::[html]{_text(text)}{{{inside}}}"
 
 
 def _picture(figure: Figure | None) -> Markup:

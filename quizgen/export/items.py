@@ -48,6 +48,10 @@ class Item:
         """What it is called in any language."""
         return self.id.rsplit(".", 1)[0]
 
+    def called(self, suffix: str = "") -> str:
+        """What a course lists it by, or what it becomes there with a suffix."""
+        return f"{self.question.title} ({self.number}{suffix})"
+
     @property
     def category(self) -> str:
         """Where a course keeps it: what stands together there, a quiz may draw from."""
@@ -85,6 +89,11 @@ class Item:
         lines = (line for part in self.key.solution.parts for line in part.lines)
         cited = dict.fromkeys(line.formula for line in lines if line.formula)
         return (self.question.topic, f"tier {self.question.tier}", *cited)
+
+
+def suffix(part: Part) -> str:
+    """What tells the question that a part becomes from others of its item."""
+    return f".{part.label}" if part.label else ""
 
 
 def by_hand(item: Item) -> Iterator[tuple[str, str]]:

@@ -34,9 +34,10 @@ from quizgen.export.asks import (
     as_pairs,
     by_person,
 )
-from quizgen.export.items import Item
+from quizgen.export.items import Item, suffix
 from quizgen.export.kept import asked
 from quizgen.export.wording import (
+    beside,
     body,
     hints,
     image,
@@ -50,9 +51,7 @@ from quizgen.export.wording import (
 )
 from quizgen.figures import Figure
 from quizgen.locale import word
-from quizgen.maths.units import shown as shown_unit
 from quizgen.question.compose import Part
-from quizgen.question.shown import named
 from quizgen.render.layouts import environment
 from quizgen.responses import keys
 
@@ -86,7 +85,7 @@ class Entry:
     @property
     def name(self) -> str:
         """What a course lists it by."""
-        return f"{self.item.question.title} ({self.item.number}{self.suffix})"
+        return self.item.called(self.suffix)
 
     @property
     def points(self) -> Fraction:
@@ -166,8 +165,7 @@ def entries(item: Item) -> Iterator[Entry]:
     for part, found in item.parts:
         for ask in found:
             if isinstance(ask, Write):
-                suffix = f".{part.label}" if part.label else ""
-                yield Entry(item, "essay", suffix, [(part, found)], ask)
+                yield Entry(item, "essay", suffix(part), [(part, found)], ask)
 
 
 def _one(item: Item) -> Entry | None:
@@ -226,10 +224,8 @@ def _embedded(ask: Ask, _weight: int, _lang: str) -> Markup:
 
 @_embedded.register
 def _embedded_number(ask: Numeric, weight: int, lang: str) -> Markup:
-    name = inline((named(ask.name),), lang) + " = " if ask.name else ""
     rows = [(f"{a.typed}:{a.tolerance}", a.percent, a.said) for a in answers(ask, lang)]
-    unit = "" if ask.unit in {"", "1"} else f" {shown_unit(ask.unit)}"
-    return Markup("<p>{}{}{}</p>").format(name, _field(weight, "NUMERICAL", rows), unit)
+    return beside(ask, _field(weight, "NUMERICAL", rows), lang)
 
 
 @_embedded.register

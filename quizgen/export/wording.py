@@ -23,12 +23,14 @@ from quizgen.export.asks import Ask, Choose, Fill, Numeric, Order, Pairs, Said, 
 from quizgen.export.items import Item
 from quizgen.figures import Figure
 from quizgen.locale import word
+from quizgen.maths.units import shown as shown_unit
 from quizgen.paper.paper import Item as PaperItem
 from quizgen.question import markup
 from quizgen.question.compose import Part
 from quizgen.question.hints import given
 from quizgen.question.hints import unit as in_unit
 from quizgen.question.markup import Manner, mathml_line
+from quizgen.question.shown import named
 from quizgen.question.solution import PartSolution, Solution
 from quizgen.render.html import fragment
 from quizgen.render.text import inline as in_text
@@ -105,6 +107,13 @@ def _listed(part: Part, lang: str) -> Markup:
 def marked(mark: str, words: Said, lang: str) -> Markup:
     """An option behind its letter, which the worked solution names it by."""
     return Markup("{}. {}").format(mark, inline(words, lang))
+
+
+def beside(ask: Numeric, field: Markup, lang: str, number: str = "") -> Markup:
+    """A field between the name of its number, else which one it is, and its unit."""
+    name = inline((named(ask.name),), lang) + " = " if ask.name else number
+    unit = "" if ask.unit in {"", "1"} else f" {shown_unit(ask.unit)}"
+    return Markup("<p>{}{}{}</p>").format(name, field, unit)
 
 
 def targets(pairs: Pairs) -> dict[str, str]:

@@ -53,7 +53,7 @@ def item_file(item: Item, dialect: Dialect, source: Source) -> bytes:
     rows = [row for group in groups for row in group]
     named = {
         "identifier": name_of(item),
-        "title": f"{item.question.title} ({item.number})",
+        "title": item.called(),
         "xml:lang": item.lang,
         "adaptive": "false",
         "timeDependent": "false",

@@ -29,10 +29,8 @@ from quizgen.export.asks import (
 from quizgen.export.qti.dialect import Attributes, written
 from quizgen.export.qti.place import Place
 from quizgen.export.ranges import Range
-from quizgen.export.wording import inline, marked
+from quizgen.export.wording import beside, inline, marked
 from quizgen.locale import word
-from quizgen.maths.units import shown as shown_unit
-from quizgen.question.shown import named
 
 LENGTH = 20
 """Signs that a field for a number or a word has room for."""
@@ -71,12 +69,8 @@ def played(ask: Ask, _at: Place) -> Played:
 def _number(ask: Numeric, at: Place) -> Played:
     right = [_within(one, at) for one in ask.ranges if one.right]
     wrong = [(_within(one, at), one.said) for one in ask.ranges if not one.right and one.said]
-    name = inline((named(ask.name),), at.lang) + " = " if ask.name else at.number
-    unit = "" if ask.unit in {"", "1"} else f" {shown_unit(ask.unit)}"
     declared = at.declared("single float", [written(ask.key.value)])
-    return _compared(
-        at, declared, Markup("<p>{}{}{}</p>").format(name, _entry(at), unit), right, wrong
-    )
+    return _compared(at, declared, beside(ask, _entry(at), at.lang, at.number), right, wrong)
 
 
 def _within(one: Range, at: Place) -> Markup:
