@@ -9,7 +9,6 @@ Sources: IMS QTI 1.2 ASI; Canvas LMS, lib/cc/qti; text2qti.
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
@@ -19,11 +18,12 @@ from itertools import groupby
 import jinja2
 from markupsafe import Markup
 
+from quizgen.export import pictures
 from quizgen.export.answers import answers
 from quizgen.export.asks import Ask, Choose, Fill, Numeric, Order, Pairs, Truth, Write, as_pairs
 from quizgen.export.items import Item, by_slot, suffix
 from quizgen.export.kept import asked
-from quizgen.export.wording import body, image, inline, marked, signed, solution, stem, targets
+from quizgen.export.wording import body, inline, marked, signed, solution, stem, targets
 from quizgen.figures import Figure
 from quizgen.files import zipped
 from quizgen.locale import word
@@ -77,7 +77,7 @@ class Query:
     def text(self) -> Markup:
         """Everything that stands above its fields."""
         item, lang = self.item, self.item.lang
-        text = stem(item, _picture(item.question.figure)) + body(self.part, self.asks, lang)
+        text = stem(item, _source) + body(self.part, self.asks, lang, _source)
         if len(self.asks) > 1:
             blanks = (f"{place}. [blank{place}]" for place, _ in enumerate(self.asks, 1))
             text += Markup("<p>{}</p>").format(Markup("<br>").join(blanks))
@@ -142,8 +142,7 @@ def contents(items: Iterable[Item]) -> dict[str, bytes]:
         groups = [(name, list(row)) for name, row in groupby(made, key=_group)]
         quizzes[f"quizgen-{lang}"] = groups
         for item in kept_items:
-            both = (item.question.figure, item.solved_figure)
-            figures |= {_path(figure): figure.light for figure in both if figure}
+            figures |= pictures.shown(item)
     page = _layouts().get_template
     files = {
         "imsmanifest.xml": page("canvas_manifest.xml.j2").render(quizzes=quizzes, files=figures)
@@ -176,14 +175,9 @@ def _layouts() -> jinja2.Environment:
 
 
 def _solution(query: Query) -> Markup:
-    picture = _picture(query.item.solved_figure)
     told = any(not isinstance(ask, Numeric) for ask in query.asks)
-    return solution(query.item, picture, (query.part.label,), told=told)
+    return solution(query.item, _source, (query.part.label,), told=told)
 
 
-def _path(figure: Figure) -> str:
-    return f"figures/{hashlib.sha256(figure.light).hexdigest()[:16]}.svg"
-
-
-def _picture(figure: Figure | None) -> Markup:
-    return image(f"%24IMS-CC-FILEBASE%24/{_path(figure)}", figure) if figure else Markup("")
+def _source(figure: Figure) -> str:
+    return f"%24IMS-CC-FILEBASE%24/{pictures.path(figure)}"

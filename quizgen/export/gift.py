@@ -19,7 +19,7 @@ from quizgen.export.answers import Answer, answers, lettered
 from quizgen.export.asks import Ask, Choose, Fill, Numeric, Order, Pairs, Truth, Write, as_pairs
 from quizgen.export.items import Item, by_slot, suffix
 from quizgen.export.kept import asked
-from quizgen.export.wording import body, image, inline, marked, signed, solution, stem, targets
+from quizgen.export.wording import body, inline, marked, signed, solution, stem, targets
 from quizgen.figures import Figure
 from quizgen.question.compose import Part
 from quizgen.responses import keys
@@ -72,18 +72,17 @@ def _only(found: tuple[Ask, ...]) -> Ask:
 
 def _question(item: Item, part: Part, ask: Ask) -> str:
     behind = suffix(part)
-    text = stem(item, _picture(item.question.figure)) + body(part, (ask,), item.lang)
+    text = stem(item, _source) + body(part, (ask,), item.lang, _source)
     text += signed(item, behind)
-    told = solution(item, _picture(item.solved_figure), (part.label,))
+    told = solution(item, _source, (part.label,))
     tags = "".join(f" [tag:{tag}]" for tag in item.tags)
     name = _text(item.called(behind))
     inside = f"{_inside(ask, item.lang)}####{_text(told)}"
     return f"// [id:{item.id}{behind}]{tags}\n::{name}::[html]{_text(text)}{{{inside}}}"
 
 
-def _picture(figure: Figure | None) -> Markup:
-    data = base64.b64encode(figure.light).decode() if figure else ""
-    return image(f"data:image/svg+xml;base64,{data}", figure)
+def _source(figure: Figure) -> str:
+    return f"data:image/svg+xml;base64,{base64.b64encode(figure.light).decode()}"
 
 
 def _text(text: str) -> str:

@@ -21,6 +21,7 @@ import jinja2
 from markupsafe import Markup
 
 from quizgen.bank.prose import Words
+from quizgen.export import pictures
 from quizgen.export.answers import answers, lettered
 from quizgen.export.asks import (
     Ask,
@@ -40,7 +41,6 @@ from quizgen.export.wording import (
     beside,
     body,
     hints,
-    image,
     inline,
     marked,
     signed,
@@ -95,10 +95,13 @@ class Entry:
     @property
     def text(self) -> Markup:
         """What it says, and behind it what tells its responses from those to others."""
-        item = self.item
-        above = stem(item, _picture("figure.svg", item.question.figure))
         asking = _with_fields(self) if self.kind == "cloze" else _bodies(self)
-        return above + asking + signed(item, self.suffix)
+        return stem(self.item, _source) + asking + signed(self.item, self.suffix)
+
+    @property
+    def labels(self) -> list[str]:
+        """What its parts are called."""
+        return [part.label for part, _ in self.parts]
 
 
 def write(items: Iterable[Item]) -> bytes:
@@ -135,26 +138,23 @@ def _layouts() -> jinja2.Environment:
     layouts = environment("quizgen.export")
     layouts.globals.update(
         answers=answers,
-        base64=lambda figure: base64.b64encode(figure.light).decode(),
+        asked=lambda entry: pictures.asked(entry.item, entry.labels),
+        base64=lambda data: base64.b64encode(data).decode(),
         cdata=lambda text: Markup(str(text).replace("]]>", "]]]]><![CDATA[>")),  # noqa: S704
         hints=hints,
         in_order=lambda order: [(mark, dict(order.steps)[mark]) for mark in order.right],
         inline=inline,
         marked=marked,
-        solution=_solution,
+        solution=lambda entry: solution(entry.item, _source, entry.labels),
+        solved=lambda entry: pictures.solved(entry.item, entry.labels),
         spoken=spoken,
         targets=targets,
     )
     return layouts
 
 
-def _solution(entry: Entry) -> Markup:
-    picture = _picture("solution.svg", entry.item.solved_figure)
-    return solution(entry.item, picture, [part.label for part, _ in entry.parts])
-
-
-def _picture(name: str, figure: Figure | None) -> Markup:
-    return image(f"@@PLUGINFILE@@/{name}", figure)
+def _source(figure: Figure) -> str:
+    return f"@@PLUGINFILE@@/{pictures.name(figure)}"
 
 
 def entries(item: Item) -> Iterator[Entry]:
@@ -194,7 +194,7 @@ _kind.register(Fill, lambda _ask: "shortanswer")
 
 def _bodies(entry: Entry) -> Markup:
     lang = entry.item.lang
-    return Markup("").join(body(part, found, lang) for part, found in entry.parts)
+    return Markup("").join(body(part, found, lang, _source) for part, found in entry.parts)
 
 
 def _with_fields(entry: Entry) -> Markup:
@@ -204,7 +204,7 @@ def _with_fields(entry: Entry) -> Markup:
     scale = lcm(*(share.denominator for share in shares))
     text = Markup("")
     for (part, found), share in zip(entry.parts, shares, strict=True):
-        text += body(part, found, lang)
+        text += body(part, found, lang, _source)
         for ask in found:
             text += _embedded(ask, int(share * scale), lang)
     return text

@@ -21,7 +21,7 @@ from quizgen.bank.prose import Block, Inline, Words
 from quizgen.errors import one_of
 from quizgen.export.asks import Ask, Choose, Fill, Numeric, Order, Pairs, Said, by_person
 from quizgen.export.items import Item
-from quizgen.figures import Figure
+from quizgen.export.pictures import Source, image
 from quizgen.locale import word
 from quizgen.maths.units import shown as shown_unit
 from quizgen.paper.paper import Item as PaperItem
@@ -40,6 +40,8 @@ TRIES = 3
 
 _STYLED = re.compile(r' (?:class|lang)="[^"]*"')
 """What means nothing without our style; the language is said once of the whole."""
+_DRAWING = re.compile(r"<figure.*?</figure>", re.DOTALL)
+"""A drawing in a page, which systems for courses only show as a file."""
 
 
 def _tex(node: typeset.Node, lang: str, marks: str = "()") -> str:
@@ -84,18 +86,20 @@ def spoken(page: Markup, lang: str) -> Markup:
     return Markup('<div lang="{}">{}</div>').format(lang, page)
 
 
-def stem(item: Item, picture: Markup) -> Markup:
+def stem(item: Item, source: Source) -> Markup:
     """What stands before the parts."""
-    return _blocks(item.question.stem, item.lang) + picture
+    return _blocks(item.question.stem, item.lang) + image(item.question.figure, source)
 
 
-def body(part: Part, found: Sequence[Ask], lang: str) -> Markup:
+def body(part: Part, found: Sequence[Ask], lang: str, source: Source) -> Markup:
     """A part, with what it lists if a person marks it, and how its answer is to be typed."""
     label = Markup("<p><strong>({})</strong></p>").format(part.label) if part.label else Markup("")
     listed = _listed(part, lang) if by_person(found) else Markup("")
     told = Markup(" ").join(_told(part, found, lang))
     hint = Markup("<p><small>{}</small></p>").format(told) if told else Markup("")
-    return label + _blocks(part.body, lang) + listed + hint
+    drawing = part.field.drawing
+    field = image(drawing.figure if drawing else None, source)
+    return label + _blocks(part.body, lang) + field + listed + hint
 
 
 def _listed(part: Part, lang: str) -> Markup:
@@ -175,23 +179,15 @@ def _places(_ask: Order, lang: str) -> Iterator[str]:
     yield word(lang, "export.places")
 
 
-def image(source: str, figure: Figure | None) -> Markup:
-    """A picture with its words, if there is one."""
-    if figure is None:
-        return Markup("")
-    tag = Markup('<p><img src="{}" alt="{}" width="{:.0f}" height="{:.0f}"/></p>')
-    return tag.format(source, figure.alt, figure.width_pt * 4 / 3, figure.height_pt * 4 / 3)
-
-
 def solution(
-    item: Item, picture: Markup, labels: Sequence[str] = (), *, told: bool = True
+    item: Item, source: Source, labels: Sequence[str] = (), *, told: bool = True
 ) -> Markup:
     """The worked solution, and its picture if it has one of its own.
 
     Parameters
     ----------
     item : Item
-    picture : Markup
+    source : callable
     labels : sequence of str
         Of which parts; all of them if none is named.
     told : bool
@@ -208,8 +204,11 @@ def solution(
     chosen = replace(whole, parts=tuple(solved for _, solved in kept))
     question, key = replace(item.question, parts=parts), replace(item.key, solution=chosen)
     made = PaperItem(question.number, (question,), (key,))
+    picture = image(item.solved_figure, source)
     page = fragment("worked.html.j2", _way.get(), item=made, picture=picture)
-    return Markup(_STYLED.sub("", page))  # noqa: S704 - a page without some attributes
+    drawn = (image(solved.drawing.figure, source) for _, solved in kept if solved.drawing)
+    text = _DRAWING.sub(lambda _: next(drawn), _STYLED.sub("", page))
+    return Markup(text)  # noqa: S704 - a page without some attributes
 
 
 def _alone(whole: Solution) -> Solution:

@@ -3,31 +3,28 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from fractions import Fraction
 from typing import NamedTuple
 
 from markupsafe import Markup
 
+from quizgen.export import pictures
 from quizgen.export.asks import Ask, Write
 from quizgen.export.items import Item
 from quizgen.export.kept import asked
 from quizgen.export.qti.dialect import QTI21, Dialect, written
 from quizgen.export.qti.place import Place
 from quizgen.export.qti.played import Played, played
-from quizgen.export.wording import body, image, inline, solution, stem
+from quizgen.export.wording import body, inline, solution, stem
 from quizgen.figures import Figure
 from quizgen.locale import word
 from quizgen.responses.keys import Entry
-
-Source = Callable[[Figure], str]
-"""Where an item finds a figure."""
 
 SOLVED, WORKED = "SOLUTION", "worked"
 """Outcome and value that show the worked solution."""
 
 _OTHER = re.compile(r"[^A-Za-z0-9_-]")
-_DRAWING = re.compile(r"<figure.*?</figure>", re.DOTALL)
 _MATHS = re.compile(r"<math(?=[ >])")
 
 
@@ -45,7 +42,7 @@ def name_of(item: Item) -> str:
     return name if name[0].isalpha() else f"Q{name}"
 
 
-def item_file(item: Item, dialect: Dialect, source: Source) -> bytes:
+def item_file(item: Item, dialect: Dialect) -> bytes:
     """A question as the file of an item."""
     groups = [
         [Row(ask, at, played(ask, at)) for ask, at in group] for group in _asked(item, dialect)
@@ -59,8 +56,8 @@ def item_file(item: Item, dialect: Dialect, source: Source) -> bytes:
         "timeDependent": "false",
         "toolName": "quizgen",
     }
-    inside = [*_declared(item, rows, dialect), _body(item, groups, dialect, source)]
-    inside += [_processing(item, groups, dialect), *_feedback(item, rows, dialect, source)]
+    inside = [*_declared(item, rows, dialect), _body(item, groups, dialect)]
+    inside += [_processing(item, groups, dialect), *_feedback(item, rows, dialect)]
     return dialect.file("assessmentItem", named, *map(_xml, inside))
 
 
@@ -119,10 +116,10 @@ def _start(value: float, dialect: Dialect) -> Markup:
     return dialect.tag("defaultValue", {}, dialect.tag("value", {}, written(value)))
 
 
-def _body(item: Item, groups: list[list[Row]], dialect: Dialect, source: Source) -> Markup:
-    shown = stem(item, _picture(item.question.figure, source))
+def _body(item: Item, groups: list[list[Row]], dialect: Dialect) -> Markup:
+    shown = stem(item, _source)
     for (part, asks), group in zip(item.parts, groups, strict=True):
-        shown += body(part, asks, item.lang)
+        shown += body(part, asks, item.lang, _source)
         shown += Markup("").join(row.played.shown for row in group)
     return dialect.tag("itemBody", {}, shown)
 
@@ -149,15 +146,12 @@ def _part(group: list[Row], points: Fraction) -> Markup:
     return at.tag("product", {}, at.tag("sum", {}, *scores), share)
 
 
-def _feedback(item: Item, rows: list[Row], dialect: Dialect, source: Source) -> Iterator[Markup]:
+def _feedback(item: Item, rows: list[Row], dialect: Dialect) -> Iterator[Markup]:
     """What is said of each mistake, and the worked solution."""
     for one in (one for row in rows for one in row.played.feedback):
         yield _modal(dialect, one.outcome, one.value, inline(one.said, item.lang))
-    told = solution(item, _picture(item.solved_figure, source))
-    drawn = (part.drawing.figure for part in item.key.solution.parts if part.drawing)
-    for figure in drawn:
-        told = Markup(_DRAWING.sub(_picture(figure, source), told, count=1))  # noqa: S704
-    yield _modal(dialect, SOLVED, WORKED, told, word(item.lang, "solution.steps"))
+    title = word(item.lang, "solution.steps")
+    yield _modal(dialect, SOLVED, WORKED, solution(item, _source), title)
 
 
 def _modal(dialect: Dialect, outcome: str, value: str, said: Markup, title: str = "") -> Markup:
@@ -165,8 +159,8 @@ def _modal(dialect: Dialect, outcome: str, value: str, said: Markup, title: str 
     return dialect.flow("modalFeedback", {**named, **({"title": title} if title else {})}, said)
 
 
-def _picture(figure: Figure | None, source: Source) -> Markup:
-    return image(source(figure), figure) if figure else Markup("")
+def _source(figure: Figure) -> str:
+    return f"../{pictures.path(figure)}"
 
 
 def _xml(page: Markup) -> Markup:

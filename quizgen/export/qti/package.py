@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Iterable, Iterator
-from functools import partial
 from itertools import groupby
 from pathlib import PurePosixPath
 from typing import NamedTuple
 
 from markupsafe import Markup
 
+from quizgen.export import pictures
 from quizgen.export.items import Item, by_slot
 from quizgen.export.qti.assessment import assessment
 from quizgen.export.qti.dialect import QTI3, QTI21, Dialect, element, file
 from quizgen.export.qti.item import item_file, name_of
-from quizgen.figures import Figure
 from quizgen.files import zipped
 
 
@@ -54,18 +52,11 @@ def _resources(items: Iterable[Item], dialect: Dialect) -> Iterator[Resource]:
         test = assessment(lang, of_lang, dialect)
         yield Resource(f"imsqti_test_xml{dialect.version}", f"test-{lang}.xml", test, (*paths,))
         for path, item in paths.items():
-            shown: dict[str, bytes] = {}
-            data = item_file(item, dialect, partial(_figure, shown))
+            shown = pictures.shown(item)
+            data = item_file(item, dialect)
             yield Resource(f"imsqti_item_xml{dialect.version}", path, data, (*shown,))
             figures |= shown
     yield from (Resource("webcontent", path, data) for path, data in figures.items())
-
-
-def _figure(shown: dict[str, bytes], figure: Figure) -> str:
-    """Where an item finds a figure; those that look the same are one file."""
-    path = f"figures/{hashlib.sha256(figure.light).hexdigest()[:16]}.svg"
-    shown[path] = figure.light
-    return f"../{path}"
 
 
 def _manifest(resources: list[Resource], dialect: Dialect) -> bytes:
