@@ -165,3 +165,12 @@ def test_help_loads_no_heavy_package():
 def test_checking_loads_neither_sympy_nor_matplotlib():
     code = "import quizgen.marking.mark as c\nc.mark({'kind':'number','value':'20/3','decimals':3},'6,67')"
     assert not {"numpy", "sympy", "matplotlib"} & loaded(code)
+
+
+def test_a_server_is_ready_without_what_only_its_workers_need(tmp_path):
+    code = (
+        "import quizgen.web.server\nfrom quizgen.web.app import application\n"
+        "from quizgen.web.settings import Settings\n"
+        f"application(Settings({f'sqlite:///{tmp_path}/x.sqlite3'!r}))"
+    )
+    assert not {"numpy", "sympy", "matplotlib", "alembic", "typst"} & loaded(code)

@@ -25,7 +25,6 @@ from quizgen.web import (
     anki,
     author,
     camera,
-    classroom,
     exam,
     formulas,
     practice,
@@ -87,7 +86,7 @@ def _routes(settings: Settings) -> list[BaseRoute]:
     return [
         *PAGES,
         *(author.ROUTES if settings.examine else ()),
-        *(classroom.ROUTES if settings.classroom else ()),
+        *(_classroom() if settings.classroom else ()),
         *(accounts.ROUTES if settings.accounts else ()),
         Route("/settings", settle, methods=["POST"]),
         Route("/static/languages.css", language_sheet),
@@ -95,6 +94,13 @@ def _routes(settings: Settings) -> list[BaseRoute]:
         Mount("/static/board", StaticFiles(directory=str(files("quizgen.render") / "board"))),
         Mount("/static", StaticFiles(directory=str(files("quizgen.web") / "static"))),
     ]
+
+
+def _classroom() -> list[Route]:
+    """Pages for who marks a class; they load what nobody else waits for."""
+    from quizgen.web import classroom
+
+    return classroom.ROUTES
 
 
 async def settle(request: Request) -> Response:
