@@ -31,6 +31,21 @@ _DAY = (1980, 1, 1, 0, 0, 0)
 _LEFT_BEHIND = re.compile(r"\..*\.\d+-[0-9a-f]{8}\.part", re.DOTALL)
 
 
+def private(path: Path, *, anew: bool = False) -> io.BufferedWriter:
+    """Open a file that only its owner reads, to add to its end.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        Made if it does not exist.
+    anew : bool
+        Write it from its beginning instead.
+    """
+    flags = os.O_WRONLY | os.O_CREAT | getattr(os, "O_BINARY", 0)
+    number = os.open(path, flags | (os.O_TRUNC if anew else os.O_APPEND), PRIVATE)
+    return os.fdopen(number, "wb")
+
+
 def zipped(contents: Mapping[str, bytes], *, packed: bool = True) -> bytes:
     """Files as a zip archive, in their order: the same bytes on any day.
 

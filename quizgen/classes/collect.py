@@ -15,7 +15,7 @@ from quizgen.classes.folder import ANSWERS
 from quizgen.classes.keys import Keys
 from quizgen.classes.mark import Sheet
 from quizgen.errors import KeyFileError, QuizgenError
-from quizgen.files import write_all
+from quizgen.files import PRIVATE, write_all
 from quizgen.locale import languages
 from quizgen.marking.echo import safe
 from quizgen.marking.options import DECIMALS
@@ -23,7 +23,6 @@ from quizgen.outside import LARGEST_PICTURE, read_bytes, visible
 from quizgen.paper.form import read_answers
 
 FORMS = (".toml", ".json", ".csv")
-PRIVATE = 0o600
 ABOUT = ("id", "name", "lang", "decimal", "minutes", "code")
 """Columns of a table that are no answers."""
 MARKS = {b"\xff\xfe": "utf-16", b"\xfe\xff": "utf-16"}

@@ -18,7 +18,7 @@ import msgspec
 from quizgen.classes.roster import Student, read_roster, roster_bytes
 from quizgen.classes.secret import code_of
 from quizgen.errors import ClassError
-from quizgen.files import PRIVATE, write_all
+from quizgen.files import PRIVATE, private, write_all
 from quizgen.outside import parse_json, parse_toml, read_text
 from quizgen.paper.key import Key, digest_of_key, load_key
 
@@ -174,8 +174,7 @@ class ClassFolder:
 
     def append(self, lines: Iterable[bytes]) -> None:
         """Add lines of keys; they are on the disk when this returns."""
-        flags = os.O_WRONLY | os.O_CREAT | os.O_APPEND
-        with os.fdopen(os.open(self.path / KEYS, flags, PRIVATE), "ab") as stream:
+        with private(self.path / KEYS) as stream:
             if self._torn:
                 stream.write(b"\n")
             stream.write(b"".join(lines))
@@ -197,11 +196,7 @@ class ClassFolder:
         index = self.places()
         ids = [one for one in dict.fromkeys((*order, *index)) if one in index]
         fresh = self.path / f".{KEYS}.new"
-        flags = os.O_WRONLY | os.O_CREAT | os.O_TRUNC
-        with (
-            (self.path / KEYS).open("rb") as lines,
-            os.fdopen(os.open(fresh, flags, PRIVATE), "wb") as stream,
-        ):
+        with (self.path / KEYS).open("rb") as lines, private(fresh, anew=True) as stream:
             for one in ids:
                 lines.seek(index[one][1])
                 stream.write(lines.readline())

@@ -12,12 +12,11 @@ from quizgen.classes.folder import Head
 from quizgen.classes.mark import Marks
 from quizgen.classes.roster import Student
 from quizgen.classes.scale import Scale
-from quizgen.files import write_all
+from quizgen.files import PRIVATE, write_all
 from quizgen.outside import csv_text, visible
 
 FOLDER = "results"
 TABLE, BOOK, POSTED = "grades.csv", "grades.xlsx", "posted.csv"
-PRIVATE = 0o600
 Cell = str | float
 
 

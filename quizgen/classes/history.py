@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import contextlib
 import io
-import os
 from collections.abc import Iterable, Iterator
 from datetime import UTC, datetime
 from pathlib import Path
@@ -18,10 +17,10 @@ import msgspec
 
 from quizgen.classes.mark import Marks, PartMark
 from quizgen.errors import ClassError
+from quizgen.files import private
 from quizgen.outside import csv_text
 
 FOLDER, CHANGES = "marks", "changes.csv"
-PRIVATE = 0o600
 HEAD = ("run", "when", "student", "part", "item", "answer", "before", "after", "why")
 
 _ENCODE = msgspec.json.Encoder().encode
@@ -112,7 +111,7 @@ class History:
         fresh = final.with_suffix(".part")
         students = new = undecided = written = 0
         changes: list[Change] = []
-        with _Lines() as lines, _private(fresh) as stream:
+        with _Lines() as lines, private(fresh, anew=True) as stream:
             for one in marked:
                 students, undecided = students + 1, undecided + one.undecided
                 line = _ENCODE(one) + b"\n"
@@ -139,8 +138,8 @@ class History:
         path = self.folder / CHANGES
         rows = [[str(number), now, *map(_cell, change)] for change in changes]
         lines = csv_text(rows if path.exists() else [HEAD, *rows])
-        with os.fdopen(os.open(path, os.O_WRONLY | os.O_APPEND | os.O_CREAT, PRIVATE), "ab") as to:
-            to.write(lines.encode())
+        with private(path) as stream:
+            stream.write(lines.encode())
 
 
 class _Lines(contextlib.AbstractContextManager["_Lines"]):
@@ -181,11 +180,6 @@ def _marks(line: bytes, path: Path) -> Marks:
         return _DECODE(line)
     except msgspec.DecodeError as error:
         raise ClassError(f"{path}: {error}") from None
-
-
-def _private(path: Path) -> io.BufferedWriter:
-    flags = os.O_WRONLY | os.O_CREAT | os.O_TRUNC
-    return os.fdopen(os.open(path, flags, PRIVATE), "wb")
 
 
 def _changes(old: Marks, new: Marks) -> Iterator[Change]:

@@ -13,7 +13,7 @@ from quizgen.classes import plots
 from quizgen.classes.analysis import Analysis, Mistake, Outline, analysed
 from quizgen.classes.decide import agreement
 from quizgen.classes.folder import ClassFolder
-from quizgen.classes.grades import FOLDER, PRIVATE
+from quizgen.classes.grades import FOLDER
 from quizgen.classes.history import History
 from quizgen.classes.keys import Keys
 from quizgen.classes.mark import Marks
@@ -21,7 +21,7 @@ from quizgen.classes.reports import layouts, style
 from quizgen.classes.rulings import read_rulings
 from quizgen.classes.scale import Scale, read_scale
 from quizgen.errors import ClassError
-from quizgen.files import write_all
+from quizgen.files import PRIVATE, write_all
 from quizgen.locale import FIRST
 from quizgen.marking.options import Options
 from quizgen.paper.key import Key

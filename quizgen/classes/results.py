@@ -6,13 +6,13 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from quizgen.classes.folder import ClassFolder
-from quizgen.classes.grades import FOLDER, PRIVATE, Graded, graded, write_grades
+from quizgen.classes.grades import FOLDER, Graded, graded, write_grades
 from quizgen.classes.history import History
 from quizgen.classes.keys import Keys
 from quizgen.classes.reports import report_html, report_of, report_pdf
 from quizgen.classes.scale import read_scale
 from quizgen.errors import ClassError, KeyFileError
-from quizgen.files import write_all
+from quizgen.files import PRIVATE, write_all
 from quizgen.outside import located
 
 REPORTS = "reports"

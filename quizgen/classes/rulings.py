@@ -21,7 +21,6 @@ With a student's id in ``student`` a line is about that student alone.
 from __future__ import annotations
 
 import hashlib
-import os
 import re
 import unicodedata
 from collections.abc import Iterable, Mapping
@@ -32,6 +31,7 @@ from pathlib import Path
 import msgspec
 
 from quizgen.errors import ClassError, FormulaError
+from quizgen.files import private
 from quizgen.maths.numbers import written
 from quizgen.outside import csv_text, parse_csv, read_text, undefused
 from quizgen.paper.marking import QUARTERS
@@ -173,8 +173,7 @@ def append_rulings(folder: Path, rulings: Iterable[Ruling]) -> list[Ruling]:
     path = folder / FILE
     rows = [[getattr(one, name) for name in COLUMNS] for one in added]
     lines = csv_text(rows if path.exists() else [COLUMNS, *rows])
-    number = os.open(path, os.O_WRONLY | os.O_APPEND | os.O_CREAT, 0o600)
-    with os.fdopen(number, "ab") as stream:  # one write at the end: two at once do not mix
+    with private(path) as stream:  # one write at the end: two at once do not mix
         stream.write(lines.encode())
     return added
 
