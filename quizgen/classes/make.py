@@ -162,15 +162,16 @@ def make(
     todo = [one for one in students if not _is_made(folder, one, heads.get(one.id))]
     folder.write_roster(students)
     done: list[Made] = []
-    for results in run(executor, papers, _jobs(folder, blueprint, students, todo), ahead):
+    jobs = _jobs(folder.settings, blueprint, todo, _beside(students, heads))
+    for results in run(executor, papers, jobs, ahead):
         _write(folder, results)
         for one in results:
             done.append(one._replace(files={}, line=b""))
             tell(one.student)
-    order = [one.id for one in students]
+    order = dict.fromkeys(one.id for one in students)
     if done:
-        folder.settle(order)
-    left = tuple(one for one in heads if one not in set(order))
+        folder.settle([*order])
+    left = tuple(one for one in heads if one not in order)
     return Report(tuple(done), len(students) - len(todo), left)
 
 
@@ -184,15 +185,14 @@ def _check(folder: ClassFolder, blueprint: Blueprint) -> None:
 
 
 def _jobs(
-    folder: ClassFolder,
+    settings: Settings,
     blueprint: Blueprint,
-    students: Sequence[Student],
     todo: Sequence[Student],
+    beside: Mapping[str, tuple[str, ...]],
 ) -> Iterator[Job]:
-    beside = _beside(students, folder.heads())
     for at in range(0, len(todo), CHUNK):
         chunk = tuple(todo[at : at + CHUNK])
-        yield Job(folder.settings, blueprint, chunk, _needed(chunk, beside))
+        yield Job(settings, blueprint, chunk, _needed(chunk, beside))
 
 
 def _write(folder: ClassFolder, results: Sequence[Made]) -> None:
