@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from quizgen.cli.options import Whole, checked, split
-from quizgen.cli.terminal import one_line, tell
+from quizgen.cli.terminal import many, one_line, tell
 
 if TYPE_CHECKING:
     from quizgen.classes.history import Change
@@ -51,24 +51,25 @@ def mark(folder: Path, files: tuple[Path, ...], jobs: int, scheduler: str) -> No
 def _say(folder: Path, run: Run, lost: list[str]) -> None:
     """What was marked, what was not, whose marks changed, what is to be decided."""
     outcome = run.outcome
-    tell(f"{folder}: {outcome.students} students marked, {outcome.new} of them for the first time")
+    tell(f"{folder}: {many(outcome.students, 'student')} marked, {outcome.new} for the first time")
     problems = [*lost, *run.problems]
-    _listed("not marked", problems)
+    _listed(f"{len(problems)} not marked", problems)
     if run.decided:
-        tell(f"{run.decided} decisions taken from decisions.csv")
-    _listed("marks changed", [_changed(one) for one in outcome.changes])
+        tell(f"{many(run.decided, 'decision')} taken from decisions.csv")
+    changes = [_changed(one) for one in outcome.changes]
+    _listed(f"{many(len(changes), 'mark')} changed", changes)
     if run.groups:
-        tell(f"{outcome.undecided} answers in {run.groups} groups are to be decided: "
-             f"fill in points in {folder}/decisions.csv and mark again, "
+        tell(f"To be decided: {many(outcome.undecided, 'answer')} in {many(run.groups, 'group')}. "
+             f"Fill in points in {folder}/decisions.csv and mark again, "
              f"or: quizgen serve --class {folder}")  # fmt: skip
     else:
         tell(f"Nothing is to be decided. Next: quizgen class grade {folder}")
 
 
-def _listed(what: str, lines: list[str]) -> None:
+def _listed(head: str, lines: list[str]) -> None:
     if not lines:
         return
-    tell(f"{len(lines)} {what}:")
+    tell(f"{head}:")
     for line in lines[:SHOWN]:
         tell(f"  {one_line(line)}")
     if len(lines) > SHOWN:
@@ -155,10 +156,10 @@ def grade(folder: Path, reports: str, *, anonymous: bool) -> None:
     lines, files = write(ClassFolder(folder), wished, anonymous=anonymous)
     there = [one for one in lines if one.marks]
     passed = sum(one.passed for one in there)
-    tell(f"{len(there)} of {len(lines)} students handed in, {passed} passed")
+    tell(f"{len(there)} of {many(len(lines), 'student')} handed in, {passed} passed")
     open_still = sum(one.marks.undecided for one in there if one.marks)
     if open_still:
-        tell(f"Provisional: {open_still} answers are still to be decided")
+        tell(f"Provisional: {many(open_still, 'answer')} still to be decided")
     for path in files:
         tell(str(path))
 
@@ -171,7 +172,7 @@ def analyse(folder: Path) -> None:
     from quizgen.classes.overview import analyse as write
 
     found, path = write(ClassFolder(folder))
-    tell(f"{found.students} students, {len(found.items)} items")
+    tell(f"{many(found.students, 'student')}, {many(len(found.items), 'item')}")
     if found.alpha is not None and found.interval is not None:
         low, high = found.interval
         tell(f"Cronbach's alpha {found.alpha:.2f} (95 % {low:.2f} to {high:.2f})")

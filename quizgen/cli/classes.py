@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Unpack
 
 import click
 
-from quizgen.cli.class_marks import COMMANDS
+from quizgen.cli.class_marks import COMMANDS, MOST_JOBS
 from quizgen.cli.options import BankOptions, Whole, bank_options, open_bank, split
-from quizgen.cli.terminal import Progress, one_line, tell
+from quizgen.cli.terminal import Progress, many, one_line, tell
 from quizgen.errors import ClassError
 from quizgen.locale import FIRST, choices
 
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
 USUAL = "mock"
 FEW = 16
 """Papers that are made in this process."""
-MOST_JOBS = 256
 
 
 @click.group("class")
@@ -142,12 +141,12 @@ def _same(folder: ClassFolder, options: Options) -> None:
 
 def _say(folder: ClassFolder, report: Report) -> None:
     """What was made, and how alike the papers are."""
-    tell(f"{folder.path}: {len(report.made)} papers made, {report.kept} kept as they were")
+    tell(f"{folder.path}: {many(len(report.made), 'paper')} made, {report.kept} kept as they were")
     if report.made:
         tell(f"Each of them: {_comparison(report)}")
         few = sorted({number for one in report.made for number in one.alike})
         if few:
-            tell(f"Neighbours share a number in questions {few}")
+            tell(f"Neighbours share a number in question {', '.join(map(str, few))}")
     for student in report.left:
         tell(f"{student} is no longer on the roster; the paper and its key stay")
     tell("Nobody but you should read the folder: class.toml and keys.jsonl lead to every answer")

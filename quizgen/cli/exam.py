@@ -22,7 +22,7 @@ from quizgen.cli.options import (
     open_bank,
     split,
 )
-from quizgen.cli.terminal import Progress
+from quizgen.cli.terminal import Progress, many
 from quizgen.errors import ChoiceError, CodeError, RenderError
 from quizgen.locale import FIRST, choices
 from quizgen.outside import visible
@@ -187,8 +187,9 @@ def _report(
         click.echo(f"  {folder / name}")
     if kept:
         click.echo(f"  {form} has been written in and was left as it is")
-    count = f"{len(paper.items)} question{'s' if len(paper.items) != 1 else ''}"
-    click.echo(f"{count}, {float(paper.points):g} points, {paper.minutes} min")
+    click.echo(
+        f"{many(len(paper.items), 'question')}, {float(paper.points):g} points, {paper.minutes} min"
+    )
     _remark(paper)
     again = command("exam", "--code", paper.code, *_again(options))
     check = command("check", folder / KEY, form)

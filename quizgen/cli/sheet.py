@@ -8,6 +8,7 @@ from typing import Unpack
 import click
 
 from quizgen.cli.options import BankOptions, bank_options, checked, open_bank, split, topic_option
+from quizgen.cli.terminal import many
 from quizgen.locale import FIRST, choices
 from quizgen.render import RENDERERS
 
@@ -50,8 +51,4 @@ def sheet(**options: Unpack[Options]) -> None:
     for path in write_all(folder, {f"{NAME}.{f}": render_sheet(made, f) for f in formats}):
         click.echo(f"  {path}")
     count, topics_there = sum(len(group.lines) for group in made.groups), len(made.groups)
-    click.echo(f"{_many(count, 'formula')} in {_many(topics_there, 'topic')}")
-
-
-def _many(count: int, word: str) -> str:
-    return f"{count} {word}" + ("s" if count != 1 else "")
+    click.echo(f"{many(count, 'formula')} in {many(topics_there, 'topic')}")

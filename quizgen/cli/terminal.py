@@ -142,6 +142,11 @@ def _row_lines(row: Sequence[str], sizes: Sequence[int], room: int) -> Iterator[
         yield from wrapped(row[-1], room, GAP * 2, GAP * 2)
 
 
+def many(count: int, word: str) -> str:
+    """How many of something there are: ``1 question``, ``2 questions``."""
+    return f"{count} {word}" + ("s" if count != 1 else "")
+
+
 def tell(text: str) -> None:
     """Print a sentence; on a terminal it is broken between words."""
     for line in wrapped(visible(text), columns() if on_terminal() else sys.maxsize):

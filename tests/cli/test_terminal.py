@@ -8,7 +8,7 @@ import pytest
 from rich.cells import cell_len
 
 from quizgen.cli import terminal
-from quizgen.cli.terminal import Progress, wrapped
+from quizgen.cli.terminal import Progress, many, wrapped
 from quizgen.outside import visible
 
 ENGLISH = "The pupil lets in less light, and shorter wavelengths are refracted with more power."
@@ -23,6 +23,10 @@ def test_no_line_is_wider_than_there_is_room(text, room):
     assert max(map(cell_len, lines)) <= room
     glue = "" if text is JAPANESE else " "
     assert glue.join(line[4:] for line in lines) == text
+
+
+def test_one_thing_is_no_plural():
+    assert [many(count, "mark") for count in (0, 1, 2)] == ["0 marks", "1 mark", "2 marks"]
 
 
 def test_words_stay_whole():
