@@ -16,7 +16,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from quizgen.classes.mark import Marks, item_of
-from quizgen.classes.rulings import DECIDE, SECOND, Ruling, alike, last_words
+from quizgen.classes.rulings import DECIDE, SECOND, Ruling, alike, filled_rows, last_words
 from quizgen.classes.statistics import kappa
 from quizgen.errors import ClassError, FormulaError
 from quizgen.files import PRIVATE, write_all
@@ -25,7 +25,7 @@ from quizgen.marking.kinds.text import Spec as Text
 from quizgen.marking.mark import explained, judge, load_spec
 from quizgen.marking.options import Options
 from quizgen.maths.numbers import written
-from quizgen.outside import csv_text, parse_csv, read_text, undefused
+from quizgen.outside import csv_text
 from quizgen.paper.key import Key
 from quizgen.paper.marking import in_quarters
 
@@ -262,13 +262,7 @@ def read_queue(folder: Path) -> tuple[list[Ruling], dict[str, str]]:
         Naming file, line and column.
     """
     path = folder / FILE
-    if not path.exists():
-        return [], {}
-    rows = parse_csv(read_text(path, ClassError), path, ClassError)
-    head = [cell.strip().lower() for cell in rows[0][1]] if rows else []
-    if missing := {"item", "together", "points", "group"} - {*head}:
-        raise ClassError(f"{path}: the first row names no column {min(missing)!r}")
-    tables = [(at, dict(zip(head, map(undefused, row), strict=False))) for at, row in rows[1:]]
+    tables = filled_rows(path, {"item", "together", "points", "group"})
     found = [one for column in ("points", "second") for one in _filled(tables, column, path)]
     settled = {one.group for one in found}
     kept = {c["group"]: c.get("comment", "") for _, c in tables if c["group"] not in settled}

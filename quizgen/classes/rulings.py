@@ -137,19 +137,35 @@ def read_rulings(folder: Path) -> list[Ruling]:
         Naming file, line and column.
     """
     path = folder / FILE
+    rows = filled_rows(path, {"what", "item"})
+    return [_ruling(cells, f"{path}: line {at}") for at, cells in rows]
+
+
+def filled_rows(path: Path, needed: set[str]) -> list[tuple[int, dict[str, str]]]:
+    """Rows of a table of ours that people have filled in, each with its line; none without a file.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+    needed : set of str
+        Columns without which it says nothing.
+
+    Raises
+    ------
+    ClassError
+        Naming the file and the line or the column.
+    """
     if not path.exists():
         return []
     rows = parse_csv(read_text(path, ClassError), path, ClassError)
     head = [cell.strip().lower() for cell in rows[0][1]] if rows else []
-    if missing := {"what", "item"} - {*head}:
+    if missing := needed - {*head}:
         raise ClassError(f"{path}: the first row names no column {min(missing)!r}")
-    return [
-        _ruling(dict(zip(head, row, strict=False)), f"{path}: line {at}") for at, row in rows[1:]
-    ]
+    return [(at, dict(zip(head, map(undefused, row), strict=False))) for at, row in rows[1:]]
 
 
 def _ruling(cells: Mapping[str, str], where: str) -> Ruling:
-    known = {name: undefused(cells.get(name, "")).strip()[:LONGEST] for name in COLUMNS}
+    known = {name: cells.get(name, "").strip()[:LONGEST] for name in COLUMNS}
     found = Ruling(**known)
     try:
         found.check()
