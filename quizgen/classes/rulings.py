@@ -26,6 +26,7 @@ import unicodedata
 from collections.abc import Iterable, Mapping
 from datetime import UTC, datetime
 from fractions import Fraction
+from itertools import zip_longest
 from pathlib import Path
 
 import msgspec
@@ -161,7 +162,10 @@ def filled_rows(path: Path, needed: set[str]) -> list[tuple[int, dict[str, str]]
     head = [cell.strip().lower() for cell in rows[0][1]] if rows else []
     if missing := needed - {*head}:
         raise ClassError(f"{path}: the first row names no column {min(missing)!r}")
-    return [(at, dict(zip(head, map(undefused, row), strict=False))) for at, row in rows[1:]]
+    return [
+        (at, dict(zip_longest(head, map(undefused, row[: len(head)]), fillvalue="")))
+        for at, row in rows[1:]
+    ]
 
 
 def _ruling(cells: Mapping[str, str], where: str) -> Ruling:

@@ -113,6 +113,12 @@ def test_points_that_cannot_be_are_refused_with_their_line(tmp_path, points, sai
         read_queue(tmp_path)
 
 
+def test_a_row_that_ends_early_is_refused_with_its_line(tmp_path):
+    (tmp_path / "decisions.csv").write_text("item,together,points,group\nwhy,1,1\n", "utf-8")
+    with pytest.raises(ClassError, match="line 2: points: answer: missing"):
+        read_queue(tmp_path)
+
+
 def test_agreement_of_two_markers():
     said = [("1", "1"), ("1", "0"), ("0", "0"), ("0", "0")]
     lines = [Ruling(what, "why", "x", value, group=f"g{n}")
