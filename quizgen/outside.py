@@ -18,6 +18,7 @@ import tomllib
 import unicodedata
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
+from itertools import chain
 from pathlib import Path
 from typing import TypeAlias
 
@@ -198,7 +199,7 @@ def decoded(data: bytes, where: object, error: Failure) -> str:
         Of the kind asked for, naming the file.
     """
     try:
-        text = data.decode("utf-16" if data.startswith(_MARKS) else "utf-8-sig")
+        text = data.decode(encoding_of(data))
     except UnicodeDecodeError as found:
         raise error(f"{where}: not UTF-8 text (byte {found.start}); save it as UTF-8") from None
     if "\0" in text:
@@ -206,8 +207,15 @@ def decoded(data: bytes, where: object, error: Failure) -> str:
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
-def parse_csv(text: str, where: object, error: Failure) -> list[tuple[int, list[str]]]:
-    """Read rows of cells, each with its line, as any spreadsheet saves them.
+def encoding_of(data: bytes) -> str:
+    """How text is written that begins with these bytes: UTF-8 unless they say it is UTF-16."""
+    return "utf-16" if data.startswith(_MARKS) else "utf-8-sig"
+
+
+def csv_rows(
+    lines: Iterable[str], where: object, error: Failure
+) -> Iterator[tuple[int, list[str]]]:
+    """Read rows of cells, each with its line, as any spreadsheet saves them, one after the other.
 
     Cells are parted by the comma, semicolon or tab that the first row has most of; a line
     ``sep=;`` before it says so. Cells may be quoted; rows of blanks are left out.
@@ -217,22 +225,37 @@ def parse_csv(text: str, where: object, error: Failure) -> list[tuple[int, list[
     QuizgenError
         Of the kind asked for, naming the file and the line.
     """
-    said = re.match(r"sep=(.)\n", text)
-    head = text.lstrip("\n").partition("\n")[0]
-    separator = said[1] if said else max(_SEPARATORS, key=head.count)
-    reader = csv.reader(io.StringIO(text, newline=""), delimiter=separator, strict=True)
-    rows: list[tuple[int, list[str]]] = []
-    count = 0
+    rest, above = iter(lines), [""]
+    while above[-1].strip("\r\n") == "" and (line := next(rest, None)) is not None:
+        above.append(line)
+    said = re.fullmatch(r"sep=([^\"\r\n])\s*", above[-1])
+    separator = said[1] if said else max(_SEPARATORS, key=above[-1].count)
+    start = [*above[1:-1], "\n"] if said else above[1:]
+    reader = csv.reader(chain(start, rest), delimiter=separator, strict=True)
     try:
         for row in reader:
-            count += 1 + len(row)
-            if count > MOST_VALUES:
-                raise error(f"{where}: more than {MOST_VALUES} values")
             if any(map(str.strip, row)):
-                rows.append((reader.line_num, row))
+                yield reader.line_num, row
     except csv.Error as found:
         raise error(f"{where}: line {reader.line_num}: {_short(found)}") from None
-    return rows[1:] if said else rows
+
+
+def parse_csv(text: str, where: object, error: Failure) -> list[tuple[int, list[str]]]:
+    """Read all rows of a table, as ``csv_rows`` does.
+
+    Raises
+    ------
+    QuizgenError
+        Of the kind asked for, naming the file and the line.
+    """
+    rows: list[tuple[int, list[str]]] = []
+    count = 0
+    for line, row in csv_rows(io.StringIO(text, newline=""), where, error):
+        count += 1 + len(row)
+        if count > MOST_VALUES:
+            raise error(f"{where}: more than {MOST_VALUES} values")
+        rows.append((line, row))
+    return rows
 
 
 def csv_text(rows: Iterable[Iterable[str]]) -> str:

@@ -6,7 +6,6 @@ with its place and reason; it never stops the others, and nothing of it is marke
 
 from __future__ import annotations
 
-import csv
 import hashlib
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
@@ -19,13 +18,12 @@ from quizgen.files import PRIVATE, write_all
 from quizgen.locale import languages
 from quizgen.marking.echo import safe
 from quizgen.marking.options import DECIMALS
-from quizgen.outside import LARGEST_PICTURE, read_bytes, visible
+from quizgen.outside import LARGEST_PICTURE, csv_rows, encoding_of, read_bytes, visible
 from quizgen.paper.form import read_answers
 
 FORMS = (".toml", ".json", ".csv")
 ABOUT = ("id", "name", "lang", "decimal", "minutes", "code")
 """Columns of a table that are no answers."""
-MARKS = {b"\xff\xfe": "utf-16", b"\xfe\xff": "utf-16"}
 
 
 def keep(folder: Path, paths: Iterable[Path]) -> list[str]:
@@ -91,7 +89,7 @@ class Collected:
                 yield from self._rows(table)
         except QuizgenError as error:
             self._problem(path, str(error).removeprefix(f"{path}: "))
-        except (csv.Error, UnicodeError, OSError) as error:
+        except (UnicodeError, OSError) as error:
             self._problem(path, str(error))
 
     def _form(self, path: Path) -> Sheet:
@@ -162,12 +160,12 @@ class _Table:
     Parameters
     ----------
     path : pathlib.Path
-    encoding, separator : str
+    encoding : str
     head : list of str
     """
 
-    def __init__(self, path: Path, encoding: str, separator: str, head: list[str]) -> None:
-        self.path, self.encoding, self.separator, self.head = path, encoding, separator, head
+    def __init__(self, path: Path, encoding: str, head: list[str]) -> None:
+        self.path, self.encoding, self.head = path, encoding, head
 
     @classmethod
     def found(cls, path: Path) -> _Table | None:
@@ -175,18 +173,16 @@ class _Table:
         if path.suffix.lower() != ".csv":
             return None
         with path.open("rb") as stream:
-            encoding = MARKS.get(stream.read(2), "utf-8-sig")
+            encoding = encoding_of(stream.read(2))
         with path.open(encoding=encoding, newline="") as text:
-            first = text.readline(100_000)
-        separator = max(",;\t", key=first.count)
-        cells = next(csv.reader([first], delimiter=separator), [])
+            _, cells = next(csv_rows(text, path, KeyFileError), (0, []))
         head = [cell.strip() for cell in cells]
         known = [
             cell.lower() if cell.lower() in (*ABOUT, "part", "answer") else cell for cell in head
         ]
         if not {"id", "code"} & {*known}:
             return None
-        return cls(path, encoding, separator, known)
+        return cls(path, encoding, known)
 
     def students(self) -> Iterator[tuple[int, dict[str, str], dict[str, str]]]:
         """Line, what is said of the student, and the answers by part."""
@@ -195,13 +191,12 @@ class _Table:
 
     def _cells(self) -> Iterator[tuple[int, dict[str, str]]]:
         with self.path.open(encoding=self.encoding, newline="") as stream:
-            reader = csv.reader(stream, delimiter=self.separator, strict=True)
-            next(reader)
-            for row in reader:
-                if any(map(str.strip, row)):
-                    if len(row) > len(self.head):
-                        raise KeyFileError(f"line {reader.line_num}: more cells than columns")
-                    yield reader.line_num, dict(zip(self.head, row, strict=False))
+            rows = csv_rows(stream, self.path, KeyFileError)
+            next(rows)
+            for line, row in rows:
+                if len(row) > len(self.head):
+                    raise KeyFileError(f"line {line}: more cells than columns")
+                yield line, dict(zip(self.head, row, strict=False))
 
     def _wide(self) -> Iterator[tuple[int, dict[str, str], dict[str, str]]]:
         for line, cells in self._cells():

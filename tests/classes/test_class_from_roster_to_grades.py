@@ -68,6 +68,7 @@ def marked(there, tmp_path_factory):
     (inbox / "torn.json").write_text('{"code": "G-', "utf-8")
     parts = [*students["1000"].typed]
     with (inbox / "rest.csv").open("w", encoding="utf-16", newline="") as stream:
+        stream.write("sep=;\r\n")  # as spreadsheets are told which sign parts cells
         rows = csv.writer(stream, delimiter=";")
         rows.writerow(["id", "minutes", *parts])
         for one, student in students.items():
