@@ -147,8 +147,8 @@ def _names(options: Options, bank: Bank) -> list[str]:
 def _summary(items: list[Item], lines: list[str]) -> None:
     """How many questions there are, and what a person marks of them, most frequent reason first."""
     slots, parts = {item.category for item in items}, sum(len(item.parts) for item in items)
-    click.echo(f"{len(items)} questions in {len(slots)} slots, {parts} parts")
+    click.echo(f"questions: {len(items)}, slots: {len(slots)}, parts: {parts}")
     why = Counter(line.rpartition(": ")[2] for line in lines)
     if lines:
         told = ", ".join(f"{count} {name}" for name, count in why.most_common())
-        click.echo(f"{len(lines)} parts exported as essay: {told}")
+        click.echo(f"parts exported as essay: {len(lines)} ({told})")
