@@ -27,8 +27,6 @@ from quizgen.render.typ import (
 
 SCALE = {"exam": 1.0, "solutions": 0.8}
 """Size of figures: smaller where they have been seen before, so that less of a page stays empty."""
-FIELD = {"exam": 1.0, "solutions": 0.5}
-"""Size of a field to draw in: nobody draws in that of the solution."""
 
 SURE_TO_FIT = 80
 """Characters of a typed formula that is no wider than the page: none takes more than 5.5 pt."""
@@ -156,15 +154,15 @@ class _Sheet:
     def _board(self, name: str, drawn: list[Field] | list[PartSolution]) -> str:
         """The field of a drawing, empty or solved."""
         figures = [one.drawing.figure for one in drawn if one.drawing]
-        return self._picture(name, figures, FIELD[self.kind])
+        return self._picture(name, figures)
 
-    def _picture(self, name: str, figures: list[Any], scale: float | None = None) -> str:
+    def _picture(self, name: str, figures: list[Any]) -> str:
         if not figures or figures[0] is None:
             return ""
         name = f"figure-{name}.svg"
         self.pictures[name] = figures[0].svg
         alt = string(" / ".join(figure.alt for figure in figures))
-        width = f"{figures[0].width_pt * (scale or SCALE[self.kind]):.2f}pt"
+        width = f"{figures[0].width_pt * SCALE[self.kind]:.2f}pt"
         return f"#v(0.4em)\n#image({string(name)}, width: {width}, alt: {alt})\n"
 
     def _part(self, item: Item, index: int) -> str:

@@ -96,7 +96,7 @@ def white_below(paper, kind):
 
 @pytest.mark.parametrize(
     ("kind", "seed", "lang", "most"),
-    [("exam", 1, "en", 0.2), ("exam", 2, "bn", 0.2), ("solutions", 0, "en", 0.25)],
+    [("exam", 1, "en", 0.2), ("exam", 2, "bn", 0.2), ("solutions", 0, "en", 0.33)],
 )
 def test_no_page_ends_far_from_its_foot(bank, kind, seed, lang, most):
     paper = build(bank, load_blueprint("mock"), seed, lang)
