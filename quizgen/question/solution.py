@@ -72,7 +72,10 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class Mistake:
-    """A known mistake: its name, what went wrong, and the answer it would give."""
+    """A known mistake: its name, what went wrong, and the answer it would give.
+
+    Of one that is drawn no answer is shown: its points would tell nobody what it looks like.
+    """
 
     name: str
     sentence: tuple[Inline, ...]
@@ -179,7 +182,7 @@ def mistakes_of(filler: Filler, built: Built[Any]) -> Iterator[Mistake]:
     """The known mistakes of a part with the answers that they give."""
     for trap, wrong in built.mistakes.items():
         spec = written_down(wrong, built.spec.traps[trap])
-        shown = pieces(_rounded(spec, filler.lang))
+        shown = () if built.drawn else pieces(_rounded(spec, filler.lang))
         yield Mistake(trap, filler.sentence("traps", trap), shown)
 
 

@@ -100,4 +100,5 @@ def _solution(part: PartSolution, lang: str) -> Iterator[str]:
     if part.why:
         yield f"   {inline(part.why)}"
     for mistake in (*part.reasons, *part.mistakes):
-        yield f"   ! {mistake.value}  {mistake.name}: {inline(mistake.sentence)}"
+        value = f"{mistake.value}  " if mistake.shown else ""
+        yield f"   ! {value}{mistake.name}: {inline(mistake.sentence)}"

@@ -54,7 +54,11 @@ def fields(paper: Paper, lang: str) -> Iterator[Printed]:
         question, key = item.questions[place], item.keys[place]
         for part, solved, spec in zip(question.parts, key.solution.parts, key.specs, strict=True):
             if solved.answer:  # what is no trap is a reason for one option, pair or step
-                mistakes = tuple((m.name, m.value) for m in solved.mistakes if m.name in spec.traps)
+                mistakes = tuple(
+                    # of a drawing no wrong points are printed: those of the key are typed
+                    (m.name, m.value or "; ".join(spec.traps[m.name].values()))
+                    for m in solved.mistakes if m.name in spec.traps
+                )  # fmt: skip
                 yield Printed(part.field.id, key.template, part.field.control.form,
                               " ".join(part.field.hints), solved.answer, mistakes)  # fmt: skip
 

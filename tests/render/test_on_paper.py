@@ -16,6 +16,7 @@ from quizgen.paper.blueprint import load_blueprint
 from quizgen.paper.paper import build, single
 from quizgen.render import html, pdf
 from quizgen.render.room import squares
+from quizgen.render.text import question_text
 from quizgen.render.typ import _fonts
 
 
@@ -115,3 +116,13 @@ def test_an_answer_told_in_words_alone_begins_with_them(bank):
     assert said[1:] == ["one", "one", "false"]
     typst_text, _ = pdf.source(paper, "solutions")
     assert '#strong("Answer:"); #" - "' not in typst_text
+
+
+def test_of_a_drawn_mistake_only_the_sentence_is_told(bank):
+    """Its points would be three lines of numbers, and no picture of it."""
+    paper = single(bank.template("draw-image-through-a-pinhole"), 1, "en")
+    said = "The image stands upright."
+    assert f"<li>{said}" in html.render(paper, "solutions").decode()
+    typst_text, _ = pdf.source(paper, "solutions")
+    assert f'#mistake("(a) ", [], [#"{said}' in typst_text
+    assert f"! upright: {said}" in question_text(paper.items[0])

@@ -7,7 +7,7 @@ from typing import Any
 
 from quizgen.bank.folder import Bank
 from quizgen.bank.formulas import formulas
-from quizgen.bank.prose import Items, Paragraph, Styled, Words
+from quizgen.bank.prose import Inline, Items, Paragraph, Styled, Words
 from quizgen.bank.template import Template
 from quizgen.cards.content import Term, entries, words
 from quizgen.cards.note import Blocks, Note
@@ -17,7 +17,7 @@ from quizgen.cards.wish import Wish
 from quizgen.figures import Figure
 from quizgen.locale import word
 from quizgen.question.compose import Key, Part, Question, instance, put_into_words
-from quizgen.question.solution import PartSolution
+from quizgen.question.solution import Mistake, PartSolution
 
 SLOT = "card"
 """The place of a card in the draw: the same for every template, so only the seed changes it."""
@@ -160,6 +160,11 @@ def steps(keys: list[Key], index: int) -> Iterator[Any]:
             yield Said(lang, (Paragraph(line.why),))
 
 
+def _told(mistake: Mistake) -> tuple[Inline, ...]:
+    """A wrong answer, if it is shown, and what is wrong with it."""
+    return (*mistake.shown, *([Words(" – ")] if mistake.shown else []), *mistake.sentence)
+
+
 def _more(key: Key, index: int) -> Blocks:
     """What is worth a look after the answer: how to check it, and the known mistakes."""
     lang, solution = key.solution.lang, key.solution
@@ -169,12 +174,10 @@ def _more(key: Key, index: int) -> Blocks:
         found.append(Fold(word(lang, "solution.why"), (Paragraph(part.why),)))
     if solution.check:
         found.append(Fold(word(lang, "solution.check"), solution.check))
-    mistakes = tuple(
-        (Paragraph((*mistake.shown, Words(" – "), *mistake.sentence)),)
-        for mistake in (*part.reasons, *part.mistakes)
-    )
+    mistakes = (*part.reasons, *part.mistakes)
     if mistakes:
-        found.append(Fold(word(lang, "solution.mistakes"), (Items(mistakes),)))
+        told = tuple((Paragraph(_told(mistake)),) for mistake in mistakes)
+        found.append(Fold(word(lang, "solution.mistakes"), (Items(told),)))
     if solution.note:
         found.append(Fold(words(lang)["notes"], solution.note))
     return tuple(found)
