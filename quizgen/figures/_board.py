@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from quizgen.figures._figure import Figure
 from quizgen.figures._numbers import given
 from quizgen.figures._words import words_of
+from quizgen.maths.notation.people import name
 
 if TYPE_CHECKING:
     from quizgen.figures._pen import Pen
@@ -94,7 +95,7 @@ class Drawing:
         if board.given:
             told += words["given"].format(_lines(board.given))
         if board.marks:
-            marks = "; ".join(f"{label} {_point(point)}" for label, point in board.marks)
+            marks = "; ".join(f"{name(label)} {_point(point)}" for label, point in board.marks)
             told += words["marks"].format(marks)
         return told + (words["wanted"].format(_lines(self.lines)) if self.lines else "")
 
