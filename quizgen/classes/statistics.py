@@ -9,6 +9,8 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Hashable, Sequence
+from statistics import StatisticsError
+from statistics import correlation as pearson
 
 import numpy as np
 from flint import arb
@@ -77,12 +79,10 @@ def rest_correlation(scores: Table, column: int) -> float | None:
 def correlation(first: Table, second: Table) -> float | None:
     """Pearson's correlation over the students who have both."""
     both = ~(np.isnan(first) | np.isnan(second))
-    x, y = first[both], second[both]
-    if len(x) < 2:
+    try:
+        return pearson(first[both].tolist(), second[both].tolist())
+    except StatisticsError:  # fewer than two, or all the same
         return None
-    x, y = x - x.mean(), y - y.mean()
-    spread = math.sqrt(float(x @ x) * float(y @ y))
-    return float(x @ y) / spread if spread > 1e-12 else None
 
 
 def kappa(pairs: Sequence[tuple[Hashable, Hashable]]) -> float | None:
