@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 
@@ -219,7 +218,6 @@ def _shares(parts: Iterable[PartMark], questions: Mapping[str, float]) -> dict[s
     return {name: got / worth[name] for name, got in questions.items() if worth[name]}
 
 
-@lru_cache(maxsize=4096)
 def _template(item: str) -> str:
     return item.partition("/")[0]
 

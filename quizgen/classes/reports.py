@@ -70,6 +70,11 @@ class Section:
         return f"{self.number}. {self.title}"
 
     @property
+    def worth(self) -> str:
+        """Points that were reached, of those that could be."""
+        return f"{self.marks:g} / {self.points:g}"
+
+    @property
     def practise(self) -> str:
         """The command that asks more of the same."""
         own = "" if self.lang == FIRST else f" --lang {self.lang}"
@@ -108,6 +113,17 @@ class Report:
         """The sentences around."""
         found: dict[str, str] = table(self.lang, "classes")["report"]
         return found
+
+    @property
+    def head(self) -> str:
+        """What it is a report of."""
+        return f"{self.words['title']} - {self.title}"
+
+    @property
+    def total(self) -> str:
+        """Points that were reached, of those that could be."""
+        marks, points = f"{self.marks.marks:g}", f"{self.marks.points:g}"
+        return self.words["total"].format(marks=marks, points=points)
 
     @property
     def revise(self) -> list[Section]:
@@ -244,14 +260,10 @@ def report_pdf(report: Report) -> bytes:
         If it cannot be typeset.
     """
     words = report.words
-    title = f"{words['title']} - {report.title}"
-    total = words["total"].format(
-        marks=f"{report.marks.marks:g}", points=f"{report.marks.points:g}"
-    )
     head = (
-        f"#show: report.with(title: {string(title)}, lang: {string(report.lang)}, "
+        f"#show: report.with(title: {string(report.head)}, lang: {string(report.lang)}, "
         f"who: {string(report.who)}, code: {string(words['code'] + ': ' + report.code)}, "
-        f"grade: {string(words['grade'] + ': ' + report.grade)}, total: {string(total)}, "
+        f"grade: {string(words['grade'] + ': ' + report.grade)}, total: {string(report.total)}, "
         f"provisional: {string(report.provisional)})"
     )
     heads = ", ".join(string(words[name]) for name in ("part", "yours", "right", "points"))
@@ -273,8 +285,7 @@ def _revise(report: Report) -> str:
 
 def _question(section: Section, heads: str) -> str:
     rows = "".join(_typst(row) for row in section.rows)
-    worth = f"{section.marks:g} / {section.points:g}"
-    return f"#answered({string(section.name)}, {string(worth)}, ({heads}), ({rows}))"
+    return f"#answered({string(section.name)}, {string(section.worth)}, ({heads}), ({rows}))"
 
 
 def _typst(row: Row) -> str:
