@@ -20,7 +20,7 @@ from quizgen.paper.key import Key, KeyQuestion
 from quizgen.paper.marking import Marker
 from quizgen.render.fonts import bangla_uri
 from quizgen.render.layouts import environment
-from quizgen.render.typ import compiled, document, string
+from quizgen.render.typ import compiled, document, printable, string
 
 MOST_TO_REVISE = 5
 NOT_TYPED = frozenset({"text", "sketch"})
@@ -262,7 +262,7 @@ def report_pdf(report: Report) -> bytes:
     words = report.words
     head = (
         f"#show: report.with(title: {string(report.head)}, lang: {string(report.lang)}, "
-        f"who: {string(report.who)}, code: {string(words['code'] + ': ' + report.code)}, "
+        f"who: {_shown(report.who)}, code: {string(words['code'] + ': ' + report.code)}, "
         f"grade: {string(words['grade'] + ': ' + report.grade)}, total: {string(report.total)}, "
         f"provisional: {string(report.provisional)})"
     )
@@ -290,6 +290,11 @@ def _question(section: Section, heads: str) -> str:
 
 def _typst(row: Row) -> str:
     """A row of the table: four cells, and what is said below them."""
-    cells = ", ".join(map(string, (row.label, row.typed, row.right, row.marks)))
-    below = "".join(f"{string(text)}, " for text in (row.message, row.said) if text)
+    cells = ", ".join(map(_shown, (row.label, row.typed, row.right, row.marks)))
+    below = "".join(f"{_shown(text)}, " for text in (row.message, row.said) if text)
     return f"({cells}, ({below})), "
+
+
+def _shown(text: str) -> str:
+    """What somebody may have written, with what no font has as ``?``."""
+    return string(printable(text))

@@ -148,7 +148,7 @@ def _fonts() -> Any:
 
 
 def printable(text: str) -> str:
-    """A name with ``?`` for each character that no font here has: one alone would stop the page."""
+    """A text with ``?`` for each character that no font here has: one alone would stop the page."""
     return "".join(c if _has_glyph(c) else "?" for c in text)
 
 

@@ -1,0 +1,25 @@
+"""Reports of students whose names and answers no font here has."""
+
+from __future__ import annotations
+
+import pytest
+
+from quizgen.classes.mark import Marks, PartMark
+from quizgen.classes.reports import Report, Row, Section, report_html, report_pdf
+
+MARKS = Marks("1", (PartMark("1", "x", "3", "wrong", 1.0, 0.0),))
+
+
+def report(lang, **said):
+    row = Row("a", said.get("typed", "3"), "4", "0 / 1", said.get("message", ""), "")
+    section = Section("1", "Far away", 0.0, 1.0, 0.0, (row,), "projection", lang)
+    return Report(lang, "Test", said.get("who", "Ada"), "G-1", "5.0", MARKS, (section,))
+
+
+@pytest.mark.parametrize(
+    "said", [{"who": "李小龙"}, {"typed": "三 m"}, {"message": "«三»?"}], ids=str
+)
+def test_a_character_that_no_font_has_stops_no_report(said):
+    made = report("bn", **said)
+    assert report_pdf(made).startswith(b"%PDF")
+    assert next(iter(said.values())) in report_html(made).decode()
