@@ -10,6 +10,7 @@ import msgspec
 from quizgen.bank.draw import Draw
 from quizgen.bank.prose import Code
 from quizgen.figures import Board
+from quizgen.marking.features.sheet import Feature
 from quizgen.marking.kinds.sketch import Spec
 from quizgen.marking.mark import show
 from quizgen.marking.reading.strokes import written
@@ -25,6 +26,8 @@ SAMPLES = 8
 """Pieces of a curve."""
 DIGITS = 4, 4
 """Decimals of a point, as shares of what is typed they are far finer than any hand."""
+COMMON = {"reads", *Feature.__struct_fields__}
+"""Keys of every feature: no formulas."""
 
 Point = tuple[float, float]
 Formulas = tuple[Scalar, Scalar]
@@ -113,6 +116,12 @@ class _Place:
         """The values of two."""
         return self.number(formulas[0]), self.number(formulas[1])
 
+    def filled(self, value: Scalar | list[Scalar]) -> float | list[float]:
+        """The value of a formula or of several; what is true or false stays so."""
+        if isinstance(value, bool):
+            return value
+        return [*map(self.number, value)] if isinstance(value, list) else self.number(value)
+
     def lines(self, authored: Mapping[str, Authored]) -> dict[str, list[Point]]:
         """Lines by their names."""
         return {name: self._line(line) for name, line in authored.items()}
@@ -140,10 +149,8 @@ def _rounded(x: float, y: float) -> Point:
 
 
 def _feature(place: _Place, authored: Mapping[str, Any]) -> dict[str, Any]:
-    """A feature with numbers in place of formulas."""
-    circle = {"circle": [*map(place.number, authored["circle"])]} if "circle" in authored else {}
-    within = {"within": place.number(authored["within"])} if "within" in authored else {}
-    return {**authored, **circle, **within}
+    """A feature with numbers in place of formulas, whichever keys its way to read has."""
+    return {key: value if key in COMMON else place.filled(value) for key, value in authored.items()}
 
 
 def hints(_spec: Spec, lang: str) -> tuple[Shown, ...]:
