@@ -182,6 +182,7 @@ def test_the_printed_key_is_right_and_a_minus_sign_is_one():
 
 MOVED = {"reads": "moved", "of": ["l"], "circle": [0, 0, 1], "within": 2}
 TOP = {"reads": "curve", "of": ["l"], "top": True}
+ABOVE = {"features": {"a": TOP}, "view": [-1, 1, 0, 1]}
 
 
 @pytest.mark.parametrize(
@@ -199,9 +200,10 @@ TOP = {"reads": "curve", "of": ["l"], "top": True}
         ({"features": {"a": {**MOVED, "circle": [0, 0, 0]}}}, "radius"),
         ({"features": {"a": {**MOVED, "within": 1}}}, "within"),
         ({"features": {"a": {"reads": "curve", "of": ["l"]}}}, "must be asked"),
-        ({"features": {"a": TOP}, "lines": {"l": "0,0 0,1"}}, "one height"),
-        ({"features": {"a": TOP}, "lines": {"l": "-1,-1 1,-1"}}, "one height"),
-        ({"features": {"a": TOP}, "lines": {"l": "-1,0 1,0 1,1 -1,1"}}, "one height"),
+        ({"features": {"a": TOP}}, "begins at 0"),
+        ({**ABOVE, "lines": {"l": "0,0 0,1"}}, "one height"),
+        ({**ABOVE, "lines": {"l": "-1,0 1,0"}}, "one height"),
+        ({**ABOVE, "lines": {"l": "-1,0 1,0 1,1 -1,1"}}, "one height"),
     ],
 )
 def test_a_key_that_cannot_be_judged_by_is_refused(change, said):

@@ -44,9 +44,11 @@ class Curve(Feature, frozen=True):
     ends: bool = False
 
     def validate(self, sheet: Sheet, /) -> None:
-        """Of a curve something must be asked, and it must have heights."""
+        """Of a curve something must be asked, and it must have heights above 0."""
         if not (self.peaks or self.top or self.ends):
             raise ValueError("peaks, top or ends must be asked of a curve")
+        if sheet.scale.view[2]:
+            raise ValueError("the field of a curve begins at 0, from where its heights count")
         if not all(sheet.once(wanted_heights)[name] for name in self.of):
             raise ValueError("a curve runs along x and has one height at each place, above 0")
 
