@@ -132,6 +132,11 @@ class Report:
         return sorted(lost, key=lambda section: -section.lost)[:MOST_TO_REVISE]
 
     @property
+    def nothing(self) -> str:
+        """That all points were reached; empty while that is still to be decided."""
+        return "" if self.marks.undecided else self.words["nothing"]
+
+    @property
     def provisional(self) -> str:
         """That something is still to be decided; empty if nothing is."""
         count = self.marks.undecided
@@ -274,7 +279,7 @@ def report_pdf(report: Report) -> bytes:
 def _revise(report: Report) -> str:
     words = report.words
     if not report.revise:
-        return f"#nothing({string(words['nothing'])})"
+        return f"#block({string(report.nothing)})" if report.nothing else ""
     rows = ", ".join(
         f"({string(one.name)}, {string(one.told(words))}, {string(one.practise)})"
         for one in report.revise

@@ -23,3 +23,11 @@ def test_a_character_that_no_font_has_stops_no_report(said):
     made = report("bn", **said)
     assert report_pdf(made).startswith(b"%PDF")
     assert next(iter(said.values())) in report_html(made).decode()
+
+
+@pytest.mark.parametrize(("marks", "said"), [(1.0, True), (None, False)])
+def test_all_points_are_said_only_where_nothing_is_open(marks, said):
+    part = PartMark("1", "x", "3", "open", 1.0, marks)
+    section = Section("1", "Far", marks or 0.0, 1.0, 0.0 if marks else 1.0, (), "projection", "en")
+    made = Report("en", "Test", "Ada", "G-1", "1.0", Marks("1", (part,)), (section,))
+    assert ("There is nothing to revise." in report_html(made).decode()) == said
