@@ -71,9 +71,9 @@ def _listed(head: str, lines: list[str]) -> None:
         return
     tell(f"{head}:")
     for line in lines[:SHOWN]:
-        tell(f"  {one_line(line)}")
+        tell(one_line(line))
     if len(lines) > SHOWN:
-        tell(f"  ... and {len(lines) - SHOWN} more")
+        tell(f"... and {len(lines) - SHOWN} more")
 
 
 def _changed(change: Change) -> str:
@@ -120,7 +120,7 @@ def history(folder: Path, student: str) -> None:
         tell(f"Run {run}: {marks.marks:g} of {marks.points:g} points, from {one_line(marks.file)}")
         for part in marks.parts:
             if part.id not in before or before[part.id] != part:
-                tell(f"  {part.id} ({part.item}): {_mark(part)}")
+                tell(f"{part.id} ({part.item}): {_mark(part)}")
             before[part.id] = part
     if not before:
         tell(f"{one_line(student)}: nothing has been marked")
