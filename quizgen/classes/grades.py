@@ -82,7 +82,7 @@ def write_grades(folder: Path, lines: Sequence[Graded], scale: Scale) -> list[Pa
     """
     items = _items(lines)
     rows = [_head(items), *(_row(line, items, scale) for line in lines)]
-    posted: list[list[Cell]] = [["code", "points", "grade"], *_posted(lines, scale)]
+    posted: list[list[Cell]] = [["code", "points", "grade", "remark"], *_posted(lines, scale)]
     made = {POSTED: _csv(posted), BOOK: _xlsx(rows, scale), TABLE: _csv(rows)}
     return write_all(folder / FOLDER, made, mode=PRIVATE)
 
@@ -113,7 +113,7 @@ def _row(line: Graded, items: list[str], scale: Scale) -> list[Cell]:
 def _posted(lines: Iterable[Graded], scale: Scale) -> list[list[Cell]]:
     """Without names, in the order of the codes, which says nothing of the roster."""
     rows: list[list[Cell]] = [
-        [one.code, float(scale.rounded(Fraction(one.marks.marks))), one.grade]
+        [one.code, float(scale.rounded(Fraction(one.marks.marks))), one.grade, one.remark]
         for one in lines
         if one.marks
     ]

@@ -110,6 +110,8 @@ def test_every_mark_is_the_one_that_is_known(marked):
         NOBODY,
     }
     assert all(row["remark"] == "provisional" for one, row in table.items() if one in students)
+    with (folder / "results" / "posted.csv").open(encoding="utf-8-sig", newline="") as stream:
+        assert {row["remark"] for row in csv.DictReader(stream)} == {"provisional"}
 
 
 def test_what_was_not_marked_is_named_with_its_reason(marked, capsys):
