@@ -47,8 +47,8 @@ def hand_in(page):
 
 
 def forgive(opened):
-    """What browsers say of a server that is dead."""
-    dead = re.compile("ERR_CONNECTION|ERR_CONTENT_LENGTH|ERR_EMPTY|Failed to fetch")
+    """What browsers say of a server that is dead or out of reach."""
+    dead = re.compile("ERR_CONNECTION|ERR_CONTENT_LENGTH|ERR_EMPTY|ERR_INTERNET|Failed to fetch")
     opened.wrong[:] = [one for one in opened.wrong if not dead.search(one)]
 
 
@@ -155,6 +155,18 @@ def test_what_is_typed_while_the_server_is_dead_arrives_when_it_is_back(exam, se
     page.reload()
     expect(boxes(page).first).to_have_value("1.5")
     expect(boxes(page).nth(1)).to_have_value("2.5")
+    forgive(opened)
+
+
+def test_what_is_typed_without_a_network_arrives_when_it_is_back(exam, opened):
+    page = exam()
+    page.context.set_offline(True)
+    boxes(page).first.fill("4.5")
+    expect(page.locator("#kept")).to_have_text(AWAY)
+    page.context.set_offline(False)
+    expect(page.locator("#kept")).to_have_text(SAVED)
+    page.reload()
+    expect(boxes(page).first).to_have_value("4.5")
     forgive(opened)
 
 
