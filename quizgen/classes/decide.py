@@ -12,7 +12,6 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import lru_cache
 from pathlib import Path
 
 from quizgen.classes.mark import Marks, item_of
@@ -139,8 +138,20 @@ def cases(answers: Iterable[Answer], key_of: Callable[[str], Key], lang: str) ->
     lang : str
         Of what is said about them.
     """
-    key = lru_cache(maxsize=8)(key_of)
-    return [_case(answer, key(answer.student), lang) for answer in answers]
+    asked = list(answers)
+    found: dict[int, Case] = {}
+    for student, places in _by_student(asked).items():
+        key = key_of(student)
+        found |= {place: _case(asked[place], key, lang) for place in places}
+    return [found[place] for place in range(len(asked))]
+
+
+def _by_student(answers: Iterable[Answer]) -> dict[str, list[int]]:
+    """Which answers are whose: a key is read once."""
+    found: dict[str, list[int]] = {}
+    for place, answer in enumerate(answers):
+        found.setdefault(answer.student, []).append(place)
+    return found
 
 
 def _case(answer: Answer, key: Key, lang: str) -> Case:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import msgspec
 
@@ -81,12 +82,7 @@ class Wish(msgspec.Struct, frozen=True):
     @classmethod
     def of(cls, line: Stroke, others: list[Stroke]) -> Wish:
         """A line that is told apart from others."""
-        if len(line) < 2 or line[0] == line[-1]:
-            raise ValueError("a line has two ends, apart from each other")
-        frame = Frame.of(line)
-        own = fit(resampled(line, frame.length / 40), frame)
-        if own is None:
-            raise ValueError("a line is too short for its field")
+        frame, own = _own(tuple(line))
         placed = [(frame(other[0]), frame(other[-1])) for other in others]
         turns = [_turn(*ends) for ends in placed]
         gaps = [abs(a[1] + b[1]) / 2
@@ -126,6 +122,18 @@ class Wish(msgspec.Struct, frozen=True):
         """Whether it begins and ends where the wanted one does."""
         begins, stops = drawn.middle - drawn.half, drawn.middle + drawn.half
         return abs(begins) <= self.short[0] and abs(stops - self.frame.length) <= self.short[1]
+
+
+@lru_cache(maxsize=512)
+def _own(line: tuple[Point, ...]) -> tuple[Frame, Fit]:
+    """A wanted line's frame and fit; a key that is read again brings the same line."""
+    if len(line) < 2 or line[0] == line[-1]:
+        raise ValueError("a line has two ends, apart from each other")
+    frame = Frame.of(line)
+    own = fit(resampled(line, frame.length / 40), frame)
+    if own is None:
+        raise ValueError("a line is too short for its field")
+    return frame, own
 
 
 def fits(sheet: Sheet) -> dict[str, Fit]:

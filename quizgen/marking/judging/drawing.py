@@ -11,6 +11,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from operator import mul
 
 from quizgen.marking.reading.strokes import Point, Stroke
 
@@ -207,12 +208,9 @@ def _fit(points: Sequence[Point], frame: Frame) -> Fit | None:
 
 def _parabola(pairs: Sequence[Point]) -> tuple[float, float, float]:
     """Least squares: the normal equations in the first three Legendre polynomials."""
-    basis = [(1.0, t, (3 * t * t - 1) / 2) for t, _ in pairs]
-    rows = [
-        [sum(b[i] * b[j] for b in basis) for j in range(3)]
-        + [sum(b[i] * off for b, (_, off) in zip(basis, pairs, strict=True))]
-        for i in range(3)
-    ]
+    along, off = zip(*pairs, strict=True)
+    basis = ([1.0] * len(along), along, [(3 * t * t - 1) / 2 for t in along])
+    rows = [[sum(map(mul, one, other)) for other in (*basis, off)] for one in basis]
     low, slope, bent = _solved(rows)
     return low - bent / 2, slope, 1.5 * bent
 

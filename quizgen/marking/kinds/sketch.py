@@ -73,7 +73,8 @@ class Spec(Worded, kw_only=True, frozen=True):
     def judge(self, typed: str, _options: Options, /) -> Verdict:
         """Judge drawn lines by the features of the wanted ones."""
         strokes = read_strokes(typed, self.field)
-        drawn = [self.scale.line(piece) for stroke in strokes for piece in self._cut(stroke)]
+        line = self.scale.line
+        drawn = [line(piece) for stroke in strokes for piece in self._cut(stroke)]
         sheet, *mistaken = self._sheets(drawn)
         note, shares = "sketch", self._shares(sheet)
         if not any(one.seen(sheet) for one in self.features.values()):
@@ -125,10 +126,11 @@ class Spec(Worded, kw_only=True, frozen=True):
 
     def _sheets(self, drawn: Sequence[Stroke]) -> list[Sheet]:
         """What was drawn beside the wanted lines, and beside those of each mistake."""
-        ways = [{name: self.scale.line(read_line(line)) for name, line in lines.items()}
+        scale = self.scale
+        ways = [{name: scale.line(read_line(line)) for name, line in lines.items()}
                 for lines in (self.lines, *self.traps.values())]  # fmt: skip
         return [
-            Sheet(self.scale, drawn, way, [*ways[:place], *ways[place + 1 :]])
+            Sheet(scale, drawn, way, [*ways[:place], *ways[place + 1 :]])
             for place, way in enumerate(ways)
         ]
 
