@@ -167,6 +167,10 @@ def test_checking_loads_neither_sympy_nor_matplotlib():
     assert not {"numpy", "sympy", "matplotlib"} & loaded(code)
 
 
+def test_marking_a_class_loads_what_marking_one_loads():
+    assert not {"numpy", "sympy", "matplotlib", "typst"} & loaded("import quizgen.classes.run")
+
+
 def test_a_server_is_ready_without_what_only_its_workers_need(tmp_path):
     code = (
         "import quizgen.web.server\nfrom quizgen.web.app import application\n"

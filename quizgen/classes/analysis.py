@@ -9,26 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from quizgen.classes.effects import Draws, Effect
+from quizgen.classes.keys import Outline
 from quizgen.classes.mark import DROPPED, Marks, PartMark
 from quizgen.classes.statistics import Table, alpha, alpha_interval, rest_correlation
 
 WRONG = frozenset({"wrong", "partial"})
-
-
-@dataclass(frozen=True)
-class Outline:
-    """What a paper asks, as far as analysis looks at it.
-
-    Parameters
-    ----------
-    identities : mapping of str to str
-        Template to the draw that this paper has of it.
-    options : mapping of str to sequence of str
-        Item to the options that stand there.
-    """
-
-    identities: Mapping[str, str]
-    options: Mapping[str, tuple[str, ...]]
 
 
 @dataclass(frozen=True)

@@ -9,14 +9,14 @@ here gives points: key points that were found are a suggestion.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
 
 from quizgen.classes.mark import Marks, item_of
 from quizgen.classes.rulings import DECIDE, SECOND, Ruling, alike, filled_rows, last_words
-from quizgen.classes.statistics import kappa
 from quizgen.errors import ClassError, FormulaError
 from quizgen.files import PRIVATE, write_all
 from quizgen.marking.judging.wording import another_word, budget, fold, slips
@@ -348,3 +348,19 @@ def agreement(rulings: Sequence[Ruling]) -> Agreement:
     said = [(a.points, b.points) for a, b in both]
     apart = tuple(pair for pair, (a, b) in zip(both, said, strict=True) if a != b)
     return Agreement(len(both), kappa(said), apart)
+
+
+def kappa(pairs: Sequence[tuple[Hashable, Hashable]]) -> float | None:
+    """Cohen's kappa of two markers.
+
+    Parameters
+    ----------
+    pairs : sequence
+        What each of them said of one answer.
+    """
+    if not pairs:
+        return None
+    agreed = sum(a == b for a, b in pairs) / len(pairs)
+    one, other = Counter(a for a, _ in pairs), Counter(b for _, b in pairs)
+    by_chance = sum(count * other[said] for said, count in one.items()) / len(pairs) ** 2
+    return None if by_chance == 1 else (agreed - by_chance) / (1 - by_chance)

@@ -7,16 +7,32 @@ one still ends marking with a ``KeyFileError``.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
 import msgspec
 
-from quizgen.classes.analysis import Outline
 from quizgen.classes.folder import KEYS, ClassFolder, Head
 from quizgen.classes.mark import item_named
 from quizgen.errors import ClassError
 from quizgen.paper.key import Key
+
+
+@dataclass(frozen=True)
+class Outline:
+    """What a paper asks, as far as the analysis looks at it.
+
+    Parameters
+    ----------
+    identities : mapping of str to str
+        Template to the draw that this paper has of it.
+    options : mapping of str to sequence of str
+        Item to the options that stand there.
+    """
+
+    identities: Mapping[str, str]
+    options: Mapping[str, tuple[str, ...]]
 
 
 class _Line(msgspec.Struct):

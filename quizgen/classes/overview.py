@@ -10,12 +10,12 @@ from pathlib import Path
 from markupsafe import Markup
 
 from quizgen.classes import plots
-from quizgen.classes.analysis import Analysis, Mistake, Outline, analysed
+from quizgen.classes.analysis import Analysis, Mistake, analysed
 from quizgen.classes.decide import agreement
 from quizgen.classes.folder import ClassFolder
 from quizgen.classes.grades import FOLDER
 from quizgen.classes.history import History
-from quizgen.classes.keys import Keys
+from quizgen.classes.keys import Keys, Outline
 from quizgen.classes.mark import Marks
 from quizgen.classes.reports import layouts, style
 from quizgen.classes.rulings import read_rulings

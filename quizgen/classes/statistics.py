@@ -1,4 +1,4 @@
-"""What is known of a test from its points: reliability, discrimination, agreement, differences.
+"""What is known of a test from its points: reliability, discrimination, differences.
 
 Quantiles and probabilities come from FLINT's incomplete beta and gamma functions. A value that the
 points do not determine (one item, one student, no spread) is None.
@@ -7,8 +7,7 @@ points do not determine (one item, one student, no spread) is None.
 from __future__ import annotations
 
 import math
-from collections import Counter
-from collections.abc import Hashable, Sequence
+from collections.abc import Sequence
 from statistics import StatisticsError
 from statistics import correlation as pearson
 
@@ -83,22 +82,6 @@ def correlation(first: Table, second: Table) -> float | None:
         return pearson(first[both].tolist(), second[both].tolist())
     except StatisticsError:  # fewer than two, or all the same
         return None
-
-
-def kappa(pairs: Sequence[tuple[Hashable, Hashable]]) -> float | None:
-    """Cohen's kappa of two markers.
-
-    Parameters
-    ----------
-    pairs : sequence
-        What each of them said of one answer.
-    """
-    if not pairs:
-        return None
-    agreed = sum(a == b for a, b in pairs) / len(pairs)
-    one, other = Counter(a for a, _ in pairs), Counter(b for _, b in pairs)
-    by_chance = sum(count * other[said] for said, count in one.items()) / len(pairs) ** 2
-    return None if by_chance == 1 else (agreed - by_chance) / (1 - by_chance)
 
 
 def ranks(values: Table) -> Table:

@@ -6,8 +6,9 @@ import random
 
 import pytest
 
-from quizgen.classes.analysis import Outline, analysed
+from quizgen.classes.analysis import analysed
 from quizgen.classes.effects import Draws, drawn
+from quizgen.classes.keys import Outline
 from quizgen.classes.mark import Marks, PartMark
 
 

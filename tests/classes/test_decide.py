@@ -6,7 +6,15 @@ import csv
 
 import pytest
 
-from quizgen.classes.decide import agreement, cases, grouped, read_queue, waiting, write_queue
+from quizgen.classes.decide import (
+    agreement,
+    cases,
+    grouped,
+    kappa,
+    read_queue,
+    waiting,
+    write_queue,
+)
 from quizgen.classes.mark import Sheet, mark_sheet
 from quizgen.classes.rulings import Book, Ruling
 from quizgen.errors import ClassError
@@ -126,3 +134,11 @@ def test_agreement_of_two_markers():
     found = agreement([*lines, Ruling("decide", "why", "y", "1", group="g9")])
     # 3 of 4 agree; by chance 1/2*1/4 + 1/2*3/4 = 1/2: kappa (3/4 - 1/2)/(1/2) = 1/2
     assert (found.answers, found.kappa, len(found.apart)) == (4, 0.5, 1)
+
+
+def test_kappa_of_two_readers_of_grant_proposals():
+    """Wikipedia, Cohen's kappa, Simple example: 20 and 15 agreed, 5 and 10 not."""
+    pairs = [("y", "y")] * 20 + [("y", "n")] * 5 + [("n", "y")] * 10 + [("n", "n")] * 15
+    assert kappa(pairs) == pytest.approx(0.4)
+    assert kappa([("y", "y")] * 3) is None
+    assert kappa([]) is None

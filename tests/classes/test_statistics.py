@@ -53,14 +53,6 @@ def test_discrimination_is_the_correlation_with_the_sum_of_the_others():
     assert found == pytest.approx(expected, abs=1e-7)
 
 
-def test_kappa_of_two_readers_of_grant_proposals():
-    """Wikipedia, Cohen's kappa, Simple example: 20 and 15 agreed, 5 and 10 not."""
-    pairs = [("y", "y")] * 20 + [("y", "n")] * 5 + [("n", "y")] * 10 + [("n", "n")] * 15
-    assert statistics.kappa(pairs) == pytest.approx(0.4)
-    assert statistics.kappa([("y", "y")] * 3) is None
-    assert statistics.kappa([]) is None
-
-
 def test_kruskal_and_wallis_on_mucociliary_efficiency():
     """Hollander and Wolfe (1973), page 116; R's kruskal.test prints 0.77143, df = 2, p = 0.68."""
     groups = [[2.9, 3.0, 2.5, 2.6, 3.2], [3.8, 2.7, 4.0, 2.4], [2.8, 3.4, 3.7, 2.2, 2.0]]
