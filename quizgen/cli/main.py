@@ -30,7 +30,7 @@ COMMANDS = {
     "mark": ("quizgen.cli.mark", "Mark one answer, or JSON Lines of answers (for authors)."),
     "cards": ("quizgen.cli.cards", "Make flashcards for Anki and other programs."),
     "sheet": ("quizgen.cli.sheet", "Write the formulas of the chapter on a sheet."),
-    "export": ("quizgen.cli.export", "Write questions for Moodle."),
+    "export": ("quizgen.cli.export", "Write questions for Moodle, Canvas or QTI."),
     "serve": ("quizgen.cli.serve", "Practise and sit the exam in a browser."),
     "templates": ("quizgen.cli.templates", "List the templates of the bank."),
     "preview": ("quizgen.cli.preview", "Show one question with its solution."),
