@@ -133,9 +133,10 @@ def queue(folder: Path) -> tuple[list[str], list[dict[str, str]]]:
 
 
 @pytest.fixture(scope="module")
-def decided(marked):
+def decided(marked, tmp_path_factory):
     """Sentences and what could not be read, decided in the spreadsheet by the first row of each group."""
-    folder, students = marked
+    students = marked[1]
+    folder = shutil.copytree(marked[0], tmp_path_factory.mktemp("decided") / "class")
     head, rows = queue(folder)
     sentences = [row for row in rows if row["item"] == TEXT]
     # with and without capitals and signs is one answer, a comma more is similar: one group

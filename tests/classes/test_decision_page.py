@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import re
+import shutil
 
 import pytest
 from made import made, run
@@ -16,6 +17,7 @@ from quizgen.web.door import form_token
 from quizgen.web.settings import Settings
 
 ADDRESS = "http://127.0.0.1:8000"
+ITEM = "blur-and-light-factors/b"
 SENTENCES = {
     "1": "The cone of rays is narrower <b>now</b>",
     "2": "the cone of rays is narrower <b>now</b>.",
@@ -24,7 +26,7 @@ SENTENCES = {
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory):
+def marked(tmp_path_factory):
     """Three students, of whom two say the same and one the contrary; two right answers to the rest."""
     found = made(
         tmp_path_factory.mktemp("class"), [("1", "A", "en"), ("2", "B", "en"), ("3", "C", "bn")]
@@ -38,12 +40,16 @@ def folder(tmp_path_factory):
     return found
 
 
-@pytest.fixture(scope="module")
-def asked(folder, tmp_path_factory):
+@pytest.fixture
+def folder(marked, tmp_path):
+    """The class as it is before anybody decides."""
+    return shutil.copytree(marked, tmp_path / "class")
+
+
+@pytest.fixture
+def asked(folder, tmp_path):
     """A browser on the page, and the token of its forms."""
-    settings = Settings(
-        f"sqlite:///{tmp_path_factory.mktemp('d') / 'l.sqlite3'}", workers=1, classroom=folder
-    )
+    settings = Settings(f"sqlite:///{tmp_path / 'l.sqlite3'}", workers=1, classroom=folder)
     app = application(settings)
     with TestClient(app, ADDRESS) as client:
         token = app.state.site.settings.token
@@ -72,7 +78,7 @@ def test_equal_answers_are_one_group_and_the_contrary_is_another(asked):
 def test_what_was_taken_back_is_asked_again(asked, folder):
     client, _ = asked
     before = groups(client.get("/class").text)
-    decided = Ruling("decide", "blur-and-light-factors/b", value="0.5", group=before[0][0])
+    decided = Ruling("decide", ITEM, value="0.5", group=before[0][0])
     append_rulings(folder, [decided])
     assert groups(client.get("/class").text) == before[1:]
     append_rulings(folder, [Ruling("decide", decided.item, group=decided.group)])
@@ -84,7 +90,7 @@ def test_one_decision_settles_a_group_and_marking_counts_it(asked, folder):
     first = groups(client.get("/class").text)[0]
     form = {
         "token": token,
-        "item": "blur-and-light-factors/b",
+        "item": ITEM,
         "worth": "1",
         "who": "AM",
         "group": first,
@@ -101,18 +107,21 @@ def test_one_decision_settles_a_group_and_marking_counts_it(asked, folder):
     )
     assert run("class", "grade", folder, "--reports", "none") == 0
     with (folder / "results" / "grades.csv").open(encoding="utf-8-sig", newline="") as stream:
-        marks = {row["id"]: row["blur-and-light-factors/b"] for row in csv.DictReader(stream)}
+        marks = {row["id"]: row[ITEM] for row in csv.DictReader(stream)}
     assert marks == {"1": "0.75", "2": "0.75", "3": ""}
 
 
 def test_a_second_marker_does_not_see_the_first_and_changes_no_mark(asked, folder):
     client, token = asked
+    first = groups(client.get("/class").text)[0][0]
+    append_rulings(folder, [Ruling("decide", ITEM, SENTENCES["1"], "0.75", group=first)])
+    assert run("class", "mark", folder) == 0
     page = client.get("/class?second=1").text
     assert [len(group) for group in groups(page)] == [1]
     assert "0.75" not in page.replace('step="0.25"', "")
     form = {
         "token": token,
-        "item": "blur-and-light-factors/b",
+        "item": ITEM,
         "worth": "1",
         "who": "BN",
         "second": "1",
