@@ -91,7 +91,8 @@ class Drawing:
     def alt(self) -> str:
         """The picture in words, without drawing it."""
         words, board = words_of("board", self.lang), self.board
-        told = words["field"].format(*map(given, board.view), *map(given, board.grid))
+        told = words["solved" if self.lines else "empty"]
+        told += words["field"].format(*map(given, board.view), *map(given, board.grid))
         if board.given:
             told += words["given"].format(_lines(board.given))
         if board.marks:

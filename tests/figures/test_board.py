@@ -8,3 +8,12 @@ from quizgen.figures import Board, Drawing
 def test_marks_are_named_as_in_the_text():
     board = Board((-4, 4, -3, 3), (1, 1), marks=(("F", (-1.5, 0)), ("F'", (1.5, 0))))
     assert Drawing(board, "en").alt.endswith(" Marked: F (−1.5; 0); F′ (1.5; 0).")
+
+
+def test_a_field_with_the_wanted_lines_is_not_called_empty():
+    board = Board((-4, 4, -3, 3), (1, 1))
+    empty, solved = (Drawing(board, "en", lines).alt for lines in ((), (((0, 0), (1, 1)),)))
+    assert empty.startswith("An empty field to draw in: x from −4 to 4")
+    assert solved.startswith("The drawing that was wanted: x from −4 to 4")
+    assert solved.endswith(" The wanted lines: (0; 0), (1; 1).")
+    assert "ফাঁকা" not in Drawing(board, "bn", (((0, 0), (1, 1)),)).alt
