@@ -181,12 +181,8 @@ async def save(request: Request) -> Response:
     """Keep what was typed; a script is told when, a form leads back to the paper."""
     form = await posted(request)
     store: Sittings = request.app.state.site.store.sittings
-
-    def keep() -> tuple[Sitting | None, bool]:
-        found = store.find(request.state.learner.id, request.path_params["sitting"])
-        return found, found is not None and store.save(found, _fields(form))
-
-    sitting, kept = await run_in_threadpool(keep)
+    learner, name = request.state.learner.id, request.path_params["sitting"]
+    sitting, kept = await run_in_threadpool(store.save, learner, name, _fields(form))
     if sitting is None:
         raise HTTPException(404)
     if one(form, "do") == "end":

@@ -42,7 +42,7 @@ def full(store):
     attempt.ended = NOW
     mine.keep(attempt, (Seen("rgb-to-hsv", "colour", "a", "", right=True, first=True, at=NOW),))
     sitting = mine.sittings.begin(learner, "mock-1-en-0a1b2c", 60.0, pauses=True)
-    mine.sittings.save(sitting, {"2a": ["x", "৩"]})
+    mine.sittings.save(sitting.learner, sitting.id, {"2a": ["x", "৩"]})
     mine.sittings.flag(sitting, "2")
     mine.cards.review(learner, [Asked("A3", Grade.AGAIN, ("trap:swapped",))], NOW)
     mine.settle(learner, {"exam": "2027-02-12", "unknown": 1})

@@ -167,7 +167,7 @@ def test_of_what_comes_at_once_from_two_servers_nothing_is_lost(database):
         store = stores[place % 2]
         store.settle(me, {f"s{place}": place})
         store.cards.review(me, [Asked(f"T{place}", Grade.GOOD)], time.time())
-        store.sittings.save(sitting, {"1": [str(place)], f"{place}a": ["x"]})
+        store.sittings.save(sitting.learner, sitting.id, {"1": [str(place)], f"{place}a": ["x"]})
         return store.sittings.hand_in(sitting, (seen,)) if place > 7 else False
 
     with ThreadPoolExecutor(8) as threads:

@@ -7,8 +7,19 @@ import re
 import sqlite3
 import time
 from collections.abc import Iterator, Mapping, Sequence
+from functools import cache
 
-from sqlalchemy import URL, Connection, Engine, Table, create_engine, event, make_url, select
+from sqlalchemy import (
+    URL,
+    Connection,
+    Engine,
+    Executable,
+    Table,
+    create_engine,
+    event,
+    make_url,
+    select,
+)
 from sqlalchemy.dialects import sqlite
 from sqlalchemy.exc import ArgumentError, DBAPIError, SQLAlchemyError
 
@@ -100,21 +111,30 @@ def put(
     changed : sequence of str
         Columns that are written over.
     """
-    new = {name: row[name] for name in changed}
-    if connection.dialect.name == "sqlite":
-        lite = sqlite.insert(table).values(row)
-        connection.execute(
+    query = _putting(connection.dialect.name, table, tuple(key), tuple(changed))
+    connection.execute(query, dict(row))
+
+
+@cache
+def _putting(
+    dialect: str, table: Table, key: tuple[str, ...], changed: tuple[str, ...]
+) -> Executable:
+    """The statement, built once."""
+    if dialect == "sqlite":
+        lite = sqlite.insert(table)
+        new = {name: lite.excluded[name] for name in changed}
+        return (
             lite.on_conflict_do_update(index_elements=key, set_=new)
             if new
             else lite.on_conflict_do_nothing(index_elements=key)
         )
-        return
     from sqlalchemy.dialects import postgresql
 
-    query = postgresql.insert(table).values(row)
-    connection.execute(
-        query.on_conflict_do_update(index_elements=key, set_=new)
-        if new
+    query = postgresql.insert(table)
+    rows = {name: query.excluded[name] for name in changed}
+    return (
+        query.on_conflict_do_update(index_elements=key, set_=rows)
+        if rows
         else query.on_conflict_do_nothing(index_elements=key)
     )
 

@@ -7,7 +7,7 @@ import time
 from collections.abc import Mapping
 
 import msgspec
-from sqlalchemy import Connection, delete, insert, select, update
+from sqlalchemy import Connection, bindparam, delete, insert, select, update
 
 from quizgen.web.store.database import Database, put
 from quizgen.web.store.rows import Seen, Sitting
@@ -16,6 +16,12 @@ from quizgen.web.store.values import value
 
 GRACE = 5.0
 """Seconds after the end in which what was typed before it may still arrive."""
+
+
+_OWN = select(SITTING).where(
+    SITTING.c.id == bindparam("name"), SITTING.c.learner == bindparam("whose")
+)
+"""Built once: it is asked with every answer that is saved."""
 
 
 class Sittings:
@@ -60,17 +66,27 @@ class Sittings:
         with self.database.reading() as connection:
             return frozenset(map(str, connection.execute(query).scalars()))
 
-    def save(self, sitting: Sitting, answers: Mapping[str, list[str]]) -> bool:
-        """Keep what stands in the fields of parts; False if the exam is over."""
+    def save(
+        self, learner: int, name: str, answers: Mapping[str, list[str]]
+    ) -> tuple[Sitting | None, bool]:
+        """Keep what stands in the fields of parts.
+
+        Returns
+        -------
+        sitting : Sitting or None
+            The learner's exam; None if there is none of this name, or it is another's.
+        kept : bool
+            False if the exam is over.
+        """
         now = time.time()
-        with self.database.writing(sitting.learner) as connection:
-            known = _sitting(connection, sitting.learner, sitting.id)
+        with self.database.writing(learner) as connection:
+            known = _sitting(connection, learner, name)
             if known is None or known.resting is not None or known.over(now - GRACE):
-                return False
+                return known, False
             for part, fields in answers.items():
-                row = {"sitting": sitting.id, "part": part, "fields": fields, "at": now}
+                row = {"sitting": name, "part": part, "fields": fields, "at": now}
                 put(connection, ANSWER, row, ["sitting", "part"], ["fields", "at"])
-        return True
+        return known, True
 
     def flag(self, sitting: Sitting, number: str) -> None:
         """Mark a question to come back to, or take the mark away."""
@@ -114,8 +130,7 @@ class Sittings:
 
 
 def _sitting(connection: Connection, learner: int, name: str) -> Sitting | None:
-    query = select(SITTING).where(SITTING.c.id == name, SITTING.c.learner == learner)
-    row = connection.execute(query).mappings().first()
+    row = connection.execute(_OWN, {"name": name, "whose": learner}).mappings().first()
     return value(row, Sitting) if row else None
 
 
