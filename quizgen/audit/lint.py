@@ -240,7 +240,8 @@ def level_problems(one: Draw) -> list[str]:
             where = f"seed {one.seed}, {name}, part {part.label or '1'}"
             lang = asked[0].solution.lang
             typed = [("", show(part.spec, lang))]
-            typed += [(mistake.name, mistake.value) for mistake in part.solved.mistakes]
+            mistakes = part.solved.mistakes  # of a drawing they are only told
+            typed += [(mistake.name, mistake.value) for mistake in mistakes if mistake.value]
             found += [
                 p for trap, text in typed for p in _problems(part.spec, trap, text, where, lang)
             ]
