@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -26,6 +27,8 @@ MOST_TO_REVISE = 5
 NOT_TYPED = frozenset({"text", "sketch"})
 """Kinds whose key nobody types."""
 PACKAGE = "quizgen.classes"
+_BANGLA = re.compile("[\u0980-\u09ff]")
+"""Names and answers may be written so in a report of any language."""
 
 
 @dataclass(frozen=True)
@@ -230,7 +233,7 @@ def _said(part: PartMark, words: Mapping[str, str]) -> str:
 
 def report_html(report: Report) -> bytes:
     """A report as one self-contained page."""
-    bangla = report.lang in in_script("Beng")
+    bangla = report.lang in in_script("Beng") or _BANGLA.search(str(report))
     made = (
         layouts()
         .get_template("report.html.j2")

@@ -31,3 +31,9 @@ def test_all_points_are_said_only_where_nothing_is_open(marks, said):
     section = Section("1", "Far", marks or 0.0, 1.0, 0.0 if marks else 1.0, (), "projection", "en")
     made = Report("en", "Test", "Ada", "G-1", "1.0", Marks("1", (part,)), (section,))
     assert ("There is nothing to revise." in report_html(made).decode()) == said
+
+
+@pytest.mark.parametrize("said", [{"who": "রুবাইয়াত"}, {"typed": "৬,৬৭ মি"}], ids=str)
+def test_bangla_in_an_english_report_brings_its_font(said):
+    assert "@font-face" not in report_html(report("en")).decode()
+    assert "@font-face" in report_html(report("en", **said)).decode()
