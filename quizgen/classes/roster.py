@@ -22,8 +22,11 @@ import msgspec
 from quizgen.errors import ClassError
 from quizgen.locale import choices
 from quizgen.outside import defused, is_name, parse_csv, read_text, undefused, visible
+from quizgen.paper.paper import Progress, silent
 
 COLUMNS = ("id", "name", "lang", "extra", "group", "seat")
+ALSO_CALLED = {"lang": ("language",), "extra": ("extra time", "extra_time")}
+"""Other names under which a column is known."""
 LONGEST = 200
 """Characters of a cell."""
 LONGEST_FILE = 60
@@ -78,7 +81,11 @@ class Student(msgspec.Struct, frozen=True):
         return math.ceil(minutes * count / 100) if found[2] == "%" else count
 
 
-def read_roster(path: Path, columns: Mapping[str, str] | None = None) -> list[Student]:
+def read_roster(
+    path: Path,
+    columns: Mapping[str, str] | None = None,
+    tell: Progress = silent,
+) -> list[Student]:
     """Read a roster in the order of its seats.
 
     Parameters
@@ -87,6 +94,8 @@ def read_roster(path: Path, columns: Mapping[str, str] | None = None) -> list[St
         A CSV file.
     columns : mapping of str to str, optional
         What each of ``COLUMNS`` is called in the file, where it is called otherwise.
+    tell : callable, optional
+        Told each column that is not read.
 
     Raises
     ------
@@ -97,6 +106,9 @@ def read_roster(path: Path, columns: Mapping[str, str] | None = None) -> list[St
     if not rows:
         raise ClassError(f"{path}: is empty (a row of column names is needed, then one a student)")
     places = _places(rows[0][1], columns or {}, path)
+    for place, name in enumerate(map(_clean, rows[0][1])):
+        if name and place not in places.values():
+            tell(visible(name))
     found: dict[str, tuple[int, Student]] = {}
     for line, row in rows[1:]:
         one = _student(row, places, f"{path}: line {line}")
@@ -117,12 +129,23 @@ def _places(head: Sequence[str], columns: Mapping[str, str], path: Path) -> dict
             raise ClassError(f"no column {ours!r} of a roster (there are {', '.join(COLUMNS)})")
         if _clean(theirs).casefold() not in there:
             raise ClassError(f"{path}: has no column {theirs!r} (it has {said})")
-    names = {ours: _clean(columns.get(ours, ours)).casefold() for ours in COLUMNS}
-    if names["id"] not in there:
+    names = {
+        ours: [_clean(columns[ours]).casefold()] if ours in columns else _known_as(ours)
+        for ours in COLUMNS
+    }
+    found = {
+        ours: next((there[one] for one in theirs if one in there), None)
+        for ours, theirs in names.items()
+    }
+    if found["id"] is None:
         raise ClassError(
             f"{path}: has no column 'id' (it has {said}); name the one that is: --columns id=NAME"
         )
-    return {ours: there[theirs] for ours, theirs in names.items() if theirs in there}
+    return {ours: place for ours, place in found.items() if place is not None}
+
+
+def _known_as(column: str) -> list[str]:
+    return [column, *ALSO_CALLED.get(column, ())]
 
 
 def _student(row: Sequence[str], places: Mapping[str, int], where: str) -> Student:

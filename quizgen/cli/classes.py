@@ -71,7 +71,8 @@ def make(**options: Unpack[Options]) -> None:
     from quizgen.classes.printing import print_file
     from quizgen.classes.roster import read_roster
 
-    students = read_roster(options["roster"], _columns(options["columns"]))
+    unread: list[str] = []
+    students = read_roster(options["roster"], _columns(options["columns"]), unread.append)
     folder = ClassFolder(options["out"])
     blueprint = _blueprint(folder, students, options)
     count = options["jobs"] or (1 if len(students) <= FEW else os.cpu_count() or 1)
@@ -84,6 +85,8 @@ def make(**options: Unpack[Options]) -> None:
         print_file(folder, students)
     _say(folder, report)
     _say_of_names(students)
+    if unread:
+        tell(f"Not read of the roster: {', '.join(unread)} (--columns names what a column is)")
 
 
 @class_.command()

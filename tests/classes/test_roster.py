@@ -21,6 +21,18 @@ def test_columns_may_be_called_anything(tmp_path):
     ]
 
 
+def test_columns_in_full_words_are_known_and_what_is_not_read_is_told(tmp_path):
+    path, unread = tmp_path / "roster.csv", []
+    path.write_text("id,Language,extra time,E-mail,,name\n7,bn,25%,a@b,x,Ada\n", encoding="utf-8")
+    assert read_roster(path, tell=unread.append) == [Student("7", "Ada", "bn", "25%")]
+    assert unread == ["E-mail"]
+
+
+def test_who_names_a_column_means_no_other(tmp_path):
+    text = "id,language,Sprache\n7,en,bn\n"
+    assert roster(tmp_path, text, lang="Sprache")[0].lang == "bn"
+
+
 @pytest.mark.parametrize(
     ("text", "said"),
     [
