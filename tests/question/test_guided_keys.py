@@ -21,7 +21,7 @@ CALCULATING = [
     name for name in builtin().paths
     if builtin().rules(name).solver and "guided" in builtin().rules(name).levels
 ]  # fmt: skip
-SEEDS = [1, *(pytest.param(n, marks=pytest.mark.slow) for n in range(2, draws(5) + 1))]
+SEEDS = [1, *(pytest.param(n, marks=pytest.mark.slow) for n in range(2, draws(3) + 1))]
 UNITS_ALONE = [1, 180 / sympy.pi]
 """Between two values of one formula in different units; powers of ten also come by chance."""
 

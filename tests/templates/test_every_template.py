@@ -19,7 +19,7 @@ from quizgen.question.compose import identity
 from quizgen.question.kinds import build
 
 NAMES = list(builtin().paths)
-SEEDS = [20, pytest.param(100, marks=pytest.mark.slow)]
+SEEDS = [20, pytest.param(60, marks=pytest.mark.slow)]
 DRAWS = 300
 PLACED = [100, pytest.param(DRAWS, marks=pytest.mark.slow)]
 QUICKLY_COUNTED, MOST_COUNTED = 4_000, 60_000

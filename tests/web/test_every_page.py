@@ -101,7 +101,7 @@ def test_the_printed_answer_is_right(wrong, template):
 @pytest.mark.slow
 @pytest.mark.parametrize("template", NAMES)
 def test_printed_answers_of_more_draws_are_right(wrong, template):
-    for place in range(draws(4)):
+    for place in range(draws(3)):
         seed = str(place)
         for turn, level in enumerate(levels(template, seed), place):
             assert wrong(template, seed, ("en", "bn")[turn % 2], level) == []
