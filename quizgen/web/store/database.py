@@ -8,6 +8,7 @@ import sqlite3
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
+from typing import TYPE_CHECKING
 
 from sqlalchemy import (
     URL,
@@ -26,6 +27,9 @@ from sqlalchemy.exc import ArgumentError, DBAPIError, SQLAlchemyError
 from quizgen.errors import StoreError
 from quizgen.web.store.migrate import upgrade
 from quizgen.web.store.tables import LEARNER
+
+if TYPE_CHECKING:
+    from sqlalchemy.dialects.postgresql import Insert as PostgreSQL
 
 ADDRESSES = "an address is sqlite:///FILE or postgresql+psycopg://USER:PASSWORD@HOST/DATABASE"
 DRIVERS = {"sqlite", "sqlite+pysqlite", "postgresql", "postgresql+psycopg"}
@@ -120,23 +124,17 @@ def _putting(
     dialect: str, table: Table, key: tuple[str, ...], changed: tuple[str, ...]
 ) -> Executable:
     """The statement, built once."""
+    query: sqlite.Insert | PostgreSQL
     if dialect == "sqlite":
-        lite = sqlite.insert(table)
-        new = {name: lite.excluded[name] for name in changed}
-        return (
-            lite.on_conflict_do_update(index_elements=key, set_=new)
-            if new
-            else lite.on_conflict_do_nothing(index_elements=key)
-        )
-    from sqlalchemy.dialects import postgresql
+        query = sqlite.insert(table)
+    else:
+        from sqlalchemy.dialects import postgresql
 
-    query = postgresql.insert(table)
-    rows = {name: query.excluded[name] for name in changed}
-    return (
-        query.on_conflict_do_update(index_elements=key, set_=rows)
-        if rows
-        else query.on_conflict_do_nothing(index_elements=key)
-    )
+        query = postgresql.insert(table)
+    new = {name: query.excluded[name] for name in changed}
+    if not new:
+        return query.on_conflict_do_nothing(index_elements=key)
+    return query.on_conflict_do_update(index_elements=key, set_=new)
 
 
 def _engine(url: URL) -> Engine:
