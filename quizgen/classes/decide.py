@@ -13,6 +13,7 @@ from collections import Counter
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import lru_cache
 from pathlib import Path
 
 from quizgen.classes.mark import Marks, item_of
@@ -138,20 +139,10 @@ def cases(answers: Iterable[Answer], key_of: Callable[[str], Key], lang: str) ->
     lang : str
         Of what is said about them.
     """
-    asked = list(answers)
-    found: dict[int, Case] = {}
-    for student, places in _by_student(asked).items():
-        key = key_of(student)
-        found |= {place: _case(asked[place], key, lang) for place in places}
-    return [found[place] for place in range(len(asked))]
-
-
-def _by_student(answers: Iterable[Answer]) -> dict[str, list[int]]:
-    """Which answers are whose: a key is read once."""
-    found: dict[str, list[int]] = {}
-    for place, answer in enumerate(answers):
-        found.setdefault(answer.student, []).append(place)
-    return found
+    asked, key = list(answers), lru_cache(maxsize=1)(key_of)
+    by_student = sorted(range(len(asked)), key=lambda at: asked[at].student)
+    found = {at: _case(asked[at], key(asked[at].student), lang) for at in by_student}
+    return [found[at] for at in range(len(asked))]
 
 
 def _case(answer: Answer, key: Key, lang: str) -> Case:
