@@ -40,8 +40,6 @@ TRIES = 3
 
 _STYLED = re.compile(r' (?:class|lang)="[^"]*"')
 """What means nothing without our style; the language is said once of the whole."""
-_DRAWING = re.compile(r"<figure.*?</figure>", re.DOTALL)
-"""A drawing in a page, which systems for courses only show as a file."""
 
 
 def _tex(node: typeset.Node, lang: str, marks: str = "()") -> str:
@@ -204,11 +202,9 @@ def solution(
     chosen = replace(whole, parts=tuple(solved for _, solved in kept))
     question, key = replace(item.question, parts=parts), replace(item.key, solution=chosen)
     made = PaperItem(question.number, (question,), (key,))
-    picture = image(item.solved_figure, source)
-    page = fragment("worked.html.j2", _way.get(), item=made, picture=picture)
-    drawn = (image(solved.drawing.figure, source) for _, solved in kept if solved.drawing)
-    text = _DRAWING.sub(lambda _: next(drawn), _STYLED.sub("", page))
-    return Markup(text)  # noqa: S704 - a page without some attributes
+    page = fragment("worked.html.j2", _way.get(), item=made, figure=item.solved_figure,
+                    draw=lambda figure: image(figure, source))  # fmt: skip
+    return Markup(_STYLED.sub("", page))  # noqa: S704 - a page without some attributes
 
 
 def _alone(whole: Solution) -> Solution:
