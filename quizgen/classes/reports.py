@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -13,13 +12,13 @@ from markupsafe import Markup
 
 from quizgen.classes.grades import Graded
 from quizgen.classes.mark import DROPPED, Marks, PartMark, item_of
-from quizgen.locale import FIRST, in_script, known, line_heights, table
+from quizgen.locale import FIRST, known, line_heights, table
 from quizgen.marking.mark import show
 from quizgen.marking.options import Options
 from quizgen.outside import visible
 from quizgen.paper.key import Key, KeyQuestion
 from quizgen.paper.marking import Marker
-from quizgen.render.fonts import bangla_uri
+from quizgen.render.fonts import bangla_faces
 from quizgen.render.layouts import environment
 from quizgen.render.typ import compiled, document, printable, string
 
@@ -27,8 +26,6 @@ MOST_TO_REVISE = 5
 NOT_TYPED = frozenset({"text", "sketch"})
 """Kinds whose key nobody types."""
 PACKAGE = "quizgen.classes"
-_BANGLA = re.compile("[\u0980-\u09ff]")
-"""Names and answers may be written so in a report of any language."""
 
 
 @dataclass(frozen=True)
@@ -233,7 +230,6 @@ def _said(part: PartMark, words: Mapping[str, str]) -> str:
 
 def report_html(report: Report) -> bytes:
     """A report as one self-contained page."""
-    bangla = report.lang in in_script("Beng") or _BANGLA.search(str(report))
     made = (
         layouts()
         .get_template("report.html.j2")
@@ -241,7 +237,7 @@ def report_html(report: Report) -> bytes:
             report=report,
             words=report.words,
             style=Markup(line_heights(":lang({})")) + style(),
-            faces={400: bangla_uri(), 700: bangla_uri("Bold")} if bangla else {},
+            bangla_fonts=bangla_faces([report.lang], str(report)),
         )
     )
     return made.encode()
@@ -250,7 +246,7 @@ def report_html(report: Report) -> bytes:
 @cache
 def layouts() -> jinja2.Environment:
     """The layouts of pages of a class."""
-    return environment(PACKAGE)
+    return environment(PACKAGE, "quizgen.render")
 
 
 @cache

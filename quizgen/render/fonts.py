@@ -8,10 +8,12 @@ from __future__ import annotations
 
 import base64
 import importlib.util
+from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
 
 from quizgen.errors import RenderError
+from quizgen.locale import in_script
 from quizgen.outside import read_bytes
 
 WEB = Path(__file__).parent / "webfonts"
@@ -57,6 +59,13 @@ def bangla_uri(weight: str = "Regular") -> str:
     return _uri(BANGLA[weight])
 
 
+def bangla_faces(langs: Iterable[str], text: str = "") -> dict[int, str]:
+    """Bangla fonts that a page needs, by weight: for its languages, or for what stands on it."""
+    if not (set(langs) & set(in_script("Beng")) or any(map(_is_bangla, text))):
+        return {}
+    return {400: bangla_uri(), 700: bangla_uri("Bold")}
+
+
 @cache
 def maths_uri() -> str:
     """Maths font for a page, as a data address."""
@@ -92,4 +101,8 @@ def missing_characters(text: str) -> set[str]:
 
     with TTFont(bangla_file(), lazy=True) as font:
         known = font.getBestCmap()
-    return {c for c in text if 0x0980 <= ord(c) < 0x0A00 and ord(c) not in known}
+    return {c for c in text if _is_bangla(c) and ord(c) not in known}
+
+
+def _is_bangla(character: str) -> bool:
+    return 0x0980 <= ord(character) < 0x0A00

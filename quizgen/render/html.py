@@ -8,7 +8,7 @@ from importlib.resources import files
 import jinja2
 from markupsafe import Markup
 
-from quizgen.locale import in_script, line_heights, marks, word
+from quizgen.locale import line_heights, marks, word
 from quizgen.paper.paper import Paper
 from quizgen.question.markup import OURS, Manner, blocks, display, inline
 from quizgen.render import fonts
@@ -58,7 +58,6 @@ def page(layout: str, langs: tuple[str, ...], style: str = "", **content: object
     content : object
         What stands on it.
     """
-    bangla = set(langs) & set(in_script("Beng"))
     made = (
         _layouts()
         .get_template(layout)
@@ -66,7 +65,7 @@ def page(layout: str, langs: tuple[str, ...], style: str = "", **content: object
             main=langs[0],
             style=Markup(_style() + style),
             maths_font=fonts.maths_uri(),
-            bangla_fonts={400: fonts.bangla_uri(), 700: fonts.bangla_uri("Bold")} if bangla else {},
+            bangla_fonts=fonts.bangla_faces(langs),
             **content,
         )
     )
