@@ -1,0 +1,104 @@
+"""What is kept comes back as it was, or not at all."""
+
+from __future__ import annotations
+
+import os
+import time
+
+import pytest
+
+from quizgen import kept
+
+KEY = "a" * 64
+
+
+@pytest.fixture
+def cache(tmp_path, monkeypatch):
+    """An empty cache, as a new process finds it."""
+
+    def begin():
+        kept.own.cache_clear()
+        kept.swept.cache_clear()
+        return tmp_path / "quizgen"
+
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    monkeypatch.setattr(kept, "SHIPPED", tmp_path / "shipped")
+    yield begin
+    monkeypatch.undo()
+    begin()
+
+
+def test_what_is_kept_is_found_again(cache):
+    cache()
+    assert kept.find("kind", KEY) is None
+    kept.keep("kind", KEY, b"said\n")
+    assert kept.find("kind", KEY) == b"said\n"
+    assert kept.find("kind", "b" * 64) is None
+    assert kept.find("other", KEY) is None
+
+
+@pytest.mark.parametrize("change", [
+    lambda data: data[:0], lambda data: data[:-1], lambda data: data + b" ",
+    lambda data: data.replace(b"said", b"sold"), lambda data: bytes(len(data)),
+])  # fmt: skip
+def test_what_is_damaged_is_as_if_it_had_never_been_kept(cache, change):
+    file = cache() / "kind" / KEY
+    kept.keep("kind", KEY, b"said")
+    file.write_bytes(change(file.read_bytes()))
+    assert kept.find("kind", KEY) is None
+    kept.keep("kind", KEY, b"said")
+    assert kept.find("kind", KEY) == b"said"
+
+
+def test_what_was_kept_for_another_place_is_not_believed(cache):
+    home = cache()
+    kept.keep("kind", KEY, b"said")
+    (home / "kind" / ("b" * 64)).write_bytes((home / "kind" / KEY).read_bytes())
+    assert kept.find("kind", "b" * 64) is None
+
+
+@pytest.mark.skipif(os.name == "nt", reason="files have no modes there")
+def test_a_cache_is_its_owners_alone(cache):
+    home = cache()
+    kept.keep("kind", KEY, b"said")
+    assert home.stat().st_mode & 0o077 == 0
+    home.chmod(0o777)
+    cache()
+    assert kept.find("kind", KEY) is None
+    kept.keep("kind", "b" * 64, b"said")
+    assert [path.name for path in (home / "kind").iterdir()] == [KEY]
+
+
+@pytest.mark.parametrize("home", ["/dev/null/nowhere", "/proc/nowhere"])
+def test_without_a_cache_nothing_is_kept_and_nothing_is_said(cache, monkeypatch, home):
+    monkeypatch.setenv("XDG_CACHE_HOME", home)
+    cache()
+    kept.keep("kind", KEY, b"said")
+    assert kept.find("kind", KEY) is None
+
+
+def test_a_cache_is_never_begun_beside_the_user(cache, monkeypatch, tmp_path):
+    monkeypatch.setattr("platformdirs.user_cache_path", lambda name: type(tmp_path)("~") / name)
+    monkeypatch.chdir(tmp_path)
+    cache()
+    kept.keep("kind", KEY, b"said")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_what_a_wheel_brings_needs_no_cache(cache, monkeypatch, tmp_path):
+    monkeypatch.setenv("XDG_CACHE_HOME", "/dev/null/nowhere")
+    cache()
+    kept.write(tmp_path / "shipped", "kind", KEY, b"said")
+    assert kept.find("kind", KEY) == b"said"
+
+
+def test_what_is_old_is_swept_away(cache):
+    home = cache()
+    kept.keep("kind", KEY, b"said")
+    old = time.time() - kept.OLD - 60
+    os.utime(home / "kind" / KEY, (old, old))
+    cache()
+    kept.keep("kind", "b" * 64, b"said")
+    assert kept.find("kind", KEY) is None
+    assert kept.find("kind", "b" * 64) == b"said"
+    assert len(list((home / "kind").iterdir())) == 1
