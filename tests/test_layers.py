@@ -18,12 +18,13 @@ LAYERS = {
     "errors": "",
     "outside": "errors",
     "files": "errors outside",
+    "kept": "",
     "png": "",
     "locale": "errors",
     "maths": "errors outside",
     "arrays": "errors",
     "typeset": "errors locale maths",
-    "bank": "errors outside files locale maths",
+    "bank": "errors outside files kept locale maths",
     "camera": "errors outside files png maths arrays",
     "figures": "errors png locale maths arrays camera",
     "marking": "errors outside locale maths",
@@ -44,7 +45,7 @@ LAYERS = {
 }
 """Package to the packages below it that it may use. Solvers use ``maths.model`` alone."""
 
-MAY_IMPORT_BY_NAME = {"__init__.py", "cli/main.py", "bank/folder.py"}
+MAY_IMPORT_BY_NAME = {"__init__.py", "cli/main.py", "bank/solvers.py"}
 """The lazy public names, the lazy commands, and a bank's own solvers."""
 
 

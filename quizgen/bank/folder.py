@@ -10,12 +10,8 @@ always safe to read. Solvers are Python, so a foreign bank runs its own only whe
 from __future__ import annotations
 
 import difflib
-import importlib
 import re
-import sys
-import traceback
 from collections.abc import Iterator
-from contextlib import contextmanager
 from functools import cache, cached_property
 from pathlib import Path
 from types import ModuleType
@@ -27,11 +23,12 @@ from quizgen.bank.pages import read_text
 from quizgen.bank.prose import Text
 from quizgen.bank.quantities import Quantities, read_quantities
 from quizgen.bank.rules import Rules
-from quizgen.bank.template import Template, check_against_chain, digest_of, read_rules
+from quizgen.bank.solvers import chain_of, module_of
+from quizgen.bank.template import Template, check_against_chain, read_rules
 from quizgen.errors import BankError, QuizgenError
+from quizgen.kept import digest_of
 from quizgen.locale import languages
 from quizgen.maths.chain import Chain
-from quizgen.maths.model import Model
 from quizgen.outside import NAMES, is_name, located, named, read_bytes
 
 PROSE = re.compile(r"[a-z]{2,3}\.md")
@@ -43,18 +40,6 @@ def builtin_root() -> Path:
     package = Path(__file__).parent.parent
     installed = package / "builtin"
     return installed if installed.is_dir() else package.parent
-
-
-def mount(folder: Path, name: str) -> None:
-    """Make a folder of solvers importable as a package under a private name."""
-    if name not in sys.modules:
-        sys.modules[name] = ModuleType(name)
-        sys.modules[name].__path__ = [str(folder)]
-
-
-def solver_module(name: str) -> ModuleType:
-    """A module of the built-in solvers, for example ``colour/rgb_to_hsv``."""
-    return builtin().solver(name)
 
 
 class _SolverError(BankError):
@@ -78,8 +63,13 @@ class Bank:
         self._templates: dict[str, Template] = {}
         self._rules: dict[str, Rules] = {}
         self._pages: dict[str, list[Path]] = {}
+        self._chains: dict[str, tuple[Chain, bytes]] = {}
         if not self.folder.is_dir():
             raise BankError(f"{root}: no folder 'templates' here")
+
+    @property
+    def _solvers(self) -> Path:
+        return self.root / "solvers"
 
     @property
     def folder(self) -> Path:
@@ -152,19 +142,8 @@ class Bank:
             raise BankError(f"{self.root}: two templates share the name {min(twins)!r}")
         return {path.parent.name: path.parent for path in found}
 
-    @cached_property
-    def _package(self) -> str:
-        suffix = digest_of(str(self.root.resolve()).encode())[:8]
-        name = f"_quizgen_solvers_{suffix}"
-        mount(self.root / "solvers", name)
-        return name
-
     def afresh(self) -> Bank:
         """The same bank, its files and solvers read again."""
-        inside = f"{self._package}."
-        for name in [name for name in list(sys.modules) if name.startswith(inside)]:
-            del sys.modules[name]
-        importlib.invalidate_caches()
         return Bank(self.root, trusted=self.trusted)
 
     def solver(self, name: str) -> ModuleType:
@@ -175,17 +154,32 @@ class Bank:
         BankError
             If it does not exist or fails, or the bank has solvers of its own and is not trusted.
         """
+        return module_of(self._solvers, name) if self._has(name) else builtin().solver(name)
+
+    def chain(self, name: str) -> tuple[Chain, bytes]:
+        """The chain of a solver, once, and its source.
+
+        Raises
+        ------
+        BankError
+            As for ``solver``, or if it holds no model.
+        """
+        if not self._has(name):
+            return builtin().chain(name)
+        if name not in self._chains:
+            self._chains[name] = chain_of(self._solvers, name)
+        return self._chains[name]
+
+    def _has(self, name: str) -> bool:
+        """Whether a solver is one of this bank, not of the built-in one."""
         if not all(map(is_name, name.split("/"))):
             raise _SolverError(f"solver: {name!r} is no name (allowed: {NAMES}, folders by '/')")
-        file = self.root / "solvers" / f"{name}.py"
-        if not file.exists():
-            if self.root != builtin_root():
-                return builtin().solver(name)
+        file = self._solvers / f"{name}.py"
+        if not file.exists() and self.root == builtin_root():
             raise _SolverError(f"solver {file}: no such solver")
-        if not self.trusted:
+        if file.exists() and not self.trusted:
             raise BankError(f"{file}: this bank brings its own Python; allow it with --trust")
-        with authored(file):
-            return importlib.import_module(f"{self._package}.{name.replace('/', '.')}")
+        return file.exists()
 
     def rules(self, name: str) -> Rules:
         """Checked ``template.toml`` of a template, without loading solver or prose."""
@@ -251,7 +245,7 @@ class Bank:
         rules = self.rules(name)
         prose = self._prose(name)
         files = [folder / "template.toml", *prose]
-        chain, source = self._chain(rules)
+        chain, source = self.chain(rules.solver) if rules.solver else (Chain({}, ()), b"")
         texts = {path.stem: read_text(path) for path in prose}
         known = languages()
         order = [lang for lang in known if lang in texts] + sorted(set(texts) - set(known))
@@ -274,13 +268,6 @@ class Bank:
         if any(answer.get("kind") == "gap" for answer in answers):
             yield msgspec.json.encode(self.about.terms)
 
-    def _chain(self, rules: Rules) -> tuple[Chain, bytes]:
-        if not rules.solver:
-            return Chain({}, ()), b""
-        module = self.solver(rules.solver)
-        source = read_bytes(Path(str(module.__file__)), BankError)
-        return _chain_of(module), source
-
     def __iter__(self) -> Iterator[Template]:
         """All templates in alphabetical order."""
         return (self.template(name) for name in self.paths)
@@ -292,37 +279,6 @@ class Bank:
 
 def _titled(name: str) -> str:
     return name.replace("-", " ").replace("_", " ").capitalize()
-
-
-@cache
-def _chain_of(module: ModuleType) -> Chain:
-    if not isinstance(getattr(module, "MODEL", None), Model):
-        raise BankError(f"{module.__file__}: no MODEL in this solver")
-    with authored(Path(str(module.__file__))):
-        chain: Chain = module.MODEL.chain()
-    return chain
-
-
-@contextmanager
-def authored(file: Path) -> Iterator[None]:
-    """Run an author's Python: whatever goes wrong in it is one line that names the place.
-
-    Raises
-    ------
-    BankError
-        Naming the file, its last line that ran, and what was wrong there.
-    """
-    try:
-        yield
-    except BankError as error:
-        raise BankError(f"{file}: {error}") from error
-    except (Exception, SystemExit) as error:  # an author's Python may raise anything
-        lines = [at.lineno for at in traceback.extract_tb(error.__traceback__)
-                 if Path(at.filename) == file]  # fmt: skip
-        number = getattr(error, "lineno", None) if isinstance(error, SyntaxError) else None
-        number = number or (lines[-1] if lines else None)
-        place = f"{file}:{number}" if number else f"{file}"
-        raise BankError(f"{place}: {type(error).__name__}: {error}") from error
 
 
 @cache

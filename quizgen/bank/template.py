@@ -6,7 +6,6 @@ are written in the grammar that students type, over quantities in the units they
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -195,12 +194,3 @@ def check_against_chain(template: Template) -> None:
     for name in rules.reference or {}:
         if name not in rules.draw:
             raise BankError(f"{path}: reference names {name!r}, which is not drawn")
-
-
-def digest_of(*parts: bytes) -> str:
-    """Hash of the files behind a template."""
-    total = hashlib.sha256()
-    for part in parts:
-        total.update(len(part).to_bytes(8, "big"))
-        total.update(part)
-    return total.hexdigest()

@@ -17,20 +17,20 @@ from typing import TypeAlias
 import msgspec
 
 
-class Num(msgspec.Struct, frozen=True):
+class Num(msgspec.Struct, frozen=True, tag="n", array_like=True):
     """A rational constant; ``decimal`` asks printers for 2.2 instead of 11/5."""
 
     value: Fraction
     decimal: bool = False
 
 
-class Sym(msgspec.Struct, frozen=True):
+class Sym(msgspec.Struct, frozen=True, tag="s", array_like=True):
     """A named quantity."""
 
     name: str
 
 
-class Call(msgspec.Struct, frozen=True):
+class Call(msgspec.Struct, frozen=True, tag="c", array_like=True):
     """An operator or function applied to arguments."""
 
     op: str

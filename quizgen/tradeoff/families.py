@@ -95,10 +95,10 @@ class Family:
 
 def _flat(solver: str, quantity: str) -> Expr:
     """One formula from given quantities to a quantity of a solver's chain."""
-    from quizgen.bank.folder import solver_module
+    from quizgen.bank.folder import builtin
 
     known: dict[str, Expr] = {}
-    for step in solver_module(solver).MODEL.chain().steps:
+    for step in builtin().chain(solver)[0].steps:
         known[step.name] = substitute(step.expr, known)
     return known[quantity]
 

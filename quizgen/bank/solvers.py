@@ -1,0 +1,196 @@
+"""Solvers: an author's Python, run once to be compiled to a chain, which is kept.
+
+A chain follows from the solver's file and from how quizgen and SymPy make it one. So whoever asks
+questions runs no solver and loads no SymPy, unless a solver is new, or imports more than others do.
+"""
+
+from __future__ import annotations
+
+import ast
+import importlib
+import re
+import sys
+import traceback
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+from functools import cache
+from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
+from importlib.util import find_spec
+from pathlib import Path
+from threading import RLock
+from types import CodeType, ModuleType
+
+import msgspec
+
+from quizgen import kept
+from quizgen.errors import BankError
+from quizgen.maths.chain import Chain
+from quizgen.maths.model import Model
+from quizgen.outside import read_bytes
+
+KIND = "chains"
+"""Where chains are kept."""
+_MAKERS = ("chain", "from_sympy", "model", "operators", "tree")
+_PRIVATE = "_quizgen_solvers_"
+_RELATIVE = re.compile(rb"\bfrom[ \t]+\.")
+_PURE = {"__future__", "fractions", "math", "quizgen", "sympy", "typing"}
+"""What a solver may import if its chain is to be kept: nothing that reads files or settings."""
+_IMPURE = {"__file__", "__import__", "open"}
+_LOCK = RLock()
+_DECODE = msgspec.json.Decoder(Chain, dec_hook=lambda kind, text: kind(text)).decode
+
+
+class _AsWritten(SourceFileLoader):
+    """Runs a file as it is now: bytecode of the same second and size would pass for it."""
+
+    def get_code(self, fullname: str) -> CodeType:
+        """Compile it."""
+        path = self.get_filename(fullname)
+        return self.source_to_code(self.get_data(path), path)
+
+
+class _Finder(PathFinder):
+    """Finds modules of the packages that ``mount`` makes."""
+
+    @classmethod
+    def find_spec(
+        cls, fullname: str, path: Sequence[str] | None = None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
+        """Find one of them, and nothing else."""
+        if not fullname.startswith(_PRIVATE):
+            return None
+        found = super().find_spec(fullname, path, target)
+        if found is not None and isinstance(found.loader, SourceFileLoader):
+            found.loader = _AsWritten(found.loader.name, found.loader.path)
+        return found
+
+
+def _mounted(folder: Path) -> str:
+    """Private name of the package that a folder of solvers is."""
+    name = _PRIVATE + kept.digest_of(str(folder.resolve()).encode())[:8]
+    with _LOCK:
+        if _Finder not in sys.meta_path:
+            sys.meta_path.insert(0, _Finder)
+        if name not in sys.modules:
+            sys.modules[name] = ModuleType(name)
+            sys.modules[name].__path__ = [str(folder)]
+    return name
+
+
+def module_of(folder: Path, name: str) -> ModuleType:
+    """Import a solver.
+
+    Raises
+    ------
+    BankError
+        Naming the place, if it fails.
+    """
+    with authored(folder / f"{name}.py"):
+        return importlib.import_module(f"{_mounted(folder)}.{name.replace('/', '.')}")
+
+
+def chain_of(folder: Path, name: str) -> tuple[Chain, bytes]:
+    """The chain of a solver, kept or compiled, and the solver's source.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        All solvers of a bank.
+    name : str
+        A file among them, without its suffix.
+
+    Raises
+    ------
+    BankError
+        If the file cannot be run, or holds no model.
+    """
+    sources = _sources(folder, name)
+    key = key_of(sources)
+    found = kept.find(KIND, key)
+    if found is not None:
+        with suppress(msgspec.MsgspecError, ValueError, RecursionError):
+            return _DECODE(found), sources[0]
+    with _LOCK:
+        chain = _compiled(folder, name)
+    if all(map(_is_pure, sources)) and sources == _sources(folder, name):
+        kept.keep(KIND, key, encoded(chain))
+    return chain, sources[0]
+
+
+def encoded(chain: Chain) -> bytes:
+    """A chain as it is kept."""
+    return msgspec.json.encode(chain, enc_hook=str)
+
+
+def key_of(sources: Sequence[bytes]) -> str:
+    """What a chain is kept under: its solver, what that imports, and what makes it a chain."""
+    return kept.digest_of(_maker(), *sources)
+
+
+def _sources(folder: Path, name: str) -> list[bytes]:
+    """A solver, and all of its bank if it imports some of them."""
+    own = read_bytes(folder / f"{name}.py", BankError)
+    every = sorted(folder.rglob("*.py")) if _RELATIVE.search(own) else []
+    return [own, *(read_bytes(path, BankError) for path in every)]
+
+
+@cache
+def _maker() -> bytes:
+    """Digest of what makes a chain of a model."""
+    here, sympy = Path(__file__), find_spec("sympy")
+    files = [here, *(here.parent.parent / "maths" / f"{name}.py" for name in _MAKERS)]
+    if sympy is not None and sympy.origin is not None:
+        files.append(Path(sympy.origin).with_name("release.py"))
+    return kept.digest_of(*(read_bytes(file, BankError) for file in files)).encode()
+
+
+def _compiled(folder: Path, name: str) -> Chain:
+    """Run a solver as it is now, and what it imports."""
+    inside = f"{_mounted(folder)}."
+    for module in [module for module in list(sys.modules) if module.startswith(inside)]:
+        del sys.modules[module]
+    importlib.invalidate_caches()
+    model = getattr(module_of(folder, name), "MODEL", None)
+    file = folder / f"{name}.py"
+    if not isinstance(model, Model):
+        raise BankError(f"{file}: no MODEL in this solver")
+    with authored(file):
+        return model.chain()
+
+
+def _is_pure(source: bytes) -> bool:
+    """Whether what a solver gives follows from solvers alone, and not from files or settings."""
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Import):
+            names = [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom) and not node.level:
+            names = [node.module or ""]
+        else:
+            names = []
+        if {name.partition(".")[0] for name in names} - _PURE:
+            return False
+        if isinstance(node, ast.Name) and node.id in _IMPURE:
+            return False
+    return True
+
+
+@contextmanager
+def authored(file: Path) -> Iterator[None]:
+    """Run an author's Python: whatever goes wrong in it is one line that names the place.
+
+    Raises
+    ------
+    BankError
+        Naming the file, its last line that ran, and what was wrong there.
+    """
+    try:
+        yield
+    except BankError as error:
+        raise BankError(f"{file}: {error}") from error
+    except (Exception, SystemExit) as error:  # an author's Python may raise anything
+        lines = [at.lineno for at in traceback.extract_tb(error.__traceback__)
+                 if Path(at.filename) == file]  # fmt: skip
+        number = getattr(error, "lineno", None) if isinstance(error, SyntaxError) else None
+        number = number or (lines[-1] if lines else None)
+        place = f"{file}:{number}" if number else f"{file}"
+        raise BankError(f"{place}: {type(error).__name__}: {error}") from error

@@ -1,0 +1,152 @@
+"""A solver is compiled once; whoever asks questions afterwards loads no SymPy."""
+
+from __future__ import annotations
+
+import os
+
+import pytest
+
+from quizgen import kept
+from quizgen.bank.folder import Bank, builtin
+from quizgen.bank.solvers import _is_pure, chain_of, encoded
+from quizgen.errors import BankError
+from quizgen.maths.chain import Chain, ChainStep
+from quizgen.maths.model import Model, Step
+from quizgen.maths.notation.writer import to_text
+
+SOLVER = """
+from sympy import evaluate, symbols
+
+from quizgen.maths.model import Model, Step
+
+a, b, s = symbols("a b s")
+with evaluate(False):
+    MODEL = Model(given={{a: "mm", b: "mm"}}, steps=(Step(s, {formula}, "mm"),))
+"""
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "solvers").mkdir()
+    return tmp_path / "solvers"
+
+
+@pytest.fixture
+def runs(monkeypatch, tmp_path):
+    """Names of the solvers that were run, beside an empty cache."""
+    from quizgen.bank import solvers
+
+    names = []
+    compiled = solvers._compiled
+
+    def noted(folder, name):
+        names.append(name)
+        return compiled(folder, name)
+
+    monkeypatch.setattr(solvers, "_compiled", noted)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    kept.own.cache_clear()
+    yield names
+    monkeypatch.undo()
+    kept.own.cache_clear()
+
+
+def written(folder, name, formula="a + b"):
+    (folder / f"{name}.py").write_text(SOLVER.format(formula=formula))
+
+
+def formula(folder, name):
+    return to_text(chain_of(folder, name)[0].steps[0].expr)
+
+
+def test_a_solver_is_run_once(folder, runs):
+    written(folder, "one")
+    assert [formula(folder, "one"), formula(folder, "one")] == ["a + b", "a + b"]
+    assert runs == ["one"]
+
+
+def test_a_changed_solver_alone_is_run_again(folder, runs):
+    """Python takes bytecode of the same second and size for that of the file."""
+    written(folder, "one")
+    written(folder, "two", "b + a")
+    before = (folder / "one.py").stat()
+    assert [formula(folder, name) for name in ("one", "two")] == ["a + b", "b + a"]
+    written(folder, "one", "a - b")
+    os.utime(folder / "one.py", ns=(before.st_atime_ns, before.st_mtime_ns))
+    assert [formula(folder, name) for name in ("one", "two")] == ["a - b", "b + a"]
+    assert runs == ["one", "two", "one"]
+    assert not list(folder.rglob("__pycache__"))
+
+
+def test_what_a_solver_imports_from_its_bank_counts(folder, runs):
+    (folder / "common.py").write_text("FACTOR = 2\n")
+    written(folder, "one", "FACTOR * a")
+    source = (folder / "one.py").read_text()
+    (folder / "one.py").write_text(f"from .common import FACTOR\n{source}")
+    assert [formula(folder, "one"), formula(folder, "one")] == ["2*a", "2*a"]
+    (folder / "common.py").write_text("FACTOR = 3\n")
+    assert formula(folder, "one") == "3*a"
+    assert runs == ["one", "one"]
+
+
+@pytest.mark.parametrize("first", [
+    "import os", "from pathlib import Path", "import json, math", "X = open",
+    "import numpy as np", "X = __file__",
+])  # fmt: skip
+def test_what_may_follow_from_other_files_is_never_kept(folder, runs, first):
+    written(folder, "one")
+    source = (folder / "one.py").read_text()
+    (folder / "one.py").write_text(f"{first}\n{source}")
+    assert [formula(folder, "one"), formula(folder, "one")] == ["a + b", "a + b"]
+    assert runs == ["one", "one"]
+
+
+@pytest.mark.parametrize("data", [b"", b"[]", b"{}", b'{"given":{},"steps":3}', b"[" * 100_000])
+def test_a_chain_that_cannot_be_read_is_compiled_anew(folder, runs, data, monkeypatch):
+    written(folder, "one")
+    monkeypatch.setattr(kept, "find", lambda *_place: data)
+    assert formula(folder, "one") == "a + b"
+    assert runs == ["one"]
+
+
+def test_a_solver_that_fails_is_told_each_time(folder, runs):
+    (folder / "bad.py").write_text("x = 1\nMODEL = nothing\n")
+    for _ in range(2):
+        with pytest.raises(BankError, match=r"bad\.py:2: NameError"):
+            chain_of(folder, "bad")
+    assert runs == ["bad", "bad"]
+
+
+def test_a_bank_that_is_not_trusted_runs_and_reads_no_solver_of_its_own(folder, runs):
+    written(folder, "one")
+    (folder.parent / "templates").mkdir()
+    assert to_text(Bank(folder.parent, trusted=True).chain("one")[0].steps[0].expr) == "a + b"
+    with pytest.raises(BankError, match="--trust"):
+        Bank(folder.parent).chain("one")
+
+
+def test_every_chain_comes_back_as_its_model_has_it():
+    """Traps, units, formulas of the sheet, and whether a number was typed as a decimal."""
+    bank = builtin()
+    for name in dict.fromkeys(bank.rules(name).solver for name in bank.paths):
+        if name:
+            chain, _ = chain_of(bank.root / "solvers", name)
+            again = Bank(bank.root, trusted=True).solver(name).MODEL.chain()
+            assert (chain, repr(chain)) == (again, repr(again)), name
+
+
+def test_all_solvers_of_the_bank_can_be_kept():
+    for file in (builtin().root / "solvers").rglob("*.py"):
+        assert _is_pure(file.read_bytes()), file
+
+
+def test_a_chain_is_kept_without_what_was_computed_with_it():
+    from sympy import symbols
+
+    a, s = symbols("a s")
+    chain = Model(given={a: "mm"}, steps=(Step(s, a * 1.5, "mm"),)).chain()
+    before = encoded(chain)
+    chain.solve({"a": 2})
+    assert encoded(chain) == before
+    assert isinstance(chain, Chain)
+    assert isinstance(chain.steps[0], ChainStep)

@@ -1,0 +1,63 @@
+"""Which packages a command loads, from its start to its end: what it loads, everybody waits for."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+
+from quizgen.bank.folder import builtin
+
+WALK = """
+import sys
+from quizgen.cli.main import main
+try:
+    main(sys.argv[1:])
+finally:
+    print(*{name.partition(".")[0] for name in sys.modules}, file=sys.stderr)
+"""
+DRAWING = {"numpy", "matplotlib", "PIL"}
+"""What only a figure needs."""
+
+
+@pytest.fixture(scope="module")
+def place(tmp_path_factory):
+    """A folder with a paper in it, and the built-in solvers compiled."""
+    bank = builtin()
+    for name in bank.paths:
+        if bank.rules(name).solver:
+            bank.chain(bank.rules(name).solver)
+    return tmp_path_factory.mktemp("loaded")
+
+
+def loaded(place, command, typed=""):
+    done = subprocess.run([sys.executable, "-c", WALK, *command.split()], cwd=place, check=True,
+                          capture_output=True, text=True, input=typed)  # fmt: skip
+    return set(done.stderr.splitlines()[-1].split())
+
+
+def test_no_command_from_making_a_paper_to_marking_it_loads_sympy(place):
+    made = loaded(place, "exam --blueprint trial --seed 3 --out paper")
+    assert "sympy" not in made
+    checked = loaded(place, "check paper/key.json paper/answers.toml")
+    assert not ({"sympy", "typst", "markdown_it"} | DRAWING) & checked
+
+
+@pytest.mark.parametrize("command", [
+    "practice --topic noise --database sqlite:///learnt.sqlite3",
+    "templates",
+    "preview point-to-image-plane --seed 1",
+    "sheet --topic eye --format html --out sheet",
+    "lint --only point-to-image-plane --seeds 3",
+])  # fmt: skip
+def test_who_draws_no_figure_loads_nothing_to_draw_with(place, command):
+    assert not ({"sympy"} | DRAWING) & loaded(place, command, typed="5\n")
+
+
+@pytest.mark.parametrize("command", [
+    "cards --topic eye --format tsv --out cards",
+    "export gift --topic eye --variants 1 --out export",
+])  # fmt: skip
+def test_no_command_loads_sympy(place, command):
+    assert "sympy" not in loaded(place, command)
