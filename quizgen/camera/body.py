@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import math
 
-from quizgen.camera.settings import NOT_NEGATIVE, AnySetting, Rule, Setting, Settings
+from quizgen.camera.settings import NOT_NEGATIVE, AnySetting, Rule, Setting, Settings, between
 from quizgen.camera.values import Reader, number, pair, quantity
 
 
 def _f_number(value: object) -> float:
-    text = value.removeprefix("f/") if isinstance(value, str) else value
-    return number(float(text) if isinstance(text, str) else text)
-
-
-def _positive(value: float | None, _: Settings) -> bool:
-    return value is None or 0 < value < math.inf
+    if not isinstance(value, str):
+        return number(value)
+    try:
+        return number(float(value.strip().lower().removeprefix("f/")))
+    except ValueError:
+        raise ValueError(f"cannot read {value!r}; expected 2.8 or 'f/2.8'") from None
 
 
 def has_lens(_: object, camera: Settings) -> bool:
@@ -30,30 +30,25 @@ def _counts_electrons(_: object, camera: Settings) -> bool:
     return camera[FULL_WELL] is not None
 
 
-POSITIVE = Rule(
-    _positive, "focal_length, pixel_pitch, f_number and full_well must be positive and finite"
-)
-NEEDS_LENS = Rule[object](has_lens, "the lens needs focal_length and pixel_pitch")
-NEEDS_FULL_WELL = Rule[object](
-    _counts_electrons, "read noise, dark current, hot pixels, blooming and smear need full_well"
-)
-_FOCUS = Rule(_beyond_focal_length, "focus_distance must exceed focal_length")
+NEEDS_LENS = Rule[object](has_lens, "needs focal_length and pixel_pitch (or sensor_width)")
+NEEDS_FULL_WELL = Rule[object](_counts_electrons, "needs full_well")
+_FOCUS = Rule(_beyond_focal_length, "must exceed focal_length")
 
 
-def _maybe(name: str, read: Reader[float], *rules: Rule[object]) -> Setting[float | None]:
-    return Setting(name, read, None, (POSITIVE, *rules))
+def _maybe(name: str, read: Reader[float], *rules: Rule[float | None]) -> Setting[float | None]:
+    return Setting(name, read, None, rules)
 
 
-FOCAL_LENGTH = _maybe("focal_length", quantity("m"))
-PIXEL_PITCH = _maybe("pixel_pitch", quantity("m"))
-F_NUMBER = _maybe("f_number", _f_number, NEEDS_LENS)
+FOCAL_LENGTH = _maybe("focal_length", quantity("m"), between(1e-6, 1e3, "m"))
+PIXEL_PITCH = _maybe("pixel_pitch", quantity("m"), between(1e-9, 1.0, "m"))
+F_NUMBER = _maybe("f_number", _f_number, between(0.01, 1e6), NEEDS_LENS)
 """None is a pinhole."""
 FOCUS_DISTANCE = Setting("focus_distance", quantity("m"), math.inf, (_FOCUS,))
 SHUTTER = Setting("shutter", quantity("s"), 0.0, (NOT_NEGATIVE,))
 """Exposure time, s."""
 VELOCITY = Setting("velocity", pair(quantity("px/s")), (0.0, 0.0))
 """Movement of the picture over the sensor, px/s."""
-FULL_WELL = _maybe("full_well", quantity("e-"))
+FULL_WELL = _maybe("full_well", quantity("e-"), between(1.0, 1e12, "e-"))
 """Electrons at signal 1; None counts no electrons."""
 
 LENS: tuple[Setting[float | None] | Setting[float], ...] = (

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from difflib import get_close_matches
 
 from quizgen.camera import effects
-from quizgen.camera.scene import SceneError
+from quizgen.camera.scene import SceneError, SettingError
 from quizgen.camera.settings import Settings
 
 
@@ -52,7 +52,7 @@ class Camera(Settings):
         super().__init__({name: x for name, x in given.items() if x != known[name].identity})
         for setting in known.values():
             for fault in setting.faults(self):
-                raise SceneError(fault)
+                raise SettingError(setting.name, fault)
 
     def but(self, **changes: object) -> Camera:
         """The same camera with other values of some settings."""

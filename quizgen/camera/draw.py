@@ -110,9 +110,10 @@ def _blades(thing: Thing, x: Plane, y: Plane) -> Plane:
 def _polygon(thing: Thing, x: Plane, y: Plane) -> Plane:
     distance, inside = np.full(x.shape, np.inf), np.zeros(x.shape, bool)
     for (ax, ay), (bx, by) in zip(thing.points, (*thing.points[1:], thing.points[0]), strict=True):
-        if (ax, ay) == (bx, by):
-            continue
-        along = ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / ((bx - ax) ** 2 + (by - ay) ** 2)
+        squared = (bx - ax) ** 2 + (by - ay) ** 2
+        if not squared:
+            continue  # a corner given twice, such as the first one to close the outline
+        along = ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / squared
         along = np.clip(along, 0.0, 1.0)
         away = np.hypot(x - ax - along * (bx - ax), y - ay - along * (by - ay))
         distance = np.minimum(distance, away)

@@ -18,11 +18,16 @@ Bound = Callable[[Facts, View], Error]
 Carry = Callable[[Error, Facts, View], Error]
 After = Callable[[Facts, View], Facts]
 Cost = Callable[[View, str, bool], float]
+Check = Callable[[View], None]
 
 
 def _anything(facts: Facts, view: View) -> Error:
     """Nothing is known: skipping may change everything."""
     return Error(float("inf"))
+
+
+def _possible(view: View) -> None:
+    """Nothing can be wrong with it."""
 
 
 def same_error(error: Error, facts: Facts, view: View) -> Error:
@@ -95,6 +100,8 @@ class Effect:
         Effects with the same pair run together or not at all.
     random : bool
         Whether it draws random numbers.
+    check : callable
+        Raises `SceneError` if it cannot be computed for a camera before a picture of this size.
     prepare : callable, optional
         ``prepare(scene, view) -> scene``, before anything is drawn.
     reason : str
@@ -114,5 +121,6 @@ class Effect:
     rungs: tuple[Rung, ...] = ()
     pair: str = ""
     random: bool = False
+    check: Check = _possible
     prepare: Callable[[Scene, View], Scene] | None = None
     reason: str = ""

@@ -100,6 +100,7 @@ class Prepared:
         """Everything in px."""
         view = self.given
         for effect in effects.present(view):
+            effect.check(view)
             if effect.prepare is not None:
                 started = perf_counter()
                 view = replace(view, scene=effect.prepare(view.scene, view))

@@ -16,7 +16,7 @@ from quizgen.arrays.gamma import srgb_decode
 from quizgen.camera import effects
 from quizgen.camera.camera import Camera, nearest
 from quizgen.camera.draw import SHAPES, SIZES, TEXTURES
-from quizgen.camera.scene import Image, Length, Scene, SceneError, Thing
+from quizgen.camera.scene import Image, Length, Scene, SceneError, SettingError, Thing
 from quizgen.camera.values import (
     Reader,
     colour,
@@ -29,6 +29,7 @@ from quizgen.camera.values import (
     whole,
     words,
 )
+from quizgen.camera.view import View
 from quizgen.outside import LARGEST_PICTURE, parse_toml, read_bytes, read_text
 
 MOST_THINGS = 1000
@@ -67,8 +68,13 @@ def _questions(value: object) -> tuple[str, ...]:
     return several(one_of(*effects.questions()))(value)
 
 
+SIDES = 2, 2**15
+"""Pixels of the shortest and the longest side: a mosaic has tiles of two."""
+
+_SIDE = _between(*SIDES)
+
 SCENE: Readers = {
-    "title": words, "width": _between(2, 2**15), "height": _between(2, 2**15), "background": colour,
+    "title": words, "width": _SIDE, "height": _SIDE, "background": colour,
     "background_depth": _depth, "image": words, "depth": _depth, "depth_map": words,
     "depth_near": _depth, "depth_far": _depth, "seed": _between(0, 2**63), "question": _questions,
 }  # fmt: skip
@@ -167,24 +173,35 @@ def load(path: str | Path) -> tuple[Scene, Camera]:
     """
     file = _File(Path(path))
     file.check_tables()
-    camera = _camera(file)
     things = [
         _thing(file, which, table) for which, table in enumerate(file.tables.get("thing", []))
     ]
-    return _scene(file, tuple(things)), camera
+    scene = _scene(file, tuple(things))
+    camera = _camera(file, scene.width)
+    _check_effects(file, View(scene, camera))
+    return scene, camera
 
 
-def _camera(file: _File) -> Camera:
+def _camera(file: _File, columns: int) -> Camera:
     values = file.read("camera", 0, file.tables.get("camera", {}))
     if (width := values.pop("sensor_width", None)) is not None:
         if "pixel_pitch" in values:
             raise file.fail("camera", 0, "sensor_width", "give sensor_width or pixel_pitch")
-        given = file.tables.get("scene", {}).get("width", Scene.width)
-        values["pixel_pitch"] = width / file.read("scene", 0, {"width": given})["width"]
+        values["pixel_pitch"] = width / columns
     try:
         return Camera(**values)
-    except SceneError as error:
-        raise file.fail("camera", 0, "", str(error)) from error
+    except SettingError as error:
+        raise file.fail("camera", 0, error.setting, str(error)) from error
+
+
+def _check_effects(file: _File, view: View) -> None:
+    """Name the line of what cannot be computed."""
+    for effect in effects.present(view):
+        try:
+            effect.check(view)
+        except SceneError as error:
+            given = (item.name for item in effect.settings if item.name in view.camera.given)
+            raise file.fail("camera", 0, next(given, ""), str(error)) from error
 
 
 def _thing(file: _File, which: int, table: Mapping[str, object]) -> Thing:
@@ -230,6 +247,8 @@ def _picture(file: _File, key: str, name: str) -> NDArray[np.float64]:
     path = file.path.parent / name
     try:
         pixels = png.decode(read_bytes(path, SceneError, LARGEST_PICTURE))
+        if min(pixels.shape[:2]) < SIDES[0]:
+            raise ValueError(f"a picture has at least {SIDES[0]} rows and columns")  # noqa: TRY301
     except SceneError as error:
         raise file.fail("scene", 0, key, str(error)) from error
     except ValueError as error:

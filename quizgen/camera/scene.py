@@ -24,6 +24,21 @@ class SceneError(QuizgenError):
     """A scene or a camera is wrong; the message names the file, the line or the field."""
 
 
+class SettingError(SceneError):
+    """A setting of the camera is wrong.
+
+    Parameters
+    ----------
+    setting : str
+        Its key, so that whoever reads a file can name the line.
+    message : str
+    """
+
+    def __init__(self, setting: str, message: str) -> None:
+        super().__init__(message)
+        self.setting = setting
+
+
 class Length(NamedTuple):
     """A length on the sensor (px) or in the world (m)."""
 

@@ -44,7 +44,7 @@ class Settings:
 
 @dataclass(frozen=True)
 class Rule(Generic[Judged_contra]):
-    """What a value that is not the identity must fulfil, and what is said if it does not."""
+    """What a value that is not the identity must fulfil, and what is said after its name if not."""
 
     holds: Callable[[Judged_contra, Settings], bool]
     message: str
@@ -72,23 +72,29 @@ class Setting(Generic[T]):
     rules: tuple[Rule[T], ...] = ()
 
     def faults(self, settings: Settings) -> Iterator[str]:
-        """Message of every rule that the value breaks."""
+        """Message of every rule that the value breaks, with the setting's name."""
         value = settings[self]
         if value != self.identity:
-            yield from (rule.message for rule in self.rules if not rule.holds(value, settings))
+            broken = (rule for rule in self.rules if not rule.holds(value, settings))
+            yield from (f"{self.name} {rule.message}" for rule in broken)
 
 
 AnySetting = Setting[Any]
 """A setting of any type: tables hold numbers, flags and words side by side."""
 
 
+def between(low: float, high: float, unit: str = "") -> Rule[float | None]:
+    """Rule that a number lies in a range, its ends included."""
+
+    def holds(value: float | None, _: Settings) -> bool:
+        return value is None or low <= value <= high
+
+    return Rule(holds, f"must be {low:g} to {high:g} {unit}".rstrip())
+
+
 def _not_negative(value: float, _: Settings) -> bool:
     return value >= 0.0
 
 
-def _a_share(value: float, _: Settings) -> bool:
-    return 0.0 <= value <= 1.0
-
-
-NOT_NEGATIVE = Rule(_not_negative, "noise, times, factors and gains must be >= 0")
-SHARE = Rule(_a_share, "shares lie in [0, 1]")
+NOT_NEGATIVE = Rule(_not_negative, "must be >= 0")
+SHARE = between(0.0, 1.0)

@@ -19,8 +19,19 @@ T = TypeVar("T")
 Reader = Callable[[object], T]
 """Takes what TOML gives; raises ValueError with what was expected."""
 
+LARGEST = 1e12
+"""Magnitude of the largest number, in base units: nobody means more, and products stay finite."""
+BRIGHTEST = 1e6
+"""Largest radiance, 1 = white."""
+
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?:/\d+)?"
 _QUANTITY = re.compile(rf"\s*(?P<number>{_NUMBER})\s*(?P<unit>.*?)\s*")
+
+
+def _meant(value: float) -> float:
+    if abs(value) > LARGEST:
+        raise ValueError(f"expected at most {LARGEST:g} in base units")
+    return value
 
 
 def _measure(text: object) -> tuple[float, Dimension]:
@@ -32,7 +43,7 @@ def _measure(text: object) -> tuple[float, Dimension]:
         raise ValueError(f"cannot read {text!r}; expected a number and a unit")
     try:
         found = unit(match["unit"])
-        value = float(written(match["number"]) * found.factor)
+        value = _meant(float(written(match["number"]) * found.factor))
     except (FormulaError, OverflowError) as error:
         raise ValueError(str(error)) from error
     turn = math.pi / 180.0 if ("deg", 1) in found.dimension else 1.0
@@ -71,7 +82,7 @@ def number(value: object) -> float:
     """A plain number."""
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
         raise ValueError("expected a number")
-    return float(value)
+    return _meant(float(value))
 
 
 def whole(value: object) -> int:
@@ -142,4 +153,6 @@ def colour(value: object) -> Colour:
     red, green, blue = triple(value)
     if min(red, green, blue) < 0.0:
         raise ValueError("radiance cannot be negative")
+    if max(red, green, blue) > BRIGHTEST:
+        raise ValueError(f"expected a radiance of at most {BRIGHTEST:g}")
     return red, green, blue

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import scenes_at_random as at_random
 
-from quizgen.camera import SceneError, filters, hsv, power
+from quizgen.camera import Camera, Scene, SceneError, filters, hsv, power
 from quizgen.camera.kernels import disc, line
 from quizgen.camera.plan import Prepared, everything, plan
 from quizgen.camera.simulate import run
@@ -137,6 +137,21 @@ def test_whole_photographs_agree_and_plans_are_equal(monkeypatch):
         assert np.abs(one.values - other.values).max() < 10 * gain * filters.AGREEMENT * largest, (
             seed
         )
+
+
+@pytest.mark.parametrize("speed", [0.0, 3.0, 1e8, 3e9, 1e12])
+@pytest.mark.parametrize("down", [0.0, -1.0])
+def test_rows_read_far_outside_show_the_edge(backend, speed, down):
+    """Row by row: the picture moved by speed times the row's time, its edges repeated."""
+    image = picture(9, 12)
+    scene = Scene(12, 9, image=image)
+    camera = Camera(velocity=(speed, speed * down), row_time=1.0)
+    rolled = run(Prepared(scene, camera), everything(scene, camera)).values
+    for row in range(9):
+        shift = speed * (row - 4)
+        columns = np.clip(np.arange(12) - shift, 0, 11).astype(int)
+        source = int(np.clip(row - shift * down, 0, 8))
+        assert np.array_equal(rolled[row], image[source, columns]), (row, shift)
 
 
 def test_hue_agrees(monkeypatch):

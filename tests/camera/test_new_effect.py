@@ -98,9 +98,12 @@ def test_its_picture_is_its_own():
 
 
 def test_its_values_are_checked(tmp_path):
-    with pytest.raises(SceneError, match="shares lie"):
+    with pytest.raises(SceneError, match="haze must be 0 to 1"):
         Camera(haze=1.5)
-    for haze, message in (("2 m", "2: haze: expected a unit like '%'"), ("120 %", "shares lie")):
+    for haze, message in (
+        ("2 m", "2: haze: expected a unit like '%'"),
+        ("120 %", "haze must be 0 to 1"),
+    ):
         path = scene_file(tmp_path, haze)
         result = CliRunner().invoke(simulate, [str(path)])
         assert isinstance(result.exception, SceneError)

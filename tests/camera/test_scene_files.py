@@ -10,7 +10,7 @@ import pytest
 from click.testing import CliRunner
 
 from quizgen import png
-from quizgen.camera import SceneError
+from quizgen.camera import SceneError, plan
 from quizgen.camera.reading import load
 from quizgen.cli.simulate import SCENES, simulate
 
@@ -21,9 +21,37 @@ WRONG = [
     ('[camera]\n\nfocal_length = "50 kg"\n', 3, "unknown unit 'kg'"),
     ('[camera]\nfocal_length = "50 s"\n', 2, "expected a unit like 'm'"),
     ("[camera]\nfocal_length = 50\n", 2, "quantity with its unit"),
-    ('[camera]\nfocal_length = "-50 mm"\n', 1, "must be positive"),
-    ('[camera]\nread_noise = "3 e-"\n', 1, "need full_well"),
-    ("[camera]\nmechanical_vignetting = 1.5\n", 1, "must be in [0, 1)"),
+    ('[camera]\nfocal_length = "-50 mm"\n', 2, "focal_length must be 1e-06 to 1000 m"),
+    ('[camera]\nread_noise = "3 e-"\n', 2, "read_noise needs full_well"),
+    ("[camera]\nmechanical_vignetting = 1.5\n", 2, "must be in [0, 1)"),
+    ('[camera]\n\nexposure = "2000 stop"\n', 3, "exposure must be -40 to 40 stop"),
+    ('[camera]\n\nexposure = "-2000 stop"\n', 3, "exposure must be -40 to 40 stop"),
+    ("[camera]\ngaussian_noise = 1e300\n", 2, "at most 1e+12"),
+    ("[camera]\nspin = 1\ngamma = 2000\n", 2, "unknown key"),
+    ('[camera]\nshutter = "1 s"\ngamma = 2000\n', 3, "a number from 1 to 100"),
+    (
+        '[camera]\nfull_well = "9 e-"\nshutter = "1 s"\ndark_current = "1e12 e-/s"\n',
+        4,
+        "more than 1e+08 e-",
+    ),
+    (
+        '[scene]\nwidth = 40\nheight = 30\n[camera]\nlateral_colour = "-30 px"\n',
+        5,
+        "more than half of the 24.3 px to the corner",
+    ),
+    (
+        '[camera]\nfocal_length = "50 mm"\nsensor_width = "36 mm"\nf_number = "f/two"\n',
+        4,
+        "cannot read 'f/two'; expected 2.8 or 'f/2.8'",
+    ),
+    (
+        '[camera]\nfocal_length = "50 mm"\nsensor_width = "36 mm"\nk1 = -20\n',
+        4,
+        "k1=-0.6, k2=0 does not",
+    ),
+    ("[camera]\nnormalise = [0, 1e-300, 0, 1]\n", 2, "max - min"),
+    ("[scene]\nbackground = [1e9, 0, 0]\n", 2, "radiance of at most 1e+06"),
+    ("[scene]\nwidth = 32768\nheight = 32768\n", 2, "more than 24 megapixels"),
     ("[camera]\nbit_depth = true\n", 2, "whole number"),
     ('[camera]\nmosaic = "RGBG"\n', 2, "expected one of RGGB"),
     ("[camra]\nk1 = 0\n", 1, "did you mean 'camera'"),
@@ -71,6 +99,41 @@ def test_a_bad_picture_is_one_line_with_its_place(tmp_path, key, name, words):
     with pytest.raises(SceneError) as caught:
         load(path)
     assert str(caught.value) == f"{path}:3: bad.png: {words}"
+
+
+@pytest.mark.parametrize("size", [(1, 1), (1, 300), (300, 1)])
+def test_pictures_without_a_neighbour_are_refused(tmp_path, size):
+    (tmp_path / "line.png").write_bytes(png.encode(np.zeros((*size, 3), np.uint8)))
+    path = tmp_path / "scene.toml"
+    path.write_text('[scene]\nimage = "line.png"\n', "utf-8")
+    with pytest.raises(SceneError, match=r":2: line.png: .* at least 2 rows and columns"):
+        load(path)
+
+
+def test_a_blur_much_wider_than_the_picture_is_one_line(tmp_path):
+    """Focus at the near end and everything else at infinity."""
+    path = tmp_path / "scene.toml"
+    path.write_text(
+        '[camera]\nfocal_length = "50 mm"\nsensor_width = "23.6 mm"\nf_number = "F/1.4"\n'
+        'focus_distance = "60 mm"\n',
+        "utf-8",
+    )
+    with pytest.raises(SceneError, match=r"a blur of 4.84e\+03 px is more than 800 px"):
+        plan(*load(path))
+
+
+@pytest.mark.parametrize("key", ["width", "none"])
+def test_a_sensor_is_as_wide_as_the_picture_on_it(tmp_path, key):
+    """A photograph brings its own width; 36 mm over 90 columns are 400 um each."""
+    (tmp_path / "photo.png").write_bytes(png.encode(np.zeros((6, 90, 3), np.uint8)))
+    path = tmp_path / "scene.toml"
+    width = "width = 30\n" if key == "width" else ""
+    path.write_text(
+        f'[scene]\nimage = "photo.png"\n{width}[camera]\nfocal_length = "50 mm"\n'
+        'sensor_width = "36 mm"\n',
+        "utf-8",
+    )
+    assert load(path)[1].given["pixel_pitch"] == pytest.approx(400e-6)
 
 
 def test_broken_toml_and_missing_files_are_named(tmp_path):

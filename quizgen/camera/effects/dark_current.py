@@ -13,11 +13,22 @@ from quizgen.camera.effect import Effect, on_picture
 from quizgen.camera.facts import Error, Facts
 from quizgen.camera.noise import POISSON_GAP, bands, electrons_at_white, noisier, stream
 from quizgen.camera.scene import Image
-from quizgen.camera.settings import NOT_NEGATIVE, SHARE, Setting
+from quizgen.camera.settings import NOT_NEGATIVE, SHARE, Rule, Setting, Settings
 from quizgen.camera.values import quantity
 from quizgen.camera.view import View
 
-DARK_CURRENT = Setting("dark_current", quantity("e-/s"), 0.0, (NEEDS_FULL_WELL, NOT_NEGATIVE))
+MOST_CHARGE = 1e8
+"""Electrons whose counts are still told apart one by one."""
+
+
+def _not_flooded(current: float, camera: Settings) -> bool:
+    return current * camera[SHUTTER] <= MOST_CHARGE
+
+
+_CHARGE = Rule(_not_flooded, f"makes more than {MOST_CHARGE:g} e- while the shutter is open")
+DARK_CURRENT = Setting(
+    "dark_current", quantity("e-/s"), 0.0, (NEEDS_FULL_WELL, NOT_NEGATIVE, _CHARGE)
+)
 HOT_PIXELS = Setting("hot_pixels", quantity("%"), 0.0, (NEEDS_FULL_WELL, SHARE))
 """Share of photosites stuck at full well."""
 

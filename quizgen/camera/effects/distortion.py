@@ -39,6 +39,21 @@ def slope(radius: Field, k1: float, k2: float) -> Field:
     return 1.0 + radius**2 * (3.0 * k1 + 5.0 * k2 * radius**2)
 
 
+def _reach(k1: float, k2: float) -> float:
+    """Largest distorted radius up to which a picture is not stretched too much."""
+    # the slope reaches s where 1 + 3 k1/(1-s) r^2 + 5 k2/(1-s) r^4 vanishes
+    rest = 1.0 - _LEAST_SLOPE
+    steep = float(fold_radius(k1 / rest, k2 / rest))
+    return steep * (1.0 + steep**2 * (k1 + k2 * steep**2))
+
+
+def _largest_share(distorted: float, k1: float, k2: float) -> float:
+    """Share of a distortion, of two digits, with which a radius lies before the fold."""
+    shares = (digits * 10.0**power for power in range(-1, -40, -1) for digits in range(9, 0, -1))
+    fits = (share for share in shares if _reach(share * k1, share * k2) >= distorted)
+    return next(fits, 0.0)
+
+
 @lru_cache(maxsize=32)
 def undistorted_radius(distorted: float, k1: float, k2: float) -> float:
     """Inverse of r L(r) on the branch that starts at 0.
@@ -49,12 +64,11 @@ def undistorted_radius(distorted: float, k1: float, k2: float) -> float:
         If the radius lies at or beyond the fold, or so near that the picture is stretched more
         than 50 times there.
     """
-    # the slope reaches s where 1 + 3 k1/(1-s) r^2 + 5 k2/(1-s) r^4 vanishes
-    rest = 1.0 - _LEAST_SLOPE
-    steep = float(fold_radius(k1 / rest, k2 / rest))
-    if steep * (1.0 + steep**2 * (k1 + k2 * steep**2)) < distorted:
+    if _reach(k1, k2) < distorted:
+        weaker = _largest_share(distorted, k1, k2)
         raise SceneError(
-            f"the distortion k1={k1:g}, k2={k2:g} folds before the corner (radius {distorted:.4g})"
+            f"the distortion k1={k1:g}, k2={k2:g} folds before the corner of the picture; "
+            f"k1={weaker * k1:.3g}, k2={weaker * k2:.3g} does not"
         )
     return float(inverse_radius(distorted, k1, k2))
 
@@ -115,6 +129,11 @@ def _top_radius(view: View) -> float:
     return undistorted_radius(view.corner / view.focal, view.camera[K1], view.camera[K2])
 
 
+def check(view: View) -> None:
+    """The picture may not fold over."""
+    _top_radius(view)
+
+
 def largest_displacement(view: View) -> float:
     """Bound on how far distortion moves any point of the picture, px: |k1| r^3 + |k2| r^5."""
     k1, k2 = view.camera[K1], view.camera[K2]
@@ -161,6 +180,7 @@ EFFECT = Effect(
     decides=("distortion", "geometry", "artefacts"),
     settings=(K1, K2),
     present=lambda view: view.camera[K1] != 0.0 or view.camera[K2] != 0.0,
+    check=check,
     run=run,
     cost=at_least_a_call(cost),
     skipped=skipped,

@@ -8,11 +8,11 @@ from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, on_picture
 from quizgen.camera.facts import Error, Facts
 from quizgen.camera.scene import Image
-from quizgen.camera.settings import Setting
+from quizgen.camera.settings import Setting, between
 from quizgen.camera.values import quantity
 from quizgen.camera.view import View
 
-EXPOSURE = Setting("exposure", quantity("stop"), 0.0)
+EXPOSURE = Setting("exposure", quantity("stop"), 0.0, (between(-40.0, 40.0, "stop"),))
 """Stops; +1 doubles."""
 
 

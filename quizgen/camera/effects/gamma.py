@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from quizgen.camera.costs import measured
@@ -23,11 +21,11 @@ def _read(value: object) -> str | float:
 def _known(gamma: str | float, _: Settings) -> bool:
     if isinstance(gamma, str):
         return gamma in ("linear", "srgb")
-    return 1.0 <= gamma < math.inf
+    return 1.0 <= gamma <= 100.0
 
 
 GAMMA = Setting[str | float](
-    "gamma", _read, "linear", (Rule(_known, "gamma must be 'linear', 'srgb' or a number >= 1"),)
+    "gamma", _read, "linear", (Rule(_known, "must be 'linear', 'srgb' or a number from 1 to 100"),)
 )
 
 

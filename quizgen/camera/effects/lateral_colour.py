@@ -10,7 +10,7 @@ from quizgen.camera.effect import Effect
 from quizgen.camera.facts import Error, Facts
 from quizgen.camera.filters import sample_grid
 from quizgen.camera.layers import resampled, shifted
-from quizgen.camera.scene import Image
+from quizgen.camera.scene import Image, SceneError
 from quizgen.camera.settings import Setting
 from quizgen.camera.values import quantity
 from quizgen.camera.view import View
@@ -22,6 +22,19 @@ LATERAL_COLOUR = Setting("lateral_colour", quantity("px"), 0.0)
 def run(stack: Stack, view: View, rung: str = "") -> Stack:
     """Magnify every layer's colours differently."""
     return tuple(_split(layer, view) for layer in stack)
+
+
+MOST = 0.5
+"""Largest shift as a share of the distance to the corner: blue is then magnified twice."""
+
+
+def check(view: View) -> None:
+    """Colours may not shrink to a point, nor turn inside out."""
+    if _share(view) > MOST:
+        raise SceneError(
+            f"lateral_colour of {_shift(view):g} px is more than half of the "
+            f"{view.corner:.4g} px to the corner of the picture"
+        )
 
 
 def _scales(view: View) -> tuple[float, float, float]:
@@ -79,6 +92,7 @@ EFFECT = Effect(
     decides=("lateral colour", "artefacts"),
     settings=(LATERAL_COLOUR,),
     present=lambda view: view.camera[LATERAL_COLOUR] != 0.0,
+    check=check,
     run=run,
     cost=at_least_a_call(cost),
     skipped=skipped,

@@ -19,7 +19,8 @@ def _known(tile: str, _: Settings) -> bool:
     return tile in TILES
 
 
-MOSAIC = Setting("mosaic", one_of(*TILES), "", (Rule(_known, "unknown mosaic"),))
+_KNOWN = Rule(_known, f"must be one of {', '.join(TILES)}")
+MOSAIC = Setting("mosaic", one_of(*TILES), "", (_KNOWN,))
 """Colours of the 2x2 tile, rows first."""
 
 

@@ -20,12 +20,16 @@ def _read(value: object) -> Ends:
     return low, high, new_low, new_high
 
 
+NARROWEST = 1e-6
+"""Least width of a range that is stretched."""
+
+
 def _rises(ends: Ends | None, _: Settings) -> bool:
-    return ends is None or ends[0] < ends[1]
+    return ends is None or ends[1] - ends[0] >= NARROWEST
 
 
 NORMALISE = Setting[Ends | None](
-    "normalise", _read, None, (Rule(_rises, "normalise needs min < max"),)
+    "normalise", _read, None, (Rule(_rises, f"needs max - min >= {NARROWEST:g}"),)
 )
 """min, max, new min, new max; 1 = white."""
 

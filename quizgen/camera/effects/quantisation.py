@@ -10,18 +10,11 @@ from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, on_picture
 from quizgen.camera.facts import Error, Facts, LayerFacts
 from quizgen.camera.scene import Image
-from quizgen.camera.settings import Rule, Setting, Settings
+from quizgen.camera.settings import Setting, between
 from quizgen.camera.values import whole
 from quizgen.camera.view import View
 
-
-def _possible(bits: int | None, _: Settings) -> bool:
-    return bits is None or 1 <= bits <= 16
-
-
-BIT_DEPTH = Setting[int | None](
-    "bit_depth", whole, None, (Rule(_possible, "bit_depth must be 1 to 16"),)
-)
+BIT_DEPTH = Setting[int | None]("bit_depth", whole, None, (between(1, 16),))
 """Bits of the converter; None is analog."""
 
 

@@ -24,6 +24,7 @@ from quizgen.camera.layers import (
     turned,
     within,
 )
+from quizgen.camera.scene import Image
 from quizgen.camera.settings import NOT_NEGATIVE, Setting
 from quizgen.camera.values import quantity
 from quizgen.camera.view import View
@@ -54,8 +55,16 @@ def _rolled(still: Layer, view: View) -> Layer:
         return layer
     x = np.arange(view.width)[None, :] - across * times
     y = np.arange(view.height)[:, None] - down * times + np.zeros_like(x)
-    where = x.astype(np.float32), y.astype(np.float32)
+    where = _near(x, view.width), _near(y, view.height)
     return resampled(layer, lambda image: sample(image, *where))
+
+
+def _near(positions: Field, length: int) -> Image:
+    """Positions beyond the picture brought to its edge, which they show.
+
+    Samplers hold no larger whole numbers than 2^31.
+    """
+    return np.clip(positions, -1.0, length).astype(np.float32)
 
 
 def skipped(facts: Facts, view: View) -> Error:

@@ -9,11 +9,11 @@ from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, on_picture
 from quizgen.camera.facts import Error, Facts
 from quizgen.camera.scene import Image
-from quizgen.camera.settings import NOT_NEGATIVE, Setting
+from quizgen.camera.settings import SHARE, Setting
 from quizgen.camera.values import quantity
 from quizgen.camera.view import View
 
-SMEAR = Setting("smear", quantity("%"), 0.0, (NEEDS_FULL_WELL, NOT_NEGATIVE))
+SMEAR = Setting("smear", quantity("%"), 0.0, (NEEDS_FULL_WELL, SHARE))
 """Share of a column's mean that is added to the column while its rows are shifted."""
 
 

@@ -33,7 +33,7 @@ MECHANICAL = Setting(
     "mechanical_vignetting",
     number,
     0.0,
-    (Rule(_below_one, "mechanical_vignetting must be in [0, 1)"),),
+    (Rule(_below_one, "must be in [0, 1)"),),
 )
 """Shift of the lens rim at the corner in aperture diameters."""
 
