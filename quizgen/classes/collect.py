@@ -13,12 +13,13 @@ from pathlib import Path
 from quizgen.classes.folder import ANSWERS
 from quizgen.classes.keys import Keys
 from quizgen.classes.mark import Sheet
+from quizgen.classes.roster import cleaned
 from quizgen.errors import KeyFileError, QuizgenError
 from quizgen.files import PRIVATE, write_all
 from quizgen.locale import languages
 from quizgen.marking.echo import safe
 from quizgen.marking.options import DECIMALS
-from quizgen.outside import LARGEST_PICTURE, csv_rows, encoding_of, read_bytes, visible
+from quizgen.outside import LARGEST_PICTURE, csv_rows, encoding_of, read_bytes, undefused, visible
 from quizgen.paper.form import read_answers
 
 FORMS = (".toml", ".json", ".csv")
@@ -67,6 +68,7 @@ class Collected:
         self.problems: list[str] = []
         self._seen: dict[str, tuple[bytes, str]] = {}
         self._codes = {head.code: head.id for head, _ in keys.places.values()}
+        self._ids = {one.casefold(): one for one in keys.places}
 
     def __iter__(self) -> Iterator[Sheet]:
         for path in sorted(self.folder.rglob("*"), key=lambda one: (one.stem, one.suffix)):
@@ -103,17 +105,26 @@ class Collected:
 
     def _whose(self, code: str, student: str) -> str:
         """Whose answers they are: by the code, else by the id, which must agree."""
-        student = student.strip()
+        student = undefused(cleaned(student))
         owner = self._codes.get(code.strip().upper(), "")
         if code and not owner:
             raise KeyFileError(f"code {safe(code)} is of no paper of this class")
-        if owner and student and student != owner:
+        if owner and student and _bare(student) != _bare(owner):
             raise KeyFileError(
                 f"has the code of {safe(owner)}'s paper, but the number of {safe(student)}"
             )
-        if not (owner or student in self.keys.places):
-            raise KeyFileError(f"nobody of this class has the number {safe(student)!r}")
-        return owner or student
+        return owner or self._named(student)
+
+    def _named(self, student: str) -> str:
+        """Who has an id, which capitals do not change."""
+        if student in self.keys.places:
+            return student
+        found = self._ids.get(student.casefold())
+        if found is None:
+            near = [one for one in self.keys.places if _bare(one) == _bare(student)]
+            hint = f" ({safe(near[0])} has it but for zeros in front)" if near else ""
+            raise KeyFileError(f"nobody of this class has the number {safe(student)!r}{hint}")
+        return found
 
     def _rows(self, table: _Table) -> Iterator[Sheet]:
         """The students of a table; a row that is wrong is left out."""
@@ -141,6 +152,11 @@ class Collected:
 
     def _problem(self, path: Path, reason: str) -> None:
         self.problems.append(visible(f"{path.name}: {reason}", ""))
+
+
+def _bare(student: str) -> str:
+    """An id as it is left by who thinks little of capitals and of zeros in front."""
+    return student.casefold().lstrip("0")
 
 
 def _habits(cells: Mapping[str, str]) -> tuple[str, str]:

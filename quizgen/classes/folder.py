@@ -6,6 +6,7 @@ student as papers are made; a line that a killed run left half written counts as
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 from collections.abc import Iterable, Mapping, Sequence
@@ -70,6 +71,8 @@ class Head(msgspec.Struct, frozen=True):
         Digest of the row of the roster and of ``made``.
     beside : tuple of str
         Ids of neighbours that this paper gave way to.
+    digest : str
+        Of the key as it was written: who edits it by hand is told.
     """
 
     id: str
@@ -77,6 +80,7 @@ class Head(msgspec.Struct, frozen=True):
     made: str
     stamp: str
     beside: tuple[str, ...] = ()
+    digest: str = ""
 
 
 class Record(msgspec.Struct, frozen=True):
@@ -221,17 +225,52 @@ class ClassFolder:
         with place.open("rb") as stream:
             stream.seek(at)
             line = stream.readline()
-        table = parse_json(line.decode(), place, ClassError)
+        table = parse_json(written_key(line, place).decode(), place, ClassError)
         head = msgspec.json.decode(line, type=Head)
         if not isinstance(table, dict):
             raise ClassError(f"{place}: a table is expected in each line")
-        return Record(head, load_key(table.get("key", {}), f"{place}: {head.id}"))
+        return Record(head, load_key(table, f"{place}: {head.id}"))
+
+
+class _Line(msgspec.Struct):
+    id: str
+    digest: str
+    key: msgspec.Raw
+
+
+_LINE = msgspec.json.Decoder(_Line).decode
 
 
 def line_of(head: Head, key: Key) -> bytes:
     """A line of the keys."""
-    table = {**msgspec.to_builtins(head), "key": msgspec.to_builtins(key)}
-    return json.dumps(table, ensure_ascii=False, separators=(",", ":")).encode() + b"\n"
+    written = msgspec.json.encode(key)
+    whole = msgspec.structs.replace(head, digest=_digest(written))
+    table = {**msgspec.structs.asdict(whole), "key": msgspec.Raw(written)}
+    return msgspec.json.encode(table) + b"\n"
+
+
+def written_key(line: bytes, place: Path) -> bytes:
+    """The key of a line, to the letter as it was made.
+
+    Raises
+    ------
+    ClassError
+        If somebody has edited it.
+    """
+    try:
+        found = _LINE(line)
+    except msgspec.DecodeError as error:
+        raise ClassError(f"{place}: {error}") from None
+    if found.digest != _digest(found.key):
+        raise ClassError(
+            f"{place}: the key of {found.id} has been changed; to have it as it was, delete its "
+            "line and run quizgen class make (rulings change marks: quizgen class rule)"
+        )
+    return bytes(found.key)
+
+
+def _digest(written: bytes | msgspec.Raw) -> str:
+    return hashlib.sha256(written).hexdigest()[:16]
 
 
 def _head(line: bytes) -> Head | None:

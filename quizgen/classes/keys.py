@@ -13,7 +13,7 @@ from pathlib import Path
 
 import msgspec
 
-from quizgen.classes.folder import KEYS, ClassFolder, Head
+from quizgen.classes.folder import KEYS, ClassFolder, Head, written_key
 from quizgen.classes.mark import item_named
 from quizgen.errors import ClassError
 from quizgen.paper.key import Key
@@ -33,13 +33,6 @@ class Outline:
 
     identities: Mapping[str, str]
     options: Mapping[str, tuple[str, ...]]
-
-
-class _Line(msgspec.Struct):
-    """A line of the keys."""
-
-    id: str
-    key: Key
 
 
 class _ShortSpec(msgspec.Struct):
@@ -71,7 +64,7 @@ class _ShortLine(msgspec.Struct):
     key: _ShortKey
 
 
-_KEY = msgspec.json.Decoder(_Line).decode
+_KEY = msgspec.json.Decoder(Key).decode
 _SHORT = msgspec.json.Decoder(_ShortLine).decode
 
 
@@ -121,10 +114,10 @@ def key_at(path: Path, at: int) -> Key:
     Raises
     ------
     ClassError
-        If it is none.
+        If it is none, or not the one that was made.
     """
     try:
-        return _KEY(_line(path, at)).key
+        return _KEY(written_key(_line(path, at), path))
     except msgspec.DecodeError as error:
         raise ClassError(f"{path}: byte {at}: {error}") from None
 

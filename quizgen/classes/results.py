@@ -22,8 +22,8 @@ CHUNK = 50
 
 def grade(
     folder: ClassFolder, formats: Sequence[str], *, anonymous: bool = False
-) -> tuple[list[Graded], list[Path]]:
-    """Write grades and reports.
+) -> tuple[list[Graded], list[str], list[Path]]:
+    """Write grades and reports; the lines, who is marked and not on the roster, and the files.
 
     Parameters
     ----------
@@ -49,7 +49,8 @@ def grade(
     keys, place = Keys(folder), folder.path / FOLDER / REPORTS
     for chunk in _chunks([one for one in lines if one.marks] if formats else []):
         write_all(place, _reports(keys, chunk, formats, anonymous), PRIVATE)
-    return lines, [*files, *([place] if formats else [])]
+    left = marked.keys() - {one.student.id for one in lines}
+    return lines, sorted(left), [*files, *([place] if formats else [])]
 
 
 def _chunks(lines: Sequence[Graded]) -> Iterator[Sequence[Graded]]:

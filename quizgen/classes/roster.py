@@ -106,7 +106,7 @@ def read_roster(
     if not rows:
         raise ClassError(f"{path}: is empty (a row of column names is needed, then one a student)")
     places = _places(rows[0][1], columns or {}, path)
-    for place, name in enumerate(map(_clean, rows[0][1])):
+    for place, name in enumerate(map(cleaned, rows[0][1])):
         if name and place not in places.values():
             tell(visible(name))
     found: dict[str, tuple[int, Student]] = {}
@@ -122,15 +122,15 @@ def read_roster(
 
 def _places(head: Sequence[str], columns: Mapping[str, str], path: Path) -> dict[str, int]:
     """Which column of the file is which of ours."""
-    there = {_clean(cell).casefold(): place for place, cell in reversed([*enumerate(head)])}
-    said = ", ".join(visible(_clean(cell)) for cell in head)
+    there = {cleaned(cell).casefold(): place for place, cell in reversed([*enumerate(head)])}
+    said = ", ".join(visible(cleaned(cell)) for cell in head)
     for ours, theirs in columns.items():
         if ours not in COLUMNS:
             raise ClassError(f"no column {ours!r} of a roster (there are {', '.join(COLUMNS)})")
-        if _clean(theirs).casefold() not in there:
+        if cleaned(theirs).casefold() not in there:
             raise ClassError(f"{path}: has no column {theirs!r} (it has {said})")
     names = {
-        ours: [_clean(columns[ours]).casefold()] if ours in columns else _known_as(ours)
+        ours: [cleaned(columns[ours]).casefold()] if ours in columns else _known_as(ours)
         for ours in COLUMNS
     }
     found = {
@@ -150,7 +150,7 @@ def _known_as(column: str) -> list[str]:
 
 def _student(row: Sequence[str], places: Mapping[str, int], where: str) -> Student:
     cells = {
-        name: undefused(_clean(row[place])) if place < len(row) else ""
+        name: undefused(cleaned(row[place])) if place < len(row) else ""
         for name, place in places.items()
     }
     for name, cell in cells.items():
@@ -166,7 +166,7 @@ def _student(row: Sequence[str], places: Mapping[str, int], where: str) -> Stude
     return one
 
 
-def _clean(cell: str) -> str:
+def cleaned(cell: str) -> str:
     """A cell in one line, without marks that nobody sees, such as those that turn writing round."""
     whole = unicodedata.normalize("NFC", cell)
     seen = (c if _is_seen(c) else " " if c.isspace() else "" for c in whole)

@@ -73,13 +73,15 @@ def mark_class(folder: ClassFolder, executor: Executor, ahead: int) -> Run:
     """
     filled, kept = read_queue(folder.path)
     before = read_rulings(folder.path)
-    rulings = (*before, *(append_rulings(folder.path, filled) if filled else ()))
+    rulings = (*before, *filled)
     keys, history = Keys(folder), History(folder.path)
     _check_items(rulings, keys)
     collected = Collected(folder.path, keys)
     jobs = _jobs(collected, keys, rulings)
     chunks = in_order(executor, marked, jobs, ahead)
     outcome = history.write(one for chunk in chunks for one in chunk)
+    if filled:  # now: a run that ends before this one does reads the same queue again
+        append_rulings(folder.path, filled)
     groups = grouped(cases(waiting(history.current()), keys.key, FIRST))
     write_queue(folder.path, groups, kept)
     return Run(outcome, len(filled), len(groups), tuple(collected.problems))

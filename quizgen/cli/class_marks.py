@@ -153,10 +153,12 @@ def grade(folder: Path, reports: str, *, anonymous: bool) -> None:
     from quizgen.classes.results import grade as write
 
     wished = [checked("reports", name, REPORTS) for name in split(reports) if name != "none"]
-    lines, files = write(ClassFolder(folder), wished, anonymous=anonymous)
+    lines, left, files = write(ClassFolder(folder), wished, anonymous=anonymous)
     there = [one for one in lines if one.marks]
     passed = sum(one.passed for one in there)
     tell(f"{len(there)} of {many(len(lines), 'student')} handed in, {passed} passed")
+    for student in left:
+        tell(f"{one_line(student)} handed in, but is not on the roster: no grade")
     open_still = sum(one.marks.undecided for one in there if one.marks)
     if open_still:
         tell(f"Provisional: {many(open_still, 'answer')} still to be decided")
