@@ -29,14 +29,35 @@ def in_colour(codes):
     return np.broadcast_to(codes.reshape(*codes.shape[:2], -1), (*codes.shape[:2], 3))
 
 
+def by_others(data):
+    return np.asarray(Image.open(io.BytesIO(data)).convert("RGB"))
+
+
 @pytest.mark.parametrize("write", [png.encode, png.compact])
 @pytest.mark.parametrize("number", range(4))
 def test_what_is_written_is_read_by_others_and_by_ourselves(number, write):
     codes = pictures()[number]
     data = write(codes)
-    others = np.asarray(Image.open(io.BytesIO(data)).convert("RGB"))
-    assert np.array_equal(others, in_colour(codes))
+    assert np.array_equal(by_others(data), in_colour(codes))
     assert np.array_equal(in_colour(png.decode(data)), in_colour(codes))
+
+
+@pytest.mark.parametrize("number", range(4))
+def test_small_pictures_are_read_by_others(number):
+    codes = pictures()[number]
+    assert np.array_equal(by_others(png.small(codes)), in_colour(codes))
+
+
+def test_a_small_picture_takes_the_shortest_way():
+    """Few colours, one channel in three, and steps to the left or above: each shows in the size."""
+    noise = np.random.default_rng(4).integers(0, 2, (60, 90), np.uint8)
+    few = np.array([[9, 200, 31], [250, 3, 77]], np.uint8)[noise]
+    grey = noise[..., None].repeat(3, axis=2) * np.uint8(255)
+    ramp = np.add.outer(np.arange(100), np.arange(150)).astype(np.uint8)
+    steep = ramp[..., None] * np.array([1, 2, 3], np.uint8)
+    for codes, most in ((few, 1100), (grey, 1100), (ramp, 400), (steep, 1200)):
+        assert len(png.small(codes)) < most, len(png.small(codes))
+        assert np.array_equal(by_others(png.small(codes)), in_colour(codes))
 
 
 def test_the_bytes_of_small_pictures_are_pinned():
