@@ -8,6 +8,7 @@ import sys
 import pytest
 from needed import installed
 
+from quizgen import kept
 from quizgen.bank.folder import Bank, builtin
 
 # Containers forbid bytecode to be kept; then every cold process that a test starts would compile
@@ -19,6 +20,20 @@ sys.dont_write_bytecode = False
 @pytest.fixture(scope="session")
 def bank() -> Bank:
     return builtin()
+
+
+@pytest.fixture
+def empty_cache(tmp_path, monkeypatch):
+    """The folder of a cache of one's own, of which a process has not yet heard."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setattr(kept, "SHIPPED", tmp_path / "shipped")
+    heard_of = kept.own, kept.swept
+    for one in heard_of:
+        one.cache_clear()
+    yield tmp_path / "cache" / "quizgen"
+    monkeypatch.undo()
+    for one in heard_of:
+        one.cache_clear()
 
 
 @pytest.fixture(scope="session")

@@ -13,19 +13,15 @@ KEY = "a" * 64
 
 
 @pytest.fixture
-def cache(tmp_path, monkeypatch):
-    """An empty cache, as a new process finds it."""
+def cache(empty_cache):
+    """Begin as a new process does."""
 
     def begin():
         kept.own.cache_clear()
         kept.swept.cache_clear()
-        return tmp_path / "quizgen"
+        return empty_cache
 
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    monkeypatch.setattr(kept, "SHIPPED", tmp_path / "shipped")
-    yield begin
-    monkeypatch.undo()
-    begin()
+    return begin
 
 
 def test_what_is_kept_is_found_again(cache):

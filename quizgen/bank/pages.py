@@ -30,6 +30,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from quizgen import outside
+from quizgen.bank.compiled import Compiled
 from quizgen.bank.prose import Block, Case, Text, blocks, inlines
 from quizgen.errors import BankError
 
@@ -37,6 +38,7 @@ NAMED_SECTIONS = frozenset(
     {"steps", "traps", "options", "words", "gaps", "points", "reasons", "claims"}
 )
 PROSE_SECTIONS = frozenset({"why", "check", "note"})
+_TEXTS = Compiled("prose", Text)
 
 
 def read_text(path: Path) -> Text:
@@ -49,7 +51,8 @@ def read_text(path: Path) -> Text:
     """
     source = outside.read_text(path, BankError)
     try:
-        return parse_text(source)
+        found = _TEXTS.find(source.encode())
+        return found or _TEXTS.keep(parse_text(source), source.encode())
     except BankError as error:
         raise BankError(f"{path}: {error}") from error
 

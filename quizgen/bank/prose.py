@@ -10,43 +10,40 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cache
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
+
+import msgspec
 
 from quizgen.errors import BankError, FormulaError
 from quizgen.maths.notation import parse, people
 from quizgen.maths.tree import Expr
 
 
-@dataclass(frozen=True, slots=True)
-class Words:
+class Words(msgspec.Struct, frozen=True, array_like=True, tag="w"):
     """Plain text."""
 
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class Slot:
+class Slot(msgspec.Struct, frozen=True, array_like=True, tag="s"):
     """A place to be filled: a drawn value, or a drawn phrase."""
 
     name: str
 
 
-@dataclass(frozen=True, slots=True)
-class Formula:
+class Formula(msgspec.Struct, frozen=True, array_like=True, tag="f"):
     """Mathematics in a sentence, as a formula tree."""
 
     expr: Expr
 
 
-@dataclass(frozen=True, slots=True)
-class Code:
+class Code(msgspec.Struct, frozen=True, array_like=True, tag="c"):
     """Program text in a sentence."""
 
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class Styled:
+class Styled(msgspec.Struct, frozen=True, array_like=True, tag="e"):
     """Emphasised (``em``) or strong (``strong``) text."""
 
     style: str
@@ -65,12 +62,14 @@ class Printed(Protocol):
         """How it is written in plain text, for people."""
 
 
-@dataclass(frozen=True, slots=True)
-class About:
+class About(msgspec.Struct, frozen=True):
     """Says that what follows is rounded: an equals sign in front of it becomes ≈."""
 
 
-Inline = Words | Slot | Formula | Code | Styled | About | Printed
+if TYPE_CHECKING:
+    Inline = Words | Slot | Formula | Code | Styled | About | Printed
+else:  # what a file gives, and what is kept of it
+    Inline = Words | Slot | Formula | Code | Styled
 """A piece of a sentence; once filled, without ``Slot``, ``Formula`` and ``About``."""
 Value = Callable[[Slot | Formula], tuple[Inline, ...]]
 """What a slot or a formula is replaced by."""
@@ -78,30 +77,26 @@ Program = Callable[[str], str]
 """What becomes of program text."""
 
 
-@dataclass(frozen=True, slots=True)
-class Paragraph:
+class Paragraph(msgspec.Struct, frozen=True, array_like=True, tag="p"):
     """One paragraph."""
 
     children: tuple[Inline, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Items:
+class Items(msgspec.Struct, frozen=True, array_like=True, tag="i"):
     """A list; ``ordered`` counts from 1."""
 
     items: tuple[tuple[Block, ...], ...]
     ordered: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class CodeBlock:
+class CodeBlock(msgspec.Struct, frozen=True, array_like=True, tag="b"):
     """Lines of program text."""
 
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class Table:
+class Table(msgspec.Struct, frozen=True, array_like=True, tag="t"):
     """A table with a head row."""
 
     head: tuple[tuple[Inline, ...], ...]

@@ -12,32 +12,26 @@ import re
 import sys
 import traceback
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
-from functools import cache
+from contextlib import contextmanager
 from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
-from importlib.util import find_spec
 from pathlib import Path
 from threading import RLock
 from types import CodeType, ModuleType
 
-import msgspec
-
-from quizgen import kept
+from quizgen.bank.compiled import Compiled
 from quizgen.errors import BankError
+from quizgen.kept import digest_of
 from quizgen.maths.chain import Chain
 from quizgen.maths.model import Model
 from quizgen.outside import read_bytes
 
-KIND = "chains"
-"""Where chains are kept."""
-_MAKERS = ("chain", "from_sympy", "model", "operators", "tree")
+_CHAINS = Compiled("chains", Chain)
 _PRIVATE = "_quizgen_solvers_"
 _RELATIVE = re.compile(rb"\bfrom[ \t]+\.")
 _PURE = {"__future__", "fractions", "math", "quizgen", "sympy", "typing"}
 """What a solver may import if its chain is to be kept: nothing that reads files or settings."""
 _IMPURE = {"__file__", "__import__", "open"}
 _LOCK = RLock()
-_DECODE = msgspec.json.Decoder(Chain, dec_hook=lambda kind, text: kind(text)).decode
 
 
 class _AsWritten(SourceFileLoader):
@@ -67,7 +61,7 @@ class _Finder(PathFinder):
 
 def _mounted(folder: Path) -> str:
     """Private name of the package that a folder of solvers is."""
-    name = _PRIVATE + kept.digest_of(str(folder.resolve()).encode())[:8]
+    name = _PRIVATE + digest_of(str(folder.resolve()).encode())[:8]
     with _LOCK:
         if _Finder not in sys.meta_path:
             sys.meta_path.insert(0, _Finder)
@@ -105,26 +99,13 @@ def chain_of(folder: Path, name: str) -> tuple[Chain, bytes]:
         If the file cannot be run, or holds no model.
     """
     sources = _sources(folder, name)
-    key = key_of(sources)
-    found = kept.find(KIND, key)
-    if found is not None:
-        with suppress(msgspec.MsgspecError, ValueError, RecursionError):
-            return _DECODE(found), sources[0]
-    with _LOCK:
-        chain = _compiled(folder, name)
-    if all(map(_is_pure, sources)) and sources == _sources(folder, name):
-        kept.keep(KIND, key, encoded(chain))
+    chain = _CHAINS.find(*sources)
+    if chain is None:
+        with _LOCK:
+            chain = _compiled(folder, name)
+        if all(map(_is_pure, sources)) and sources == _sources(folder, name):
+            _CHAINS.keep(chain, *sources)
     return chain, sources[0]
-
-
-def encoded(chain: Chain) -> bytes:
-    """A chain as it is kept."""
-    return msgspec.json.encode(chain, enc_hook=str)
-
-
-def key_of(sources: Sequence[bytes]) -> str:
-    """What a chain is kept under: its solver, what that imports, and what makes it a chain."""
-    return kept.digest_of(_maker(), *sources)
 
 
 def _sources(folder: Path, name: str) -> list[bytes]:
@@ -132,16 +113,6 @@ def _sources(folder: Path, name: str) -> list[bytes]:
     own = read_bytes(folder / f"{name}.py", BankError)
     every = sorted(folder.rglob("*.py")) if _RELATIVE.search(own) else []
     return [own, *(read_bytes(path, BankError) for path in every)]
-
-
-@cache
-def _maker() -> bytes:
-    """Digest of what makes a chain of a model."""
-    here, sympy = Path(__file__), find_spec("sympy")
-    files = [here, *(here.parent.parent / "maths" / f"{name}.py" for name in _MAKERS)]
-    if sympy is not None and sympy.origin is not None:
-        files.append(Path(sympy.origin).with_name("release.py"))
-    return kept.digest_of(*(read_bytes(file, BankError) for file in files)).encode()
 
 
 def _compiled(folder: Path, name: str) -> Chain:

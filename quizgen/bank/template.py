@@ -15,6 +15,7 @@ from typing import Any
 import msgspec
 
 from quizgen.bank.about import About
+from quizgen.bank.compiled import Compiled
 from quizgen.bank.limits import problems
 from quizgen.bank.quantities import Quantities
 from quizgen.bank.rules import DrawRule, FigureRule, KeepRule, PartRule, Rules, minutes_of
@@ -26,6 +27,7 @@ from quizgen.maths.units import unit
 from quizgen.outside import parse_toml, read_text
 
 PART_LABELS = "abcdefghij"
+_RULES = Compiled("rules", Rules)
 
 
 @dataclass(frozen=True)
@@ -133,8 +135,14 @@ def read_rules(path: Path) -> Rules:
     BankError
         Naming the file, the key and what is allowed.
     """
+    source = read_text(path, BankError)
+    found = _RULES.find(source.encode())
+    return found or _RULES.keep(_read(path, source), source.encode())
+
+
+def _read(path: Path, source: str) -> Rules:
     try:
-        table = parse_toml(read_text(path, BankError), path, BankError, parse_float=str)
+        table = parse_toml(source, path, BankError, parse_float=str)
         rules = msgspec.convert(table, Rules, strict=True)
     except msgspec.ValidationError as error:
         raise BankError(f"{path}: {error}{_allowed(str(error))}") from error

@@ -1,0 +1,79 @@
+"""What a bank's files come to - chains, rules, prose - kept, so that each is worked out once.
+
+It follows from the files, from quizgen's code between them and what is kept, and from the packages
+that code asks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import suppress
+from functools import cache
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Generic, TypeVar
+
+import msgspec
+
+from quizgen import kept
+
+T = TypeVar("T")
+
+_OTHERS = {"sympy": "release.py", "markdown_it": "__init__.py"}
+"""A package and its file that says which version it is: to import it would take longer."""
+_UNFIT = msgspec.MsgspecError, ValueError, OverflowError, RecursionError
+"""What is raised where a thing cannot be written, or what is found is none."""
+
+
+class Compiled(Generic[T]):
+    """Things of one kind that are kept.
+
+    Parameters
+    ----------
+    kind : str
+        Names them in the cache.
+    shape : type
+        What they are.
+    """
+
+    def __init__(self, kind: str, shape: type[T]) -> None:
+        self.kind = kind
+        self._decoder = msgspec.msgpack.Decoder(shape, dec_hook=lambda kind, text: kind(text))
+
+    def find(self, *sources: bytes) -> T | None:
+        """What sources came to, if it is kept."""
+        found = kept.find(self.kind, _key(sources))
+        if found is None:
+            return None
+        with suppress(*_UNFIT):
+            return self._decoder.decode(found)
+        return None
+
+    def keep(self, thing: T, *sources: bytes) -> T:
+        """Keep what sources came to, if it comes back the same."""
+        with suppress(*_UNFIT):
+            data = msgspec.msgpack.encode(thing, enc_hook=str)
+            if self._decoder.decode(data) == thing:
+                kept.keep(self.kind, _key(sources), data)
+        return thing
+
+
+def _key(sources: tuple[bytes, ...]) -> str:
+    return kept.digest_of(_maker(), *sources)
+
+
+@cache
+def _maker() -> bytes:
+    """Digest of the code that makes of sources what is kept."""
+    return kept.digest_of(*(file.read_bytes() for file in _code())).encode()
+
+
+def _code() -> Iterator[Path]:
+    package = Path(__file__).parent.parent
+    for folder in ("bank", "maths"):
+        yield from sorted((package / folder).rglob("*.py"))
+    yield package / "outside.py"
+    for name, file in _OTHERS.items():
+        found = find_spec(name)
+        if found is not None and found.origin is not None:
+            yield Path(found.origin).with_name(file)
