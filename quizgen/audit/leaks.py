@@ -17,7 +17,6 @@ from quizgen.bank.draw import Draw
 from quizgen.bank.levels import EXAM
 from quizgen.bank.prose import Block, Code, CodeBlock, Inline, Items, Paragraph, Styled, Table
 from quizgen.errors import FormulaError
-from quizgen.figures import in_words
 from quizgen.marking.kinds import choice, gap, match, order, text
 from quizgen.marking.mark import show
 from quizgen.marking.specs import AnySpec
@@ -26,7 +25,8 @@ from quizgen.maths.notation import ReadError, parse
 from quizgen.maths.tree import Expr
 from quizgen.paper.draws import asked_formulas
 from quizgen.paper.paper import Item, Paper
-from quizgen.question.compose import Key, Question, figure_values
+from quizgen.question.compose import Key, Question
+from quizgen.question.picture import described
 from quizgen.question.shown import Maths
 from quizgen.render.text import blocks, inline
 
@@ -139,10 +139,7 @@ def said(question: Question, drawn: Draw) -> Said:
         rows = [text for _, text in (*part.field.options, *part.field.targets)]
         shown += [*part.body, *(Paragraph(row) for row in (*rows, *part.field.asks))]
     found = Said([one.strip(" -") for line in blocks(shown) for one in _SENTENCE.split(line)])
-    rule = drawn.template.rules.figure
-    if rule and rule.quiz:
-        alt = in_words(rule.name, figure_values(drawn), quiz=True, lang=question.lang)
-        found.sentences += _SENTENCE.split(alt)
+    found.sentences += _SENTENCE.split(described(drawn, question.lang, quiz=True) or "")
     for expr in _formulas(shown):
         found.formulas.update(forms(expr))
     return found

@@ -7,13 +7,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from importlib.metadata import version
 from pathlib import Path
 from typing import TypeVar
 
 import msgspec
 
-from quizgen.errors import BankError
+from quizgen.errors import BankError, FormulaError
 from quizgen.locale import FIRST
+from quizgen.maths.units import System, system
 from quizgen.outside import parse_toml, read_text
 
 S = TypeVar("S", bound=msgspec.Struct)
@@ -27,15 +29,26 @@ class About(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     ``languages`` are those it is written in, ``title`` is the chapter's by language, and
     ``topics`` are its topics in order, each with its title by language. ``terms`` are words of the
     subject, none of which is another one misspelt; ``counted`` has the words that may stand beside
-    a number, by the name that an answer gives as ``counts``.
+    a number, by the name that an answer gives as ``counts``; ``units`` are those besides the listed
+    ones, each as Pint defines units. ``requires`` are the versions of quizgen that it works with.
     """
 
     name: str = ""
+    version: str = ""
+    licence: str = ""
+    authors: tuple[str, ...] = ()
+    requires: str = ""
     languages: tuple[str, ...] = ()
     terms: tuple[str, ...] = ()
     counted: dict[str, tuple[str, ...]] = {}
     title: dict[str, str] = {}
     topics: dict[str, dict[str, str]] = {}
+    units: tuple[str, ...] = ()
+
+    @property
+    def system(self) -> System:
+        """The listed units and its own."""
+        return system(self.units)
 
 
 class Curriculum(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
@@ -82,6 +95,36 @@ def read_struct(path: Path, kind: type[S]) -> S:
         return msgspec.convert(parse_toml(read_text(path, BankError), path, BankError), kind)
     except msgspec.ValidationError as error:
         raise BankError(f"{path}: {error}") from error
+
+
+def read_about(path: Path) -> About:
+    """Read ``bank.toml``; a missing one says nothing.
+
+    Raises
+    ------
+    BankError
+        Naming the file and the key, also where this version of quizgen is none it works with.
+    """
+    about = read_struct(path, About)
+    try:
+        system(about.units)
+    except FormulaError as error:
+        raise BankError(f"{path}: units: {error}") from error
+    if about.requires:
+        _check_version(path, about.requires)
+    return about
+
+
+def _check_version(path: Path, requires: str) -> None:
+    from packaging.specifiers import InvalidSpecifier, SpecifierSet
+
+    here = version("quizgen")
+    try:
+        fits = SpecifierSet(requires).contains(here, prereleases=True)
+    except InvalidSpecifier as error:
+        raise BankError(f'{path}: requires: {requires!r} is not like ">=0.1"') from error
+    if not fits:
+        raise BankError(f"{path}: requires: quizgen {requires}, and this is {here}")
 
 
 def in_language(texts: Mapping[str, str], lang: str, otherwise: str) -> str:

@@ -22,7 +22,6 @@ from quizgen.maths.alike import Form
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.numbers import at_a_glance, exact_text, rational, rounded_text, to_float
 from quizgen.maths.precision import working_precision
-from quizgen.maths.units import factor
 from quizgen.maths.values import Value, Values
 from quizgen.outside import located
 
@@ -135,7 +134,8 @@ class Draw:
     def _components(self, index: int, values: Values) -> tuple[Value, ...]:
         part = self.plan.parts[index]
         with working_precision():
-            return tuple(values[n] / factor(part.unit_of(self.template, n)) for n in part.of)
+            factors = [self.template.factor(part.unit_of(self.template, n)) for n in part.of]
+            return tuple(values[n] / size for n, size in zip(part.of, factors, strict=True))
 
 
 def draw(template: Template, seed: str | int, slot: str | int = "0") -> Draw:

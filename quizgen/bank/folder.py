@@ -18,12 +18,12 @@ from types import ModuleType
 
 import msgspec
 
-from quizgen.bank.about import About, Curriculum, in_language, read_struct
+from quizgen.bank.about import About, Curriculum, in_language, read_about, read_struct
 from quizgen.bank.pages import read_text
 from quizgen.bank.prose import Text
 from quizgen.bank.quantities import Quantities, read_quantities
 from quizgen.bank.rules import Rules
-from quizgen.bank.solvers import chain_of, module_of
+from quizgen.bank.solvers import chain_of, forget, module_of
 from quizgen.bank.template import Template, check_against_chain, read_rules
 from quizgen.errors import BankError, QuizgenError
 from quizgen.kept import digest_of
@@ -72,6 +72,10 @@ class Bank:
         return self.root / "solvers"
 
     @property
+    def _figures(self) -> Path:
+        return self.root / "figures"
+
+    @property
     def folder(self) -> Path:
         """Where templates and what is about them stand."""
         return self.root / "templates"
@@ -79,7 +83,7 @@ class Bank:
     @cached_property
     def about(self) -> About:
         """What ``bank.toml`` says; nothing if there is none."""
-        return read_struct(self.folder / "bank.toml", About)
+        return read_about(self.folder / "bank.toml")
 
     @cached_property
     def curriculum(self) -> Curriculum:
@@ -144,6 +148,7 @@ class Bank:
 
     def afresh(self) -> Bank:
         """The same bank, its files and solvers read again."""
+        forget(self._figures)
         return Bank(self.root, trusted=self.trusted)
 
     def solver(self, name: str) -> ModuleType:
@@ -177,9 +182,27 @@ class Bank:
         file = self._solvers / f"{name}.py"
         if not file.exists() and self.root == builtin_root():
             raise _SolverError(f"solver {file}: no such solver")
-        if file.exists() and not self.trusted:
-            raise BankError(f"{file}: this bank brings its own Python; allow it with --trust")
+        if file.exists():
+            self._must_be_trusted(file)
         return file.exists()
+
+    def figure(self, name: str) -> ModuleType | None:
+        """Import a figure of the bank's own; None if it has none of this name.
+
+        Raises
+        ------
+        BankError
+            If it fails, or the bank is not trusted.
+        """
+        file = self._figures / f"{name}.py"
+        if not is_name(name) or not file.exists():
+            return None
+        self._must_be_trusted(file)
+        return module_of(self._figures, name)
+
+    def _must_be_trusted(self, file: Path) -> None:
+        if not self.trusted:
+            raise BankError(f"{file}: this bank brings its own Python; allow it with --trust")
 
     def rules(self, name: str) -> Rules:
         """Checked ``template.toml`` of a template, without loading solver or prose."""
@@ -253,7 +276,10 @@ class Bank:
         digest = digest_of(*(read_bytes(path, BankError) for path in files), source, *words)
         ordered: dict[str, Text] = {lang: texts[lang] for lang in order}
         quantities = self.quantities.get(rules.solver, Quantities())
-        template = Template(name, rules, chain, ordered, digest, folder, self.about, quantities)
+        figure = self.figure(rules.figure.name) if rules.figure else None
+        template = Template(
+            name, rules, chain, ordered, digest, folder, self.about, quantities, figure
+        )
         try:
             check_against_chain(template)
         except QuizgenError as error:
@@ -267,6 +293,8 @@ class Bank:
             yield msgspec.json.encode(self.about.counted)
         if any(answer.get("kind") == "gap" for answer in answers):
             yield msgspec.json.encode(self.about.terms)
+        if self.about.units:
+            yield msgspec.json.encode(self.about.units)
 
     def __iter__(self) -> Iterator[Template]:
         """All templates in alphabetical order."""

@@ -18,7 +18,6 @@ from quizgen.maths.numbers import places, rational, to_float, written
 from quizgen.maths.precision import working_precision
 from quizgen.maths.systems import Compiled, compile_inner, exact
 from quizgen.maths.tree import names
-from quizgen.maths.units import factor
 from quizgen.maths.values import Value, Values
 
 T = TypeVar("T")
@@ -142,12 +141,13 @@ class Plan:
     @cached_property
     def base_factors(self) -> dict[str, fmpq]:
         """Given quantity to the factor from its shown unit to base units."""
-        return {n: factor(self.template.units.get(n, "")) for n in self.template.chain.given}
+        template = self.template
+        return {n: template.factor(template.units.get(n, "")) for n in template.chain.given}
 
     @cached_property
     def step_factors(self) -> dict[str, fmpq]:
         """Step to the factor from its shown unit to base units."""
-        return {step.name: factor(step.unit) for step in self.template.chain.steps}
+        return {step.name: self.template.factor(step.unit) for step in self.template.chain.steps}
 
     def solve(self, shown: Mapping[str, fmpq]) -> dict[str, Value]:
         """Run the chain on shown values."""

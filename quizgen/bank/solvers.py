@@ -60,7 +60,7 @@ class _Finder(PathFinder):
 
 
 def _mounted(folder: Path) -> str:
-    """Private name of the package that a folder of solvers is."""
+    """Private name of the package that a folder of solvers or figures is."""
     name = _PRIVATE + digest_of(str(folder.resolve()).encode())[:8]
     with _LOCK:
         if _Finder not in sys.meta_path:
@@ -72,7 +72,7 @@ def _mounted(folder: Path) -> str:
 
 
 def module_of(folder: Path, name: str) -> ModuleType:
-    """Import a solver.
+    """Import a solver or a figure.
 
     Raises
     ------
@@ -81,6 +81,14 @@ def module_of(folder: Path, name: str) -> ModuleType:
     """
     with authored(folder / f"{name}.py"):
         return importlib.import_module(f"{_mounted(folder)}.{name.replace('/', '.')}")
+
+
+def forget(folder: Path) -> None:
+    """Have all modules of a folder read again."""
+    inside = f"{_mounted(folder)}."
+    for module in [module for module in list(sys.modules) if module.startswith(inside)]:
+        del sys.modules[module]
+    importlib.invalidate_caches()
 
 
 def chain_of(folder: Path, name: str) -> tuple[Chain, bytes]:
@@ -117,10 +125,7 @@ def _sources(folder: Path, name: str) -> list[bytes]:
 
 def _compiled(folder: Path, name: str) -> Chain:
     """Run a solver as it is now, and what it imports."""
-    inside = f"{_mounted(folder)}."
-    for module in [module for module in list(sys.modules) if module.startswith(inside)]:
-        del sys.modules[module]
-    importlib.invalidate_caches()
+    forget(folder)
     model = getattr(module_of(folder, name), "MODEL", None)
     file = folder / f"{name}.py"
     if not isinstance(model, Model):

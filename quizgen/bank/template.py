@@ -10,9 +10,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import msgspec
+from flint import fmpq
 
 from quizgen.bank.about import About
 from quizgen.bank.compiled import Compiled
@@ -23,7 +25,6 @@ from quizgen.errors import BankError, FormulaError
 from quizgen.maths.chain import Chain
 from quizgen.maths.notation import parse
 from quizgen.maths.tree import Expr, names
-from quizgen.maths.units import unit
 from quizgen.outside import parse_toml, read_text
 
 PART_LABELS = "abcdefghij"
@@ -52,6 +53,8 @@ class Template:
     quantities : Quantities
         What the letters of its solver mean; only forms made from the chain say so, which is why
         ``digest`` leaves it out.
+    figure : module, optional
+        What draws its figure, if that is one of the bank's own.
     """
 
     id: str
@@ -62,6 +65,7 @@ class Template:
     path: Path = field(default=Path())
     about: About = field(default=About())
     quantities: Quantities = field(default=Quantities())
+    figure: ModuleType | None = None
 
     def __repr__(self) -> str:
         return f"<Template {self.id}, in {', '.join(self.texts)}>"
@@ -93,6 +97,10 @@ class Template:
         given = dict(self.chain.given)
         steps = {step.name: step.unit for step in self.chain.steps}
         return {**given, **{k: v for k, v in drawn.items() if v or k not in given}, **steps}
+
+    def factor(self, unit: str) -> fmpq:
+        """Exact factor from a unit, listed or of the bank, to base units."""
+        return self.about.system.factor(unit)
 
     @cached_property
     def labels(self) -> tuple[str, ...]:
@@ -171,10 +179,6 @@ def _check_draws(path: Path, rules: Rules) -> None:
         ways = [w for w in ("pick", "range", "words", "formula") if getattr(rule, w)]
         if len(ways) != 1:
             raise BankError(f"{path}: draw.{name}: give exactly one of pick, range, words, is")
-        try:
-            unit(rule.unit)
-        except FormulaError as error:
-            raise BankError(f"{path}: draw.{name}: {error}") from error
 
 
 def check_against_chain(template: Template) -> None:
@@ -186,6 +190,12 @@ def check_against_chain(template: Template) -> None:
         If a drawn or kept quantity is unknown, or a given one is not drawn.
     """
     path, rules = template.file, template.rules
+    for name, unit in template.units.items():
+        try:
+            template.factor(unit)
+        except FormulaError as error:
+            place = f"draw.{name}" if name in rules.draw else f"solver {rules.solver!r}: {name}"
+            raise BankError(f"{path}: {place}: {error}") from error
     missing = set(template.chain.given) - set(rules.draw)
     if missing:
         raise BankError(f"{path}: draw lacks {sorted(missing)}, given in solver {rules.solver!r}")

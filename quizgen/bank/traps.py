@@ -21,7 +21,6 @@ from quizgen.maths.numbers import to_float
 from quizgen.maths.systems import compile_expr, floats
 from quizgen.maths.tolerance import MARGIN, RULES, Tolerance, tolerance_of
 from quizgen.maths.tree import names
-from quizgen.maths.units import factor
 
 TIE_MARGIN = 0.02
 """A value closer than this (in units of the asked decimal) to a rounding tie is redrawn."""
@@ -54,7 +53,8 @@ class PartPlan:
         )
         self.steps = tuple(step for step in template.chain.steps if step.name in needed)
         whole = 0.01 if self.answer.get("percent") else 1.0
-        self.asked = [(n, whole * to_float(factor(self.unit_of(template, n)))) for n in self.of]
+        factors = [template.factor(self.unit_of(template, n)) for n in self.of]
+        self.asked = [(n, whole * to_float(f)) for n, f in zip(self.of, factors, strict=True)]
         self.traps = {
             trap: template.chain.plan(wrong, floats())
             for trap, wrong in template.chain.traps.items()
@@ -184,7 +184,7 @@ class _Bound:
     def __init__(self, template: Template, text: str) -> None:
         tree = template.formula(text)
         self.compiled = compile_expr(tree, floats())
-        self.sizes = {n: to_float(factor(template.units[n])) for n in names(tree)}
+        self.sizes = {n: to_float(template.factor(template.units[n])) for n in names(tree)}
 
     def at(self, env: Mapping[str, float], shown: Mapping[str, fmpq]) -> float:
         """Its value in a draw."""

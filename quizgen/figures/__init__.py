@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import lru_cache
+from types import ModuleType
 from typing import TYPE_CHECKING
 
 from quizgen.errors import BankError
@@ -22,6 +23,7 @@ from quizgen.maths.notation import people
 
 if TYPE_CHECKING:
     from quizgen.figures._canvas import Canvas
+    from quizgen.figures._table import FigureModule
 
 PHOTOGRAPHS = frozenset(
     {"artefacts", "depth_of_field", "fall_off", "focus_photos", "grey_edits", "noise"}
@@ -29,7 +31,7 @@ PHOTOGRAPHS = frozenset(
 """Figures that are pictures of the camera."""
 
 
-def parameters(name: str) -> Mapping[str, Parameter]:
+def parameters(name: str, own: ModuleType | None = None) -> Mapping[str, Parameter]:
     """Parameters of a figure: name to unit, meaning and default.
 
     Raises
@@ -37,12 +39,17 @@ def parameters(name: str) -> Mapping[str, Parameter]:
     BankError
         If there is no such figure.
     """
-    from quizgen.figures._table import figure_module
-
-    return figure_module(name).PARAMETERS
+    return _module(name, own).PARAMETERS
 
 
-def render(name: str, values: Mapping[str, float], *, quiz: bool, lang: str) -> Figure:
+def render(
+    name: str,
+    values: Mapping[str, float],
+    *,
+    quiz: bool,
+    lang: str,
+    own: ModuleType | None = None,
+) -> Figure:
     """Draw a figure, or take it from the cache.
 
     Parameters
@@ -55,6 +62,8 @@ def render(name: str, values: Mapping[str, float], *, quiz: bool, lang: str) -> 
         Hide what the question asks for.
     lang : str
         Language of the alt text; the drawing itself has no words.
+    own : module, optional
+        What draws it, if it is a bank's own.
 
     Returns
     -------
@@ -69,33 +78,48 @@ def render(name: str, values: Mapping[str, float], *, quiz: bool, lang: str) -> 
     if lang not in languages():
         known = ", ".join(languages())
         raise BankError(f"figure {name!r}: no alt text in {lang!r}, only in {known}")
-    full = complete(name, parameters(name), values)
-    return _render(name, tuple(full.items()), quiz, lang)
+    module = _module(name, own)
+    full = complete(name, module.PARAMETERS, values)
+    return _render(module, tuple(full.items()), quiz, lang)
 
 
-def in_words(name: str, values: Mapping[str, float], *, quiz: bool, lang: str) -> str:
+def in_words(
+    name: str,
+    values: Mapping[str, float],
+    *,
+    quiz: bool,
+    lang: str,
+    own: ModuleType | None = None,
+) -> str:
     """What a figure shows, in words, without drawing it; parameters and errors as of ``render``."""
-    from quizgen.figures._table import figure_module
+    module = _module(name, own)
+    return _words(module, complete(name, module.PARAMETERS, values), lang, quiz=quiz)
 
-    full = complete(name, parameters(name), values)
-    return people.names_in(figure_module(name).alt(full, lang, quiz=quiz))
+
+def _module(name: str, own: ModuleType | None) -> FigureModule:
+    from quizgen.figures._table import checked, figure_module
+
+    return checked(name, own) if own else figure_module(name)
+
+
+def _words(module: FigureModule, values: Mapping[str, float], lang: str, *, quiz: bool) -> str:
+    return people.names_in(module.alt(values, lang, quiz=quiz))
 
 
 @lru_cache(maxsize=256)
-def _render(name: str, items: tuple[tuple[str, float], ...], quiz: bool, lang: str) -> Figure:
-    from quizgen.figures._table import figure_module
-
-    words = in_words(name, dict(items), quiz=quiz, lang=lang)
-    return Figure(_drawn(name, items, quiz), words, lang, figure_module(name).DARK)
+def _render(
+    module: FigureModule, items: tuple[tuple[str, float], ...], quiz: bool, lang: str
+) -> Figure:
+    words = _words(module, dict(items), lang, quiz=quiz)
+    return Figure(_drawn(module, items, quiz), words, lang, module.DARK)
 
 
 @lru_cache(maxsize=256)
-def _drawn(name: str, items: tuple[tuple[str, float], ...], quiz: bool) -> Canvas:
+def _drawn(module: FigureModule, items: tuple[tuple[str, float], ...], quiz: bool) -> Canvas:
     from quizgen.figures._canvas import Canvas
-    from quizgen.figures._table import figure_module
 
     canvas = Canvas()
-    figure_module(name).draw(canvas, dict(items), quiz=quiz)
+    module.draw(canvas, dict(items), quiz=quiz)
     return canvas
 
 

@@ -6,7 +6,8 @@ The modules load neither NumPy nor matplotlib before they draw.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Protocol
+from types import ModuleType
+from typing import TYPE_CHECKING, Protocol, cast
 
 from quizgen.errors import BankError
 from quizgen.figures import (
@@ -48,6 +49,10 @@ class FigureModule(Protocol):
     DARK: str
     """``"invert"`` for line art on nothing, ``"keep"`` for pictures on white."""
 
+    def __hash__(self) -> int:
+        """Modules are what drawn figures are kept by."""
+        ...
+
     def draw(self, canvas: Canvas, values: Values, *, quiz: bool) -> None:
         """Draw on an empty ``Canvas``: symbols and digits only."""
         ...
@@ -76,6 +81,20 @@ FIGURES: Mapping[str, FigureModule] = {
     "staircase": staircase,
     "thin_lens": thin_lens,
 }
+
+
+def checked(name: str, module: ModuleType) -> FigureModule:
+    """A module that draws a figure of a bank's own.
+
+    Raises
+    ------
+    BankError
+        If it lacks something that a figure has.
+    """
+    for wanted in ("PARAMETERS", "DARK", "draw", "alt"):
+        if not hasattr(module, wanted):
+            raise BankError(f"figure {name!r}: the module has no {wanted} (see docs/figures.md)")
+    return cast("FigureModule", module)
 
 
 def figure_module(name: str) -> FigureModule:

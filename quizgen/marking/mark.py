@@ -92,7 +92,8 @@ def _check_arguments(typed: object, lang: str, decimal: str) -> None:
 def judge(spec: Kind, typed: str, options: Options) -> Verdict:
     """Return the language-free verdict of one answer."""
     try:
-        return spec.judge(typed, options)
+        with spec.known_units().in_use():
+            return spec.judge(typed, options)
     except ReadError as error:
         return unread(error)
 
@@ -152,7 +153,8 @@ def show(spec: Table | Kind, lang: str = "en") -> str:
         If the spec is wrong.
     """
     kind = load_spec(spec) if isinstance(spec, Mapping) else spec
-    return kind.show_in(lang)
+    with kind.known_units().in_use():
+        return kind.show_in(lang)
 
 
 __all__ = ["Context", "Options", "Verdict", "explained", "judge", "load_spec", "mark", "show"]

@@ -17,6 +17,7 @@ from quizgen.marking.reading.unit_words import plain_unit
 from quizgen.marking.verdict import Verdict
 from quizgen.maths.constants import Scalar, exact_value
 from quizgen.maths.tolerance import Tolerance
+from quizgen.maths.units import System, system
 from quizgen.maths.values import Value
 
 Notes = dict[str, dict[str, str]]
@@ -45,6 +46,10 @@ class Common:
     def value_units(self) -> list[str]:
         """The unit of each value: the one that the chain shows."""
         return [""] * len(self.of)
+
+    def known_units(self) -> System:
+        """The units that may be typed: those listed, and those of the question's bank."""
+        return system()
 
     @abstractmethod
     def judge(self, typed: str, options: Options, /) -> Verdict:
@@ -80,7 +85,10 @@ class Worded(Common, msgspec.Struct, kw_only=True, frozen=True, omit_defaults=Tr
 
 
 class Measured(Common, Tolerance, kw_only=True, frozen=True):
-    """Fields of every kind whose key is made of numbers: those of all, and the tolerance."""
+    """Fields of every kind whose key is made of numbers: those of all, and the tolerance.
+
+    ``define`` are the units of the question's bank, each as ``bank.toml`` defines it.
+    """
 
     kind: str
     traps: Mapping[str, Scalar | list[Scalar] | dict[str, Scalar]] = msgspec.field(
@@ -88,6 +96,11 @@ class Measured(Common, Tolerance, kw_only=True, frozen=True):
     )
     notes: Notes = msgspec.field(default_factory=dict)
     of: list[str] | dict[str, str] = msgspec.field(default_factory=list)
+    define: tuple[str, ...] = ()
+
+    def known_units(self) -> System:
+        """The units that may be typed: those listed, and those of the question's bank."""
+        return system(self.define)
 
 
 class OneNumber(Measured, kw_only=True, frozen=True):
@@ -191,7 +204,8 @@ def decode(shape: type[Shape], table: Table) -> Shape:
     """
     try:
         spec = msgspec.convert(table, shape)
-        spec.validate()
+        with spec.known_units().in_use():
+            spec.validate()
     except (msgspec.ValidationError, FormulaError, ValueError, TypeError) as error:
         raise KeyFileError(f"spec ({table['kind']}): {error}") from None
     return spec

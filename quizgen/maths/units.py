@@ -3,19 +3,27 @@
 A unit is a product of powers of base units times an exact factor, so ``um/px``, ``lx*s`` and
 ``mm^2`` work without a units library. Names that are not listed are refused, never guessed
 (a units library reads ``6 EV`` as exavolt and ``5.6 MP`` as megapoise).
+
+A bank may define further ones (``unit_definitions``). They belong to its own questions alone: a
+``System`` holds the listed units and those of one bank; ``unit`` and ``factor`` look names up in
+the system in use, which is the list itself unless somebody says ``with system.in_use()``.
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache, lru_cache
+from functools import lru_cache
 
 from flint import fmpq
 
 from quizgen.errors import FormulaError
 from quizgen.maths.numbers import rational
+from quizgen.maths.unit_definitions import Definition, read
 
 Dimension = tuple[tuple[str, int], ...]
 
@@ -90,52 +98,141 @@ def _simple_units() -> dict[str, tuple[str, Fraction]]:
 
 
 SIMPLE = _simple_units()
-"""Every simple unit: written name to (base unit, exact factor)."""
+"""Every listed simple unit: written name to (base unit, exact factor)."""
 
 _PART = re.compile(r"(?P<op>[*/·]?)(?P<name>e-|[^*/·^]+)(?:\^(?P<power>-?\d))?")
 
 
-@cache
-def unit(text: str) -> Unit:
-    """Look a unit up.
+class System:
+    """The listed units and those that one bank defines.
 
     Parameters
     ----------
-    text : str
-        A listed name, or a product such as ``um/px`` or ``lx*s``.
+    definitions : tuple of str
+        Lines such as ``"newton = kg * m / s**2 = N"``, each over units listed or defined before.
 
     Raises
     ------
     FormulaError
-        If a name is not in the list.
+        If a line cannot be read, or gives a name that there is already.
     """
-    compact = text.replace(" ", "")
-    factor, powers = Fraction(1), dict[str, int]()
-    position = 0
-    while position < len(compact):
-        match = _PART.match(compact, position)
-        if match is None or match["name"] not in SIMPLE:
-            raise FormulaError(f"unknown unit {text!r}", position + 1)
-        name, size = SIMPLE[match["name"]]
-        power = int(match["power"] or 1) * (-1 if match["op"] == "/" else 1)
-        factor *= size**power
-        for base, times in _MADE_OF.get(name, ((name, 1),)):
-            powers[base] = powers.get(base, 0) + power * times
-        position = match.end()
-    powers.pop("", None)
-    return Unit(text, factor, tuple(sorted((b, p) for b, p in powers.items() if p)))
+
+    def __init__(self, definitions: tuple[str, ...] = ()) -> None:
+        self.definitions = definitions
+        self.simple = dict(SIMPLE)
+        self.words: dict[str, tuple[str, ...]] = {}
+        self._made_of: dict[str, Dimension] = dict(_MADE_OF)
+        self._known: dict[str, Unit] = {}
+        self._factors: dict[str, fmpq] = {}
+        for line in definitions:
+            self._define(read(line))
+
+    def _define(self, new: Definition) -> None:
+        spelt = {word for words in self.words.values() for word in words}
+        taken = {new.symbol, *new.words} & {*self.simple, *spelt}
+        if taken:
+            raise FormulaError(f"unit {new.text!r}: there is a unit {min(taken)!r} already")
+        size = Fraction(1)
+        if new.made_of is not None:
+            try:
+                whole = self.unit(new.made_of)
+            except FormulaError as error:
+                raise FormulaError(f"unit {new.text!r}: {error}") from error
+            size = new.size * whole.factor
+            self._made_of[new.symbol] = whole.dimension
+        prefixed = {p + new.symbol: (new.symbol, size * f) for p, f in PREFIXES.items()}
+        self.simple = {**prefixed, **self.simple, new.symbol: (new.symbol, size)}
+        self.words[new.symbol] = new.words
+        self._known.clear()
+
+    def unit(self, text: str) -> Unit:
+        """Look a unit up: a name, or a product such as ``um/px`` or ``lx*s``.
+
+        Raises
+        ------
+        FormulaError
+            If a name is not known.
+        """
+        if text not in self._known:
+            self._known[text] = self._look_up(text)
+        return self._known[text]
+
+    def _look_up(self, text: str) -> Unit:
+        compact = text.replace(" ", "")
+        factor, powers = Fraction(1), dict[str, int]()
+        position = 0
+        while position < len(compact):
+            match = _PART.match(compact, position)
+            if match is None or match["name"] not in self.simple:
+                raise FormulaError(f"unknown unit {text!r}", position + 1)
+            name, size = self.simple[match["name"]]
+            power = int(match["power"] or 1) * (-1 if match["op"] == "/" else 1)
+            factor *= size**power
+            for base, times in self._made_of.get(name, ((name, 1),)):
+                powers[base] = powers.get(base, 0) + power * times
+            position = match.end()
+        powers.pop("", None)
+        return Unit(text, factor, tuple(sorted((b, p) for b, p in powers.items() if p)))
+
+    def factor(self, text: str) -> fmpq:
+        """Exact factor from a unit to base units: 1/1000 for ``mm``.
+
+        Raises
+        ------
+        FormulaError
+            If a name is not known.
+        """
+        if text not in self._factors:
+            self._factors[text] = rational(self.unit(text).factor)
+        return self._factors[text]
+
+    @contextmanager
+    def in_use(self) -> Iterator[None]:
+        """Look units up here until the end of the block."""
+        before = _IN_USE.set(self)
+        try:
+            yield
+        finally:
+            _IN_USE.reset(before)
 
 
-@cache
+LISTED = System()
+
+
+@lru_cache(maxsize=256)
+def system(definitions: tuple[str, ...] = ()) -> System:
+    """The units of a bank, by its definitions."""
+    return System(definitions) if definitions else LISTED
+
+
+_IN_USE: ContextVar[System] = ContextVar("units", default=LISTED)
+
+
+def units_in_use() -> System:
+    """The units of the question at hand."""
+    return _IN_USE.get()
+
+
+def unit(text: str) -> Unit:
+    """Look a unit up among those in use.
+
+    Raises
+    ------
+    FormulaError
+        If a name is not known.
+    """
+    return units_in_use().unit(text)
+
+
 def factor(text: str) -> fmpq:
-    """Exact factor from a unit to base units: 1/1000 for ``mm``.
+    """Exact factor from a unit in use to base units: 1/1000 for ``mm``.
 
     Raises
     ------
     FormulaError
-        If a name is not in the list.
+        If a name is not known.
     """
-    return rational(unit(text).factor)
+    return units_in_use().factor(text)
 
 
 SHOWN = {"um": "µm", "deg": "°", "us": "µs", "uW": "µW", "e-": "e⁻"}

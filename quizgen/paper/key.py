@@ -21,7 +21,7 @@ from quizgen.maths.chain import Chain, ChainStep
 from quizgen.maths.constants import exact_value
 from quizgen.maths.numbers import written
 from quizgen.maths.precision import working_precision
-from quizgen.maths.units import factor
+from quizgen.maths.units import System, system
 from quizgen.paper.code import digest_of_parts
 
 if TYPE_CHECKING:
@@ -125,6 +125,10 @@ class KeyQuestion(msgspec.Struct):
     tier: str = ""
     title: dict[str, str] = {}
     chain: KeyChain | None = None
+
+    def known_units(self) -> System:
+        """The units of its chain: those listed, and those that its parts define."""
+        return system(next((tuple(p.spec["define"]) for p in self.parts if "define" in p.spec), ()))
 
 
 class Key(msgspec.Struct):
@@ -246,7 +250,7 @@ def _check_spec(part: KeyPart, place: str) -> None:
     try:
         spec = load_spec(part.in_order())
         for unit in spec.value_units():
-            factor(unit)
+            spec.known_units().factor(unit)
     except (KeyFileError, FormulaError) as error:
         raise KeyFileError(f"{place}: part {part.id!r}: {error}") from None
 
@@ -258,7 +262,7 @@ def _check_chain(question: KeyQuestion, place: str) -> None:
     try:
         question.chain.context({})
         for unit in question.chain.units().values():
-            factor(unit)
+            question.known_units().factor(unit)
     except FormulaError as error:
         raise KeyFileError(f"{place}: question {question.number!r}: chain: {error}") from None
 

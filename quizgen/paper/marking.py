@@ -17,7 +17,6 @@ from quizgen.marking.options import DECIMALS, Options
 from quizgen.marking.verdict import Verdict
 from quizgen.maths.notation import ReadError
 from quizgen.maths.precision import working_precision
-from quizgen.maths.units import factor
 from quizgen.paper.key import Key, KeyPart, KeyQuestion, load_key
 
 QUARTERS = 4
@@ -214,7 +213,7 @@ def _remember(question: KeyQuestion, spec: Kind, verdict: Verdict, earlier: dict
     triples = zip(spec.quantities(), verdict.values, spec.value_units(), strict=True)
     for name, value, unit in triples:
         if value is not None and name in units:
-            earlier[name] = value * factor(unit or units[name])
+            earlier[name] = value * spec.known_units().factor(unit or units[name])
 
 
 def _result(question: KeyQuestion, part: KeyPart, typed: str, verdict: Verdict) -> PartResult:

@@ -16,15 +16,12 @@ from quizgen.bank.draw import Draw, draw, reference
 from quizgen.bank.levels import EXAM
 from quizgen.bank.pools import named
 from quizgen.bank.prose import Block, Inline
-from quizgen.bank.rules import Scalar
 from quizgen.bank.template import Template
 from quizgen.errors import BankError
 from quizgen.figures import Drawing, Figure
-from quizgen.figures import render as render_figure
 from quizgen.marking.specs import AnySpec
 from quizgen.maths.notation import to_text
-from quizgen.maths.numbers import key_text, to_float
-from quizgen.maths.units import factor
+from quizgen.maths.numbers import key_text
 from quizgen.outside import located
 from quizgen.question.contract import Control
 from quizgen.question.filling import plain
@@ -32,6 +29,7 @@ from quizgen.question.kinds import KINDS
 from quizgen.question.levels import LEVELS, level_of
 from quizgen.question.levels.asking import Asked, Choice
 from quizgen.question.markup import blocks, inline
+from quizgen.question.picture import pictured
 from quizgen.question.shown import listed, pieces
 from quizgen.question.solution import Solution
 
@@ -229,7 +227,7 @@ def _worded(
         minutes=Fraction(template.minutes),
         stem=asking.stem,
         parts=tuple(_part(part, lang, number) for part in asking.parts),
-        figure=_figure(drawn, lang, quiz=True) if figures else None,
+        figure=pictured(drawn, lang, quiz=True) if figures else None,
     )
     key = Key(
         template=template.id,
@@ -239,7 +237,7 @@ def _worded(
         solution=asking.solution,
         chain=chain_table(drawn),
         draw=drawn,
-        figure=_figure(drawn, lang, quiz=False) if figures else None,
+        figure=pictured(drawn, lang, quiz=False) if figures else None,
         level=level,
     )
     return question, key
@@ -265,26 +263,6 @@ def _part(asked: Asked, lang: str, number: str) -> Part:
     return Part(asked.label, asked.points, asked.body, field)
 
 
-def figure_values(drawn: Draw) -> dict[str, Any]:
-    """Parameters of the template's figure, as floats in shown units (words stay words)."""
-    rule = drawn.template.rules.figure
-    return {name: _parameter(drawn, source) for name, source in rule.values.items()} if rule else {}
-
-
-def _parameter(drawn: Draw, source: Scalar) -> float | str:
-    """A number as written, a drawn phrase by its name, or the value of a formula."""
-    if not isinstance(source, str):
-        return source
-    return drawn.words.get(source) or to_float(drawn.computed(source))
-
-
-def _figure(drawn: Draw, lang: str, *, quiz: bool) -> Figure | None:
-    rule = drawn.template.rules.figure
-    if rule is None or (quiz and not rule.quiz):
-        return None
-    return render_figure(rule.name, figure_values(drawn), quiz=quiz, lang=lang)
-
-
 def chain_table(drawn: Draw) -> dict[str, Any] | None:
     """The chain with its numbers as plain JSON, for marking without SymPy."""
     chain = drawn.template.chain
@@ -294,7 +272,7 @@ def chain_table(drawn: Draw) -> dict[str, Any] | None:
     return {
         "given": {
             name: {
-                "value": key_text(drawn.shown[name] * factor(units.get(name, ""))),
+                "value": key_text(drawn.shown[name] * drawn.template.factor(units.get(name, ""))),
                 "unit": units.get(name, ""),
             }
             for name in chain.given

@@ -16,7 +16,6 @@ from quizgen.marking.mark import show
 from quizgen.marking.specs import AnySpec, Measured
 from quizgen.maths.constants import Scalar
 from quizgen.maths.numbers import key_text, rational, short_decimal
-from quizgen.maths.units import SIMPLE
 from quizgen.maths.values import Value
 from quizgen.question.contract import Built, Named, S
 from quizgen.question.filling import Filler, as_typed, plain
@@ -59,7 +58,8 @@ def specification(shape: type[S], drawn: Draw, index: int, **given: object) -> S
         table["accept"] = [key_text(drawn.computed(str(bound))) for bound in answer["accept"]]
     try:
         spec = msgspec.convert({**table, **given}, shape)
-        spec.validate()
+        with spec.known_units().in_use():
+            spec.validate()
     except (msgspec.ValidationError, FormulaError, ValueError) as error:
         raise complaint(drawn, index, str(error)) from error
     return spec
@@ -90,6 +90,8 @@ def numeric(
     """
     wrong = {trap: write(values) for trap, values in drawn.mistaken(index).items()}
     found = {"of": list(answer_names(answer_of(drawn, index))), key: write(drawn.answer(index))}
+    defined = drawn.template.about.units
+    found |= {"define": list(defined)} if defined else {}
     found |= counts(drawn, index) if "counts" in shape.__struct_fields__ else {}
     traps = {"traps": wrong, "notes": notes(drawn, wrong)} if wrong else {}
     spec = specification(shape, drawn, index, **{**found, **traps, **given})
@@ -110,11 +112,11 @@ def counts(drawn: Draw, index: int) -> dict[str, Any]:
 
 def _words(drawn: Draw, index: int, things: str | list[str]) -> list[str]:
     """Listed units as they are, and the bank's words for whatever else is counted."""
-    known, found = drawn.template.about.counted, list[str]()
+    about, found = drawn.template.about, list[str]()
     for thing in [things] if isinstance(things, str) else things:
-        if thing not in SIMPLE and thing not in known:
+        if thing not in about.system.simple and thing not in about.counted:
             raise complaint(drawn, index, f"counts: {thing!r} is neither a unit nor in bank.toml")
-        found += known.get(thing, (thing,))
+        found += about.counted.get(thing, (thing,))
     return found
 
 

@@ -131,8 +131,9 @@ def _simple_unit(part: Part, words: Words, *, one: bool) -> str:
     if part.name in words.units:
         return words.units[part.name][not one]
     prefix = {"µ": "u", "μ": "u"}.get(part.name[0], part.name[0])
-    pair = _known(words.units, part.name[1:], "unit")
-    return _known(words.prefixes, prefix, "prefix").format(pair[not one])
+    if part.name[1:] not in words.units:
+        return part.shown  # a unit of the bank's own
+    return _known(words.prefixes, prefix, "prefix").format(words.units[part.name[1:]][not one])
 
 
 @_say.register

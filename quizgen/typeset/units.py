@@ -8,12 +8,15 @@ from typing import NamedTuple
 
 from quizgen.errors import RenderError
 from quizgen.maths.superscripts import LOWERED
-from quizgen.maths.units import SHOWN, SIMPLE
+from quizgen.maths.units import SHOWN
 
 TIGHT = frozenset({"deg", "°"})
 """Units set without a space after the number."""
 
 _PART = re.compile(r"(?P<sign>[*/·]?)(?P<name>e[-⁻]|[^*/·^⁻⁰-⁹²³]+)(?:\^?(?P<power>-?\d|⁻?[²³¹]))?")
+
+
+_NAME = re.compile(r"[^\W\d_]+|e-|[%°1]")
 
 
 class Part(NamedTuple):
@@ -32,14 +35,14 @@ def parts(text: str) -> tuple[Part, ...]:
     Raises
     ------
     RenderError
-        If a part is not in the closed list of units.
+        If a part is no name of a unit.
     """
     compact = text.replace(" ", "")
     found, position = [], 0
     while position < len(compact):
         match = _PART.match(compact, position)
-        listed = match and match["name"].replace("⁻", "-")
-        if match is None or listed not in SIMPLE:
+        listed = match["name"].replace("⁻", "-") if match else ""
+        if match is None or not _NAME.fullmatch(listed):
             raise RenderError(f"no way to print the unit {text!r}")
         sign = "/" if match["sign"] == "/" else "·" * bool(match["sign"])
         power = (match["power"] or "").translate(LOWERED)

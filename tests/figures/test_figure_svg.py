@@ -55,7 +55,7 @@ patch.linewidth: 5
 
 def test_every_module_is_listed():
     modules = {path.stem for path in (HERE.parents[1] / "quizgen/figures").glob("[a-z]*.py")}
-    assert modules == set(FIGURES) == set(REFERENCE)
+    assert modules - {"kit"} == set(FIGURES) == set(REFERENCE)
 
 
 def test_bytes_are_equal_in_every_process(tmp_path):

@@ -23,6 +23,7 @@ FULL = [
     {"kind": "quantity", "rel": "0.005", "value": "50", "unit": "mm", "bare": True,
      "traps": {"half": "25"}, "notes": NOTES, "of": ["f"]},
     {"kind": "angle", "abs": "0.5", "value": "140", "period": "180", "of": ["H"]},
+    {"kind": "set", "values": ["1", "2"], "unit": "kg", "define": ["gram = [mass] = g"]},
     {"kind": "point", "exact": True, "values": ["440", "160"], "names": ["u", "v"], "unit": "px",
      "counts": ["px"], "up_to_scale": True, "traps": {"half": ["1", "2"]}, "of": ["u", "v"]},
     {"kind": "table", "exact": True, "values": {"V": "1", "H": "2"}, "units": {"V": "px"},
@@ -59,7 +60,9 @@ def named(spec) -> str:
 def test_every_field_of_every_kind_is_looked_at():
     for shape in KINDS.values():
         looked_at = {name for spec in FULL if KINDS[spec["kind"]] is shape for name in spec}
-        common = {*Tolerance.__struct_fields__, "traps", "notes", "why", "of"} - {"accept"}
+        common = {*Tolerance.__struct_fields__, "traps", "notes", "why", "of", "define"} - {
+            "accept"
+        }
         assert {*shape.__struct_fields__} - common - {"accept"} <= looked_at, shape
 
 

@@ -23,16 +23,20 @@ def notes(wish: Wish) -> Iterator[Note]:
             "Back": {lang: passage(entry, "answer", lang) for lang in wish.langs},
         }
         pictures = {
-            "Figure": (_picture(entry, wish.langs, quiz=True),),
-            "Answer figure": (_picture(entry, wish.langs, quiz=False),),
+            "Figure": (_picture(entry, wish, quiz=True),),
+            "Answer figure": (_picture(entry, wish, quiz=False),),
         }
         refs = (entry.id, *entry.refs)
         yield replace(noted(wish, entry, "figure", sides, refs), shared=pictures)
 
 
-def _picture(entry: FigureEntry, langs: tuple[str, ...], *, quiz: bool) -> Picture:
+def _picture(entry: FigureEntry, wish: Wish, *, quiz: bool) -> Picture:
     try:
-        drawn = [figures.render(entry.figure, entry.values, quiz=quiz, lang=lang) for lang in langs]
+        own = wish.bank.figure(entry.figure)
+        drawn = [
+            figures.render(entry.figure, entry.values, quiz=quiz, lang=lang, own=own)
+            for lang in wish.langs
+        ]
     except BankError as error:
         raise BankError(f"{entry.place}: {error}") from error
     return Picture(entry.figure, drawn[0], " / ".join(figure.alt for figure in drawn))

@@ -7,6 +7,7 @@ from typing import Protocol
 
 from quizgen.marking.options import Options
 from quizgen.marking.verdict import Verdict
+from quizgen.maths.units import System
 
 
 class Kind(Protocol):
@@ -54,6 +55,10 @@ class Kind(Protocol):
 
     def show_in(self, lang: str, /) -> str:
         """The same, in the words of a language."""
+        ...
+
+    def known_units(self) -> System:
+        """The units that may be typed."""
         ...
 
     def quantities(self) -> list[str]:

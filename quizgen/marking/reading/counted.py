@@ -9,8 +9,8 @@ from functools import lru_cache
 
 from quizgen.locale import in_letters_of, known
 from quizgen.marking.reading.source import Source
-from quizgen.maths.units import SIMPLE
 from quizgen.maths.units import shown as shown_unit
+from quizgen.maths.units import units_in_use
 
 MOST_WORDS, LONGEST_WORD = 60, 60
 
@@ -29,7 +29,7 @@ def check_counted(words: list[str]) -> None:
 
 def without_counted(source: Source, words: Iterable[str]) -> Source:
     """Drop the word for what is counted, behind or before the number."""
-    named = tuple(word for word in words if word not in SIMPLE) if words else ()
+    named = tuple(word for word in words if word not in units_in_use().simple) if words else ()
     if not named:
         return source
     behind, before = _patterns(named)
@@ -42,12 +42,12 @@ def without_counted(source: Source, words: Iterable[str]) -> Source:
 
 def counted_unit(words: Iterable[str]) -> str:
     """The listed unit among the words for what is counted, or an empty text."""
-    return next((word for word in words if word in SIMPLE), "")
+    return next((word for word in words if word in units_in_use().simple), "")
 
 
 def counted_name(words: list[str], lang: str) -> str:
     """What is counted, as it is called in a language."""
-    if words[0] in SIMPLE:
+    if words[0] in units_in_use().simple:
         return shown_unit(words[0])
     return next((word for word in words if in_letters_of(known(lang), word)), words[0])
 

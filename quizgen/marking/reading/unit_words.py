@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from functools import lru_cache
-from typing import Any
+from collections.abc import Container, Iterator, Mapping
+from functools import cache, lru_cache
+from typing import Any, NamedTuple
 
 import msgspec
 from flint import arb
@@ -13,7 +13,7 @@ from flint import arb
 from quizgen.errors import FormulaError
 from quizgen.maths.numbers import rational
 from quizgen.maths.precision import working_precision
-from quizgen.maths.units import SIMPLE, Unit, unit
+from quizgen.maths.units import SIMPLE, System, Unit, units_in_use
 
 WORDS = {
     "pixel": "px",
@@ -180,19 +180,37 @@ _STEMS = {
 }
 
 
-def _prefixed() -> Iterator[tuple[str, str]]:
+def _prefixed(
+    stems: Mapping[str, tuple[str, ...]], simple: Container[str]
+) -> Iterator[tuple[str, str]]:
     """``megabytes`` and ``MBytes``: every prefix a unit may have, before every word for it."""
-    for listed, words in _STEMS.items():
+    for listed, words in stems.items():
         for letter, spoken in (_LARGE | _SMALL).items():
-            if letter + listed in SIMPLE:
+            if letter + listed in simple:
                 yield from ((f"{p}{word}", letter + listed) for p in spoken for word in words)
-            if letter in _LARGE and letter + listed in SIMPLE:
+            if letter in _LARGE and letter + listed in simple:
                 yield from ((letter + word, letter + listed) for word in words)
                 yield from ((letter + word.capitalize(), letter + listed) for word in words)
 
 
-WORDS = {**dict(_prefixed()), **WORDS}
-_LOWER = {word.lower(): name for word, name in WORDS.items() if len(word) > 3}
+WORDS = {**dict(_prefixed(_STEMS, SIMPLE)), **WORDS}
+
+
+class _Spellings(NamedTuple):
+    """Words for units: as they are written, and in small letters where they are long enough."""
+
+    written: Mapping[str, str]
+    lower: Mapping[str, str]
+
+
+@cache
+def _spellings(known: System) -> _Spellings:
+    """The words for the listed units, and for those that a bank defines."""
+    own = {word: symbol for symbol, words in known.words.items() for word in words}
+    words = {**dict(_prefixed(known.words, known.simple)), **own, **WORDS}
+    return _Spellings(words, {word.lower(): to for word, to in words.items() if len(word) > 3})
+
+
 _POWER_OF_UNIT = re.compile(r"(?<=[^\W\d_])\^?\(?(-?\d)\)?(?!\d)")
 _POINTS = re.compile(r"\. ?")
 _BRACKETS = re.compile(r"[(\[]([^()\[\]*/· ]+)[)\]]")
@@ -208,13 +226,17 @@ class TypedUnit(msgspec.Struct, frozen=True):
     dimension: tuple[tuple[str, int], ...]
 
 
+def plain_unit(listed: str) -> TypedUnit:
+    """Look up a unit in use; ``rad`` counts as 180/π degrees."""
+    return _plain(units_in_use(), listed)
+
+
 @lru_cache(maxsize=2048)
 @working_precision()
-def plain_unit(listed: str) -> TypedUnit:
-    """Look up a listed unit; ``rad`` counts as 180/π degrees."""
+def _plain(known: System, listed: str) -> TypedUnit:
     if listed == "rad":
         return TypedUnit("rad", 180 / arb.pi(), (("deg", 1),))
-    found: Unit = unit(listed)
+    found: Unit = known.unit(listed)
     return TypedUnit(listed, rational(found.factor), found.dimension)
 
 
@@ -227,17 +249,18 @@ def _word(word: str) -> str:
         If no unit is spelled like this.
     """
     word = word.strip().rstrip(".").strip()
-    if word in SIMPLE or word == "rad":
+    known = units_in_use()
+    if word in known.simple or word == "rad":
         return word
-    listed = WORDS.get(word) or _LOWER.get(word.lower()) or WORDS.get(_POINTS.sub("", word))
+    words, lower = _spellings(known)
+    listed = words.get(word) or lower.get(word.lower()) or words.get(_POINTS.sub("", word))
     if listed is None and word.startswith(("µ", "μ")):
-        listed = "u" + word[1:] if "u" + word[1:] in SIMPLE else None
+        listed = "u" + word[1:] if "u" + word[1:] in known.simple else None
     if listed is None:
         raise FormulaError(f"unknown unit {word!r}")
     return listed
 
 
-@lru_cache(maxsize=2048)
 def typed_unit(text: str) -> TypedUnit:
     """Read a typed unit such as ``mm``, ``Pixel``, ``µm/px``, ``lx s``, ``mm²``, ``1/mm``.
 
@@ -246,7 +269,11 @@ def typed_unit(text: str) -> TypedUnit:
     FormulaError
         If a name in it is not listed.
     """
-    text = text.strip()
+    return _typed(units_in_use(), text.strip())
+
+
+@lru_cache(maxsize=2048)
+def _typed(_known: System, text: str) -> TypedUnit:
     try:
         return plain_unit(_word(text))
     except FormulaError:
@@ -285,5 +312,5 @@ def _powered(word: str) -> str:
 def suggestion(text: str) -> str:
     """Return a listed unit that differs from an unknown word in case only, or an empty text."""
     wanted = text.strip().lower()
-    found = [name for name in SIMPLE if name.lower() == wanted and name]
+    found = [name for name in units_in_use().simple if name.lower() == wanted and name]
     return min(found, key=lambda name: (name != wanted, name)) if found else ""

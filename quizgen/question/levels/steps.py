@@ -39,7 +39,6 @@ from quizgen.maths.precision import working_precision
 from quizgen.maths.systems import compile_expr, exact, taken_branch
 from quizgen.maths.tolerance import RULES
 from quizgen.maths.tree import Call, Expr, Num, Sym, names, walk
-from quizgen.maths.units import factor
 from quizgen.maths.values import Value
 from quizgen.question.shown import Maths
 from quizgen.question.specs import answer_of, counts, notes
@@ -285,11 +284,12 @@ def same_value(a: Value, b: Value) -> bool:
 
 def value_spec(drawn: Draw, index: int, step: ChainStep) -> OneNumber:
     """What the value of a step is marked by: the rule of its part, and the step's own mistakes."""
-    answer = _rule_of(drawn, index, step)
+    answer, about = _rule_of(drawn, index, step), drawn.template.about
     unit = str(answer.get("unit", step.unit))
     table = _table(answer, unit, _counted(drawn, index, step))
+    table |= {"define": about.units} if about.units else {}
     with working_precision():
-        value = drawn.values[step.name] / factor(unit)
+        value = drawn.values[step.name] / drawn.template.factor(unit)
         table |= {"of": [step.name], "value": key_text(value), **_tolerance(answer, value)}
         traps = dict(_usable(drawn, step, _spec(table), value, unit))
     return _spec({**table, "traps": traps, "notes": notes(drawn, traps)} if traps else table)
@@ -309,15 +309,15 @@ def _usable(
 ) -> Iterator[tuple[str, str]]:
     """Mistakes that can be told from the key and from each other, with what they give."""
     width = APART * spec.outer_width(to_float(value))
-    taken = [to_float(value)]
+    taken, factor = [to_float(value)], drawn.template.factor(unit)
     for trap, expr in _wrong(drawn, step):
         wrong = value_of(drawn, expr)
         if wrong is None:
             continue
-        number = to_float(wrong / factor(unit))
+        number = to_float(wrong / factor)
         if all(abs(number - other) > width for other in taken):
             taken.append(number)
-            yield trap, key_text(wrong / factor(unit))
+            yield trap, key_text(wrong / factor)
 
 
 def _rule_of(drawn: Draw, index: int, step: ChainStep) -> Mapping[str, Any]:

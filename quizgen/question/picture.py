@@ -1,0 +1,42 @@
+"""The figure of a question, drawn or in words: one of ours, or one of the bank's own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import nullcontext
+from pathlib import Path
+from typing import TypeVar
+
+from quizgen.bank.draw import Draw
+from quizgen.bank.rules import Scalar
+from quizgen.bank.solvers import authored
+from quizgen.figures import Figure, in_words, render
+from quizgen.maths.numbers import to_float
+
+Shown = TypeVar("Shown")
+
+
+def pictured(drawn: Draw, lang: str, *, quiz: bool) -> Figure | None:
+    """The figure of a question; None if it has none."""
+    return _shown(render, drawn, lang, quiz=quiz)
+
+
+def described(drawn: Draw, lang: str, *, quiz: bool) -> str | None:
+    """The figure of a question in words, without drawing it; None if it has none."""
+    return _shown(in_words, drawn, lang, quiz=quiz)
+
+
+def _shown(show: Callable[..., Shown], drawn: Draw, lang: str, *, quiz: bool) -> Shown | None:
+    rule, own = drawn.template.rules.figure, drawn.template.figure
+    if rule is None or (quiz and not rule.quiz):
+        return None
+    values = {name: _parameter(drawn, source) for name, source in rule.values.items()}
+    with authored(Path(str(own.__file__))) if own else nullcontext():
+        return show(rule.name, values, quiz=quiz, lang=lang, own=own)
+
+
+def _parameter(drawn: Draw, source: Scalar) -> float | str:
+    """A number as written, a drawn phrase by its name, or the value of a formula."""
+    if not isinstance(source, str):
+        return source
+    return drawn.words.get(source) or to_float(drawn.computed(source))

@@ -1,0 +1,95 @@
+"""A small bank of mechanics: units, a figure, a solver and one language of its own."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+FILES = {
+    "templates/bank.toml": """
+name = "mechanics"
+version = "1.2"
+licence = "CC BY 4.0"
+authors = ["A. Lecturer"]
+requires = ">=0.1"
+languages = ["en"]
+units = ["gram = [mass] = g = grams", "newton = kg * m / s**2 = N", "bar = 100000 * N / m**2 = bar"]
+title.en = "Mechanics"
+topics.forces.en = "Forces"
+""",
+    "solvers/forces/newton.py": """
+from sympy import evaluate, symbols
+
+from quizgen.maths.model import Model, Step
+
+m, a, F = symbols("m a F")
+with evaluate(False):
+    MODEL = Model(
+        given={m: "kg", a: "m/s^2"},
+        steps=(Step(F, m * a, "N"),),
+        traps={"added": Step(F, m + a, "N")},
+    )
+""",
+    "templates/forces/push/template.toml": """
+topic = "forces"
+tier = "A"
+solver = "forces/newton"
+
+[draw]
+m = { range = [2, 9, 1], unit = "kg" }
+a = { pick = [3, 5, 7], unit = "m/s^2" }
+
+[figure]
+name = "block"
+values = { m = "m", F = "F" }
+
+[[part]]
+points = 2
+answer = { kind = "quantity", of = "F", unit = "N", rel = "0.01" }
+""",
+    "templates/forces/push/en.md": """# A push
+A block of {{ m }} shall be accelerated by {{ a }}.
+
+**How large is the force?**
+
+## steps
+- F: Force is mass times acceleration: {{ F }}.
+
+## traps
+- added: You added mass and acceleration.
+
+## check
+$F/m$ is $a$ again.
+""",
+    "figures/block.py": """
+from quizgen.figures.kit import BOLD, Canvas, Parameter, Pen, Values, equation
+
+DARK = "invert"
+PARAMETERS = {
+    "m": Parameter("kg", "mass", low=0.0),
+    "F": Parameter("N", "force", low=0.0),
+}
+
+
+def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
+    pen = Pen(height=60.0)
+    pen.area("block", [(120, 10), (180, 10), (180, 50), (120, 50)], BOLD)
+    pen.arrow("force", (180, 30), (250, 30))
+    pen.label((215, 42), equation("F", values["F"], "N", hide=quiz))
+    pen.onto(canvas)
+
+
+def alt(values: Values, lang: str, *, quiz: bool) -> str:
+    del lang
+    force = "of unknown size" if quiz else f"of {values['F']:g} N"
+    return f"A block of {values['m']:g} kg, pushed by a force {force}."
+""",
+}
+
+
+def write(root: Path, changes: dict[str, str] | None = None) -> Path:
+    """Write the bank, some of its files with other contents."""
+    for name, text in {**FILES, **(changes or {})}.items():
+        path = root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, "utf-8")
+    return root

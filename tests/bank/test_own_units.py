@@ -1,0 +1,139 @@
+"""Units and figures that a bank brings: read, printed, marked, and nobody else's."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+from click.testing import CliRunner
+from own_bank import FILES, write
+
+from quizgen.bank.folder import Bank, builtin
+from quizgen.cli.main import group
+from quizgen.errors import BankError, FormulaError
+from quizgen.marking.mark import mark
+from quizgen.maths.units import System, factor, system
+from quizgen.paper.key import load_key
+from quizgen.paper.marking import mark_paper
+from quizgen.question.compose import compose
+
+LINES = ("gram = [mass] = g = grams", "newton = kg * m / s**2 = N", "hour = 3600 * s = h")
+
+
+def test_a_unit_is_defined_as_pint_defines_it():
+    units = system(LINES)
+    assert units.unit("N").dimension == (("g", 1), ("m", 1), ("s", -2))
+    assert (units.factor("N"), units.factor("kg"), units.factor("mg")) == (
+        1000,
+        1000,
+        units.factor("g") / 1000,
+    )
+    assert units.factor("N*h") == 3600 * 1000
+    assert units.unit("N/kg").dimension == units.unit("m/s^2").dimension
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("newton", "expected"),
+        ("newton = = N", "expected"),
+        ("metre = [length] = m", "already"),
+        ("newton = kg * m = N", "unknown unit"),
+        ("pound 2 = [mass]", "no name"),
+        ("newton = [mass] = N2", "no symbol"),
+        ("zero = 0 * m = z", "no size"),
+        ("celsius = s; offset: 3 = C", "expected"),
+        ("odd = m s = o", "no product"),
+    ],
+)
+def test_a_definition_that_cannot_be_meant_is_refused(line, said):
+    with pytest.raises(FormulaError, match=said):
+        System((line,))
+
+
+FORCE = {"kind": "quantity", "value": "6", "unit": "N", "rel": "0.01", "define": list(LINES)}
+
+
+@pytest.mark.parametrize(
+    "typed",
+    [
+        "6 N",
+        "6 newtons",
+        "6000 mN",
+        "0.006 kN",
+        "6 kg*m/s^2",
+        "6 kg m/s²",
+        "6 Newton",
+        "0.006 kilonewton",
+        "F = 6 N",
+    ],
+)
+def test_a_unit_of_the_bank_is_read(typed):
+    assert mark(FORCE, typed).verdict == "correct"
+
+
+def test_units_of_the_bank_are_judged_and_asked_back_as_ours_are():
+    assert mark(FORCE, "6").note == "unit-missing"
+    assert mark(FORCE, "6 kg").note == "unit-wrong"
+    assert mark(FORCE, "6 furlongs").verdict == "unreadable"
+
+
+def test_no_other_question_knows_them():
+    other = {"kind": "quantity", "value": "6", "unit": "m", "rel": "0.01"}
+    assert mark(FORCE, "6 N").verdict == "correct"
+    assert mark(other, "6 kg").verdict == "unreadable"
+    with pytest.raises(FormulaError, match="unknown unit"):
+        factor("N")
+
+
+def test_a_paper_prints_marks_and_draws_with_what_the_bank_brings(tmp_path):
+    root, out = write(tmp_path / "bank"), tmp_path / "paper"
+    done = CliRunner().invoke(group, ["exam", "--bank", str(root), "--trust", "--topic", "forces",
+                                      "--seed", "4", "--format", "html", "--out", str(out)])  # fmt: skip
+    assert done.exit_code == 0, done.output
+    exam, solved = ((out / name).read_text("utf-8") for name in ("exam.html", "solutions.html"))
+    assert "pushed by a force of unknown size" in exam
+    assert "of unknown size" not in solved
+    key = load_key(json.loads((out / "key.json").read_bytes()))
+    given = key.questions[0].chain.given
+    force = int(given["m"].value) * int(given["a"].value) // 1000
+    (part,) = mark_paper(key, {key.questions[0].parts[0].id: f"{force} N"}).parts
+    assert part.verdict.verdict == "correct"
+
+
+def test_a_bank_that_is_not_trusted_draws_nothing(tmp_path):
+    root = write(tmp_path, {"templates/forces/push/template.toml": FILES[
+        "templates/forces/push/template.toml"].replace('"forces/newton"', '""')})  # fmt: skip
+    with pytest.raises(BankError, match="--trust"):
+        Bank(root).template("push")
+
+
+def test_python_of_a_figure_that_fails_is_located(tmp_path):
+    figure = FILES["figures/block.py"].replace("pen.onto(canvas)", "pen.unto(canvas)")
+    bank = Bank(write(tmp_path, {"figures/block.py": figure}), trusted=True)
+    with pytest.raises(BankError, match=r"block\.py:16: AttributeError: .*unto"):
+        compose(bank.template("push"))
+
+
+def test_no_question_of_the_built_in_bank_holds_definitions():
+    _, key = compose(builtin().template("thin-lens-image-distance"), figures=False)
+    assert not any(getattr(spec, "define", ()) for spec in key.specs)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        ('units = ["newton = N"]', r"bank\.toml: units: .*unknown unit 'N'"),
+        ('requires = ">=99"', r"bank\.toml: requires: quizgen >=99, and this is 0\.1"),
+        ('requires = "new"', r"bank\.toml: requires: 'new' is not like"),
+    ],
+)
+def test_what_bank_toml_cannot_hold_is_located(tmp_path, wrong, said):
+    bank = Bank(write(tmp_path, {"templates/bank.toml": wrong}))
+    with pytest.raises(BankError, match=said):
+        assert bank.about
