@@ -11,7 +11,7 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parent))
 
 from click.testing import CliRunner
-from own_bank import FILES, write
+from mechanics import FILES, write
 
 from quizgen.bank.folder import Bank, builtin
 from quizgen.cli.main import group
