@@ -268,9 +268,12 @@ def _embedded_pairs(ask: Pairs | Order, weight: int, lang: str) -> Markup:
 
 
 def _drop_down(pairs: Pairs, stem: str, weight: int, lang: str) -> Markup:
+    """What is said of each target; where that is the same of all, the worked solution says it."""
+    said = {mark: pairs.said.get((stem, mark), ()) for mark, _ in pairs.targets}
+    alike = len({words for mark, words in said.items() if mark != pairs.right[stem]}) == 1
     rows = [
-        (mark, 100 * (pairs.right[stem] == mark), inline(pairs.said.get((stem, mark), ()), lang))
-        for mark, _ in pairs.targets
+        (mark, 100 * (pairs.right[stem] == mark), inline(() if alike else words, lang))
+        for mark, words in said.items()
     ]
     return _field(weight, "MULTICHOICE", rows)
 

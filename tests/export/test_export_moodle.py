@@ -202,6 +202,16 @@ def test_what_a_person_marks_is_kept_apart_with_its_own_solution(bank):
     assert [("(a)" in text, "(b)" in text) for text in told] == [(True, False), (False, True)]
 
 
+def test_one_reason_for_all_targets_is_said_once(bank):
+    """In the worked solution; reasons that differ by target stand with each."""
+    (item,) = of_templates(bank, ["uses-of-colour-spaces"], 1, 1, ["en"])
+    (one,) = read([item]).values()
+    reason = "A press lays cyan, magenta, yellow and black ink on paper"
+    text, told = one.findtext("questiontext/text"), one.findtext("generalfeedback/text")
+    assert (text.count(reason), told.count(reason)) == (0, 1)
+    assert "MULTICHOICE" in {row.kind for row in fields(text)}
+
+
 def test_formulas_for_a_filter(reference):
     r"""``f X / Z`` as TeX between ``\(`` and ``\)``; its braces stand in fields as entities."""
     item = reference("point-to-image-plane-fractions")
@@ -247,3 +257,21 @@ def test_the_whole_bank(everything):
     test_fields_of_a_text_are_what_is_asked(everything, found)
     test_weights_are_the_marks_of_the_parts(everything, found)
     test_nothing_is_left_of_our_own_pages(found)
+
+
+NUMBERS = (
+    "power-for-equal-brightness", "gaussian-density-values", "gaussian-peak-and-tail-shares",
+    "blur-disc-diameter", "thin-lens-image-distance", "image-height-and-fill-distance",
+    "point-to-image-plane", "diameter-stops-and-exposure-time", "flat-field-correction-output",
+    "opencv-add-and-subtract", "opencv-hue-shift", "opencv-stored-hue",
+    "salt-and-pepper-thresholds", "uint8-difference", "uint8-hue-shift",
+)  # fmt: skip
+"""Fifteen questions of numbers, seven of them with a figure, as the paper has that R/exams was
+measured with: 38 MB for a hundred variants."""
+
+
+def test_a_paper_is_as_small_as_it_may_be(bank):
+    """Two fifths of what a comparable paper has from R/exams."""
+    made = list(of_templates(bank, NUMBERS, 0, 3, ["en"]))
+    assert sum(item.question.figure is not None for item in made) == 7 * 3
+    assert len(write(made)) / 3 <= 0.4 * 380_000
