@@ -15,7 +15,7 @@ def bends(points: Sequence[Point], unseen: float) -> list[Point]:
     Parameters
     ----------
     points : sequence of (float, float)
-        At least one.
+        At least two.
     unseen : float
         How far from the line a point may lie that is left out.
 
@@ -25,13 +25,15 @@ def bends(points: Sequence[Point], unseen: float) -> list[Point]:
         From one on, as many as can be are left out while the line neither leaves them nor turns
         back; the first and the last point stay.
     """
+    if len(points) == 2:
+        return [*points]
     kept, view = [points[0]], _View(unseen)
     for before, (x, y) in pairwise(points):
         if not view.holds(x - kept[-1][0], y - kept[-1][1]):
             kept.append(before)
             view = _View(unseen)
         view.narrow(x - kept[-1][0], y - kept[-1][1])
-    return [*kept, points[-1]] if len(points) > 1 else kept
+    return [*kept, points[-1]]
 
 
 class _View:

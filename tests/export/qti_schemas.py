@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import pytest
 from lxml import etree
+from needed import without
 
 XS = "{http://www.w3.org/2001/XMLSchema}"
 ROOT = Path(__file__).parents[2]
@@ -16,7 +16,7 @@ def schema(path: str) -> etree.XMLSchema:
     tried = [folder / "shared" / "qti-schemas" / path for folder in ROOT.parents]
     found = next(filter(Path.is_file, tried), None)
     if found is None:
-        pytest.skip("no schemas of QTI in ../shared/qti-schemas")
+        without("no schemas of QTI in ../shared/qti-schemas, by which packages are valid or not")
     return etree.XMLSchema(complete(etree.parse(found), found.parent))
 
 
