@@ -12,6 +12,7 @@ messages       what the checker and ``quizgen practice`` say
 figures        figures in words
 speech         mathematics in words, printed and read aloud
 cards          short words on flashcards
+classes        the report of a marked exam
 tradeoff       the page of what accuracy costs
 web            the pages of ``quizgen serve``
 ============== ==================================================================

@@ -121,7 +121,7 @@ def unit_words(text: str, lang: str, *, one: bool = False) -> str:
     for part in parts(text):
         below = part.sign == "/" or part.power.startswith("-")
         word = _simple_unit(part, words, one=one or below)
-        word = words.unit_joints.get(part.power.lstrip("-"), "{}").format(word)
+        word = _joined(words.unit_joints.get(part.power.lstrip("-"), "{}"), word)
         joint = words.unit_joints["/" if below else "·"]
         said = joint.format(said, word) if said or below else word
     return said.strip()
@@ -133,7 +133,12 @@ def _simple_unit(part: Part, words: Words, *, one: bool) -> str:
     prefix = {"µ": "u", "μ": "u"}.get(part.name[0], part.name[0])
     if part.name[1:] not in words.units:
         return part.shown  # a unit of the bank's own
-    return _known(words.prefixes, prefix, "prefix").format(words.units[part.name[1:]][not one])
+    return _joined(_known(words.prefixes, prefix, "prefix"), words.units[part.name[1:]][not one])
+
+
+def _joined(pattern: str, word: str) -> str:
+    """A word in its place; one that goes on with another word begins with a small letter."""
+    return pattern.format(word if pattern.startswith("{}") else word[:1].lower() + word[1:])
 
 
 @_say.register
