@@ -27,7 +27,7 @@ from quizgen.bank.solvers import chain_of, forget, module_of
 from quizgen.bank.template import Template, check_against_chain, read_rules
 from quizgen.errors import BankError, QuizgenError
 from quizgen.kept import digest_of
-from quizgen.locale import languages
+from quizgen.locale import chosen, languages
 from quizgen.maths.chain import Chain
 from quizgen.outside import NAMES, is_name, located, named, read_bytes
 
@@ -97,6 +97,25 @@ class Bank:
             return self.about.languages
         found = {lang for name in self.paths for lang in self.written_in(name)}
         return tuple(lang for lang in languages() if lang in found)
+
+    def chosen(self, choice: str) -> tuple[str, ...]:
+        """Languages of a choice, the leading one first; ``both`` stands for those of the bank.
+
+        Raises
+        ------
+        BankError
+            If nothing here is written in it.
+        ChoiceError
+            If there is no such language.
+        """
+        langs = chosen(choice, self.languages)
+        for lang in set(langs) - set(self.languages or langs):
+            if not any(lang in self.written_in(name) for name in self.paths):
+                held = ", ".join(self.languages)
+                raise BankError(
+                    f"nothing in {self.title('en')!r} is written in {lang!r} (only in {held})"
+                )
+        return langs
 
     @cached_property
     def topics(self) -> tuple[str, ...]:

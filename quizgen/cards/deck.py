@@ -12,7 +12,6 @@ from quizgen.cards.note import Note
 from quizgen.cards.versions import version_of
 from quizgen.cards.wish import SEED, Wish
 from quizgen.errors import BankError
-from quizgen.locale import chosen
 
 
 @dataclass(frozen=True)
@@ -69,7 +68,7 @@ def build(
     bank = builtin() if bank is None else bank
     _check(topics, bank.topics, "topic")
     _check(kinds, tuple(KINDS), "kind")
-    wish = Wish(chosen(lang, bank.languages), topics, seed, bank)
+    wish = Wish(bank.chosen(lang), topics, seed, bank)
     return Deck(tuple(_notes(wish, kinds or tuple(KINDS))), wish)
 
 

@@ -25,7 +25,6 @@ from quizgen.cards.prose import Label
 from quizgen.cards.versions import template_version
 from quizgen.cards.wish import Wish
 from quizgen.errors import CodeError, KeyFileError
-from quizgen.locale import chosen
 from quizgen.outside import located, parse_json, read_text
 from quizgen.paper.blueprint import load_blueprint
 from quizgen.paper.code import parse_code
@@ -159,7 +158,7 @@ def deck_of(missed: Iterable[Missed], lang: str, *, bank: Bank, seed: int = 0) -
     KeyFileError
         If a question has no such part.
     """
-    wish = Wish(chosen(lang, bank.languages), bank=bank, seed=seed)
+    wish = Wish(bank.chosen(lang), bank=bank, seed=seed)
     notes: dict[str, Note] = {}
     for one in missed:
         found = _note(one, wish)

@@ -23,7 +23,7 @@ from quizgen.cli.options import (
 from quizgen.cli.terminal import Progress
 from quizgen.errors import ChoiceError
 from quizgen.export import FORMATS, TEX, exporter
-from quizgen.locale import FIRST, choices, chosen
+from quizgen.locale import FIRST, choices
 
 if TYPE_CHECKING:
     from quizgen.bank.folder import Bank
@@ -118,7 +118,7 @@ def _items(options: Options, tell: Progress) -> Iterator[Item]:
     if len(named) - named.count(None) > 1:
         raise ChoiceError("--blueprint, --topic and --template each name the questions; give one")
     bank = open_bank(options)
-    langs = chosen(options["lang"], bank.languages)
+    langs = bank.chosen(options["lang"])
     if options["topic"] is None and options["templates"] is None:
         plan = load_blueprint(options["blueprint"] or USUAL, bank)
         made = partial(of_blueprint, bank, plan)

@@ -131,7 +131,7 @@ def _wish(options: Options, bank: Bank) -> Wish:
     topic = None if topic is None else topic_option(bank, topic)
     tier = None if tier is None else checked("--tier", tier, TIERS)
     folder = str(options["bank"].resolve()) if options["bank"] else ""
-    lang, seed = options["lang"], options["seed"] or ""
+    (lang,), seed = bank.chosen(options["lang"]), options["seed"] or ""
     wish = Wish(lang, options["count"], topic, tier, folder, seed, options["level"])
     if not fitting(bank, wish):
         there = [one for one in TIERS if fitting(bank, Wish(lang, topic=topic, tier=one))]

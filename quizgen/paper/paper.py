@@ -17,7 +17,7 @@ from quizgen.bank.levels import EXAM
 from quizgen.bank.prose import Block, CodeBlock
 from quizgen.bank.template import Template
 from quizgen.errors import BlueprintError, CodeError
-from quizgen.locale import chosen, word
+from quizgen.locale import word
 from quizgen.maths.notation import people
 from quizgen.outside import located
 from quizgen.paper.blueprint import Blueprint, SlotRule, named_blueprint
@@ -196,7 +196,7 @@ def composed(
     progress: Progress = silent,
 ) -> Paper:
     """The paper of a blueprint's questions once they are drawn; its code gets their digest."""
-    langs = chosen(named.choice, bank.languages)
+    langs = bank.chosen(named.choice)
     asked = [*_levels(drawn, levels(blueprint))]
     items = []
     for number, (one, points) in enumerate(zip(asked, weights(blueprint), strict=False), 1):

@@ -11,7 +11,6 @@ from quizgen.bank.formulas import FormulaEntry, asked_in, formulas
 from quizgen.bank.pages import read_text
 from quizgen.bank.prose import Block, Inline, Words
 from quizgen.errors import BankError
-from quizgen.locale import chosen
 from quizgen.question.authored import passage, sentence
 from quizgen.question.equations import sides
 from quizgen.question.shown import Maths, listed, named
@@ -76,7 +75,7 @@ def sheet(bank: Bank, choice: str, topics: Sequence[str] = ()) -> Sheet:
     BankError
         If there is no formula, or one of them is wrong; names the file and the place.
     """
-    langs = chosen(choice, bank.languages)
+    langs = bank.chosen(choice)
     wanted = [entry for entry in formulas(bank) if not topics or entry.topic in topics]
     if not wanted:
         of = f" of the topic {', '.join(topics)}" if topics and formulas(bank) else ""
