@@ -18,7 +18,6 @@ from starlette.routing import BaseRoute, Mount, Route
 from starlette.staticfiles import StaticFiles
 
 from quizgen.errors import QuizgenError
-from quizgen.locale import languages
 from quizgen.render.fonts import WEB
 from quizgen.web import (
     accounts,
@@ -107,8 +106,8 @@ async def settle(request: Request) -> Response:
     """Choose the language, and go back."""
     form = await posted(request)
     lang = one(form, "lang")
-    if lang in languages():
-        site: Site = request.app.state.site
+    site: Site = request.app.state.site
+    if lang in site.languages:
         await run_in_threadpool(site.store.settle, request.state.learner.id, {"lang": lang})
     return to(inside(one(form, "back")))
 

@@ -15,7 +15,6 @@ from starlette.datastructures import Headers, MutableHeaders, QueryParams
 from starlette.responses import RedirectResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from quizgen.locale import FIRST, languages
 from quizgen.web.guard import OPEN, told
 from quizgen.web.site import Site
 from quizgen.web.store import Learner
@@ -77,7 +76,7 @@ class Door:
         accounts = self.site.store.accounts
         learner = await run_in_threadpool(accounts.signed_in, token) if token else None
         state = scope.setdefault("state", {})
-        state.update(learner=learner or _visitor(scope), token=token)
+        state.update(learner=learner or _visitor(scope, self.site.languages), token=token)
         if learner is not None or scope["path"] in {SIGN_IN, INVITED}:
             if not token:
                 state["token"] = state["new_token"] = secrets.token_urlsafe(24)
@@ -107,14 +106,14 @@ def _with_cookie(scope: Scope, send: Send) -> Send:
     return sending
 
 
-def _visitor(scope: Scope) -> Learner:
+def _visitor(scope: Scope, spoken: tuple[str, ...]) -> Learner:
     """Somebody unknown, who has said in which language to be spoken to, or whose browser has."""
     asked = [QueryParams(scope["query_string"]).get("lang", "")]
     asked += [
         one.partition(";")[0].strip()[:2].lower()
         for one in Headers(scope=scope).get("accept-language", "").split(",")[:10]
     ]
-    lang = next((one for one in asked if one in languages()), FIRST)
+    lang = next((one for one in asked if one in spoken), spoken[0])
     return Learner(0, "", {"lang": lang})
 
 

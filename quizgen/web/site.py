@@ -7,6 +7,7 @@ from dataclasses import replace
 from weakref import WeakValueDictionary
 
 from quizgen.bank.folder import Bank, builtin
+from quizgen.locale import FIRST, languages
 from quizgen.web.passwords import Patience
 from quizgen.web.settings import Settings
 from quizgen.web.store import Store
@@ -34,6 +35,8 @@ class Site:
         self.workers = Workers(settings)
         self.patience = Patience()
         """With those who sign in with wrong passwords."""
+        self.languages = tuple(filter(languages().__contains__, self.bank.languages)) or (FIRST,)
+        """Those that pages can be read in: of the bank, because questions stand on most."""
         self._turns: WeakValueDictionary[str, asyncio.Lock] = WeakValueDictionary()
 
     def turn_of(self, attempt: str) -> asyncio.Lock:

@@ -12,7 +12,7 @@ from markupsafe import Markup
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 
-from quizgen.locale import FIRST, known, language, languages, line_heights, marks, table, word
+from quizgen.locale import known, language, line_heights, marks, table, word
 from quizgen.practice.schedule import day_of
 from quizgen.render.layouts import environment
 from quizgen.web.door import form_token
@@ -25,7 +25,7 @@ from quizgen.web.store import Learner
 def _layouts() -> jinja2.Environment:
     layouts = environment("quizgen.web", "quizgen.render")
     layouts.filters["html"] = Markup  # of what was made here, see ``made.Html``
-    layouts.globals.update(languages=languages, language=language, strokes=strokes, word=word)
+    layouts.globals.update(language=language, strokes=strokes, word=word)
     return layouts
 
 
@@ -44,7 +44,9 @@ def said(lang: str, key: str, **values: object) -> str:
 
 def lang_of(request: Request) -> str:
     """The language that whoever asks has chosen."""
-    return known(str(request.state.learner.settings.get("lang", FIRST)))
+    site: Site = request.app.state.site
+    chosen = str(request.state.learner.settings.get("lang"))
+    return chosen if chosen in site.languages else site.languages[0]
 
 
 def _menu(site: Site, learner: Learner) -> list[tuple[str, str]]:

@@ -91,7 +91,7 @@ def test_a_wrong_seed_is_named_with_what_is_allowed(bank, seed):
 
 @pytest.mark.parametrize("choice", ["fr", "", 7, None, ["en"]])
 def test_a_wrong_language_is_named_with_what_is_allowed(bank, choice):
-    with pytest.raises(ChoiceError, match=r"language: .*\(allowed: en, bn, both\)") as caught:
+    with pytest.raises(ChoiceError, match=r"language: .*\(allowed: en, bn, de, both\)") as caught:
         build(bank, load_blueprint("trial"), 1, choice)
     assert isinstance(caught.value, QuizgenError)
     assert isinstance(caught.value, ValueError)

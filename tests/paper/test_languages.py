@@ -48,8 +48,8 @@ def pig(tmp_path, monkeypatch):
 
 
 def test_a_language_is_found_and_can_be_chosen(pig):
-    assert languages() == ("en", "bn", "pig")
-    assert choices() == ("en", "bn", "pig", "both")
+    assert languages() == ("en", "bn", "de", "pig")
+    assert choices() == ("en", "bn", "de", "pig", "both")
     assert chosen("pig", ("en",)) == ("pig",)
     assert chosen("both", fresh(pig).languages) == ("en", "bn", "pig")
     assert of_topic(fresh(pig), "projection").title["pig"].startswith("Ockmay examay")
@@ -111,4 +111,4 @@ def test_without_its_folder_it_is_refused(tmp_path):
         capture_output=True, text=True, check=False, cwd=tmp_path,
     )  # fmt: skip
     assert done.returncode == 2
-    assert "'pig' is not one of 'en', 'bn', 'both'" in done.stderr
+    assert "'pig' is not one of 'en', 'bn', 'de', 'both'" in done.stderr
