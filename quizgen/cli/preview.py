@@ -22,6 +22,7 @@ class Options(BankOptions):
 
     seed: int
     reference: bool
+    quiz: bool
     lang: str
     level: str
     html: Path | None
@@ -31,12 +32,13 @@ class Options(BankOptions):
 @click.argument("name")
 @click.option("--seed", type=SEED, default=0, show_default=True, help="Number that fixes the draw.")
 @click.option("--reference", is_flag=True, help="The numbers printed in the notes.")
+@click.option("--quiz", is_flag=True, help="The question alone, as a learner sees it.")
 @language_option
 @level_option
 @click.option("--html", type=click.Path(path_type=Path), help="Write a page of it instead.")
 @bank_options
 def preview(name: str, **options: Unpack[Options]) -> None:
-    """Show one question with its key and worked solution."""
+    """Show one question, with its key and worked solution unless --quiz is given."""
     from quizgen.paper.code import REFERENCE
     from quizgen.paper.paper import single
     from quizgen.render.text import question_text
@@ -44,14 +46,13 @@ def preview(name: str, **options: Unpack[Options]) -> None:
     template = open_bank(options).template(name)
     seed = REFERENCE if options["reference"] else options["seed"]
     page = options["html"]
-    paper = single(
-        template, seed, options["lang"], level=options["level"], figures=page is not None
-    )
+    paper = single(template, seed, options["lang"], level=options["level"])
     if page is None:
-        click.echo(question_text(paper.items[0]))
+        click.echo(question_text(paper.items[0], solved=not options["quiz"]))
         return
     from quizgen.files import write_all
     from quizgen.render import render_paper
 
-    write_all(page.parent, {page.name: render_paper(paper, "solutions", "html")})
+    kind = "exam" if options["quiz"] else "solutions"
+    write_all(page.parent, {page.name: render_paper(paper, kind, "html")})
     click.echo(str(page))

@@ -9,6 +9,7 @@ from itertools import chain
 from quizgen.bank import prose
 from quizgen.locale import word
 from quizgen.paper.paper import Item
+from quizgen.question.compose import Key
 from quizgen.question.shown import Maths
 from quizgen.question.solution import PartSolution
 
@@ -69,24 +70,30 @@ def _table(part: prose.Table) -> Iterable[str]:
     return [" | ".join(map(inline, row)) for row in (part.head, *part.rows)]
 
 
-def question_text(item: Item) -> str:
-    """Question, key and solution."""
+def question_text(item: Item, *, solved: bool = True) -> str:
+    """Question and, unless it is to be seen as by a learner, key and solution."""
     question, key = item.questions[0], item.keys[0]
-    lines = [f"{question.template}: {question.title}  [{key.identity}]", *blocks(question.stem)]
-    for part, solved in zip(question.parts, key.solution.parts, strict=True):
+    head = f"{question.template}: {question.title}  [{key.identity}]" if solved else question.title
+    lines = [head, *blocks(question.stem)]
+    lines += [f"   [{question.figure.alt}]"] if question.figure else []
+    for part, worked in zip(question.parts, key.solution.parts, strict=True):
         lines += ["", f"({part.label})" if part.label else "", *blocks(part.body)]
         if part.field.drawing:
             lines.append(f"   {part.field.drawing.alt}")
         for mark, text in (*part.field.options, *part.field.targets):
             lines.append(f"   {mark}  {inline(text)}")
         lines += [f"   [{hint}]" for hint in part.field.hints]
-        lines += _solution(solved, question.lang)
+        lines += _solution(worked, question.lang) if solved else ()
+    return "\n".join([*lines, *(_remarks(key, question.lang) if solved else ())])
+
+
+def _remarks(key: Key, lang: str) -> Iterator[str]:
+    """What stands behind all parts of a solution."""
     titles = {"why": "solution.why", "check": "solution.check", "precision": "precision.title",
               "note": "solution.note"}  # fmt: skip
     for name, title in titles.items():
         found = list(blocks(getattr(key.solution, name)))
-        lines += ["", f"{word(question.lang, title)}:", *found] if found else []
-    return "\n".join(lines)
+        yield from ("", f"{word(lang, title)}:", *found) if found else ()
 
 
 def _solution(part: PartSolution, lang: str) -> Iterator[str]:

@@ -1,0 +1,90 @@
+"""``quizgen new``: a bank or a question to begin with."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import ParamSpec, TypeVar
+
+import click
+
+from quizgen.bank.scaffold import FIRST, KINDS, new_bank, new_template
+from quizgen.cli.command import command
+from quizgen.errors import BankError
+from quizgen.outside import NAMES, is_name
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+
+@click.group()
+def new() -> None:
+    """Write a bank or a question to begin with: sound as it is, and to be changed."""
+
+
+@new.command()
+@click.argument("folder", type=click.Path(path_type=Path))
+def bank(folder: Path) -> None:
+    """Write a bank with one question into FOLDER."""
+    name = folder.resolve().name
+    _must_be_name(name)
+    _write(folder, new_bank(name))
+    _next(folder, FIRST[1])
+
+
+def _kinds(function: Callable[P, T]) -> Callable[P, T]:
+    """Add a flag for each kind of question."""
+    for kind, text in reversed(KINDS.items()):
+        default = kind == next(iter(KINDS))
+        function = click.option(f"--{kind}", "kind", flag_value=kind, default=default, help=text)(
+            function
+        )
+    return function
+
+
+@new.command()
+@click.argument("place", metavar="TOPIC/NAME")
+@_kinds
+@click.option("--bank", "root", type=click.Path(path_type=Path), default=Path(),
+              help="The bank to write it into (by default where you stand).")  # fmt: skip
+def template(place: str, kind: str, root: Path) -> None:
+    """Write a question TOPIC/NAME into a bank: rules, words and, if it computes, a solver."""
+    from quizgen.bank.folder import Bank
+
+    topic, _, name = place.partition("/")
+    _must_be_name(topic)
+    _must_be_name(name)
+    own = Bank(root)
+    if own.about.topics and topic not in own.topics:
+        file, known = own.folder / "bank.toml", ", ".join(own.topics)
+        raise BankError(
+            f"{file}: no topic {topic!r} (there are {known}); write it under [topics] first"
+        )
+    if name in own.paths:
+        raise BankError(f"{own.paths[name]}: there is a template {name!r} already")
+    _write(root, new_template(topic, name, kind, own.languages or ("en",)))
+    _next(root, name)
+
+
+def _must_be_name(name: str) -> None:
+    if not is_name(name):
+        raise BankError(f"{name!r} is no name (allowed: {NAMES})")
+
+
+def _write(root: Path, contents: Mapping[str, bytes]) -> None:
+    """Write all files, or none if one is there already."""
+    for name in contents:
+        if (root / name).exists():
+            raise BankError(f"{root / name}: there already; nothing was written")
+    for name, data in contents.items():
+        path = root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(data)
+        click.echo(str(path))
+
+
+def _next(root: Path, name: str) -> None:
+    where = ("--bank", str(root), "--trust")
+    click.echo("Next:")
+    click.echo(f"  {command('preview', name, *where)}")
+    click.echo(f"  {command('lint', *where)}")

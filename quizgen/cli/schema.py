@@ -1,0 +1,15 @@
+"""``quizgen schema``."""
+
+from __future__ import annotations
+
+import click
+
+from quizgen.bank.schemas import SCHEMAS
+from quizgen.bank.schemas import schema as schema_of
+
+
+@click.command()
+@click.argument("name", type=click.Choice(list(SCHEMAS)))
+def schema(name: str) -> None:
+    """Print the JSON Schema of template.toml or bank.toml, for editors."""
+    click.echo(schema_of(name), nl=False)

@@ -1,0 +1,86 @@
+"""From nothing to a sound question: what ``new`` writes, and what editors check it by."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from quizgen.audit.teach import examine
+from quizgen.bank.folder import Bank, builtin
+from quizgen.bank.scaffold import KINDS
+from quizgen.cli.main import group, main
+
+
+def run(*arguments: str | Path):
+    return CliRunner().invoke(group, [*map(str, arguments)], catch_exceptions=False)
+
+
+@pytest.fixture(scope="module")
+def root(tmp_path_factory):
+    root = tmp_path_factory.mktemp("new") / "mine"
+    assert run("new", "bank", root).exit_code == 0
+    for kind in KINDS:
+        made = run("new", "template", f"example/some-{kind}", f"--{kind}", "--bank", root)
+        assert made.exit_code == 0, made.output
+    return root
+
+
+def test_what_is_written_is_sound_and_teaches(root):
+    done = run("lint", "--bank", root, "--trust", "--seeds", "60")
+    assert done.exit_code == 0, done.output
+    for template in Bank(root, trusted=True):
+        found = [one for one in examine(template, 200) if one.level == "error"]
+        assert not found, template.id
+
+
+def test_what_is_written_can_be_printed_and_carded(root, tmp_path):
+    shared = ("--bank", root, "--trust", "--out", tmp_path)
+    assert run("exam", "--topic", "example", "--format", "html", *shared).exit_code == 0
+    assert "Some solver" in (tmp_path / "exam.html").read_text("utf-8")
+    assert run("cards", "--format", "tsv", *shared).exit_code == 0
+
+
+def test_nothing_is_overwritten(root, capsys):
+    before = {path: path.read_bytes() for path in root.rglob("*.*")}
+    for again in (["bank", str(root)], ["template", "example/some-gap", "--bank", str(root)]):
+        with pytest.raises(SystemExit) as stopped:
+            main(["new", *again])
+        assert stopped.value.code == 2
+        assert "already" in capsys.readouterr().err
+    assert {path: path.read_bytes() for path in before} == before
+
+
+@pytest.mark.parametrize(
+    ("place", "said"),
+    [
+        ("physics/x", "write it under [topics] first"),
+        ("example", "'' is no name"),
+        ("../x", "'..' is no name"),
+    ],
+)
+def test_a_place_that_cannot_be_is_refused(root, capsys, place, said):
+    with pytest.raises(SystemExit):
+        main(["new", "template", place, "--bank", str(root)])
+    assert said in capsys.readouterr().err
+
+
+def test_editors_complete_every_key_and_refuse_others():
+    table = json.loads(run("schema", "template").output)
+    rules = table["$defs"]["Rules"]
+    assert {"topic", "tier", "part"} == set(rules["required"])
+    assert rules["additionalProperties"] is False
+    assert {"pick", "range", "is"} <= set(table["$defs"]["DrawRule"]["properties"])
+    about = json.loads(run("schema", "bank").output)
+    assert {"units", "topics", "requires"} <= set(about["$defs"]["About"]["properties"])
+
+
+def test_a_preview_for_learners_holds_no_answer():
+    name = "thin-lens-image-distance"
+    whole, quiz = (run("preview", name, "--seed", "3", *more).output for more in ((), ("--quiz",)))
+    assert "Answer:" in whole
+    assert "Answer:" not in quiz
+    assert builtin().template(name).texts["en"].title in quiz
+    assert "The image distance z′ is asked for." in quiz
