@@ -20,8 +20,33 @@ from quizgen.camera.view import View
 EXCEEDED = 1e-4
 """Share of values by which a bound on something random may be exceeded."""
 
-DEVIATIONS = 3.8905918864131203
-"""Standard deviations of a normal value exceeded with probability `EXCEEDED`, two-sided."""
+DEVIATIONS = 4.15
+"""Standard deviations of a normal value exceeded with probability 3.4e-5, two-sided.
+
+Noise that is clipped and then joined by other noise exceeds them 1.16 times as often. The rest of
+`EXCEEDED` is for single values of which nothing is known (`ODD`), and for three noises out of
+their `REACH`.
+"""
+_NORMAL = 3.9e-5
+"""Share of values for which deviations account."""
+
+REACH = 4.5
+"""Standard deviations exceeded with probability 7e-6: how far noise carries a value."""
+
+ODD = 4e-5
+"""Share of values that may be anything besides, more by `_NORMAL` where nothing is random."""
+
+CERTAIN = 5.0
+"""Standard deviations exceeded with probability 6e-7: where a random part decides what is clipped,
+or several values decide together, so that deviations can no longer be added in quadrature."""
+
+COLUMN = 6.5
+"""Deviations by which the mean size of any column's normal values misses its expectation, times
+the root of their number: once in 10^9 columns."""
+
+LARGEST = 1e30
+"""Signals beyond this are no picture."""
+UNLIMITED = (-LARGEST, LARGEST)
 
 _ROWS = 64
 
@@ -35,27 +60,64 @@ class Error:
     sure : float
         Bound on the difference of the means.
     sigma : float
-        Bound on the standard deviation of the rest.
+        Bound on the standard deviation of a normal value that the rest is a share of.
+    odd : float
+        Share of values of which nothing of this is true.
+
+    None is ever negative; what cannot be computed is infinite.
     """
 
     sure: float = 0.0
     sigma: float = 0.0
+    odd: float = 0.0
+
+    def __post_init__(self) -> None:
+        if self.sure >= 0.0 and self.sigma >= 0.0:
+            return
+        for part in ("sure", "sigma"):
+            value = getattr(self, part)
+            object.__setattr__(self, part, math.inf if math.isnan(value) else max(0.0, value))
 
     @property
     def total(self) -> float:
         """Difference exceeded by at most the share `EXCEEDED` of the values."""
+        if self.odd > ODD + (0.0 if self.sigma else _NORMAL):
+            return math.inf
         return self.sure + DEVIATIONS * self.sigma
 
+    @property
+    def certain(self) -> float:
+        """Difference that all but 6e-7 of the values keep, however they are mixed afterwards."""
+        return self.sure + CERTAIN * self.sigma
+
     def plus(self, other: Error) -> Error:
-        """Both errors: sure parts add, random parts add in quadrature."""
-        return Error(self.sure + other.sure, math.hypot(self.sigma, other.sigma))
+        """Both errors of different luck: random parts add in quadrature."""
+        sigma = math.hypot(self.sigma, other.sigma)
+        return Error(self.sure + other.sure, sigma, self.odd + other.odd)
+
+    def along(self, other: Error) -> Error:
+        """Both errors of the same luck: random parts add."""
+        sigma = self.sigma + other.sigma
+        return Error(self.sure + other.sure, sigma, self.odd + other.odd)
 
     def times(self, factor: float) -> Error:
         """Scaled by a factor >= 0."""
-        return Error(self.sure * factor, self.sigma * factor)
+        return Error(self.sure * factor, self.sigma * factor, self.odd)
+
+
+def mean_size(sigma: float, count: int) -> float:
+    """Bound on the mean size of so many normal values: their expectation, and by how much more.
+
+    A mean of sizes changes by at most 1/sqrt(count) per step in the space of all values, so it is
+    as concentrated as a single normal value of that deviation.
+    """
+    return sigma * (math.sqrt(2.0 / math.pi) + COLUMN / math.sqrt(count))
 
 
 NO_ERROR = Error()
+
+
+Limits = tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,12 +145,20 @@ class Facts:
         One per layer of the stack, a single one after it is flattened.
     noise : float
         Largest standard deviation of the random part.
+    tail : float
+        How far the random part may lie beyond any multiple of that: electrons are counted, and
+        counts are not normal.
+    limits : (float, float)
+        Values that nothing exceeds, noise included, since a photosite or a converter clipped them;
+        what noise came later is in it.
     """
 
     low: float
     high: float
     layers: tuple[LayerFacts, ...]
     noise: float = 0.0
+    tail: float = 0.0
+    limits: Limits = UNLIMITED
 
     @property
     def span(self) -> float:
@@ -97,18 +167,18 @@ class Facts:
 
     @property
     def reach(self) -> float:
-        """How far noise carries a value (all but a share `EXCEEDED`)."""
-        return DEVIATIONS * self.noise
+        """How far noise carries a value (all but 7e-6 of them)."""
+        return self.tail + REACH * self.noise
 
     @property
     def top(self) -> float:
         """Largest value including noise."""
-        return self.high + self.reach
+        return min(self.high + self.reach, self.limits[1])
 
     @property
     def bottom(self) -> float:
         """Smallest value including noise."""
-        return self.low - self.reach
+        return max(self.low - self.reach, self.limits[0])
 
     @property
     def size(self) -> float:
@@ -149,7 +219,34 @@ class Facts:
             )
             for layer in self.layers
         )
-        return Facts(self.low * factor, self.high * factor, layers, self.noise * factor)
+        ends = self.low * factor, self.high * factor
+        limits = self.limits[0] * factor, self.limits[1] * factor
+        return Facts(*ends, layers, self.noise * factor, self.tail * factor, limits)
+
+    def outside(self, low: float, high: float) -> Error:
+        """What stands beyond two values: how far, or how seldom if that is seldom enough."""
+        far = max(self.top - high, low - self.bottom, 0.0)
+        if not far or not self.noise:
+            return Error(far)
+        above, below = high - self.high - self.tail, self.low - self.tail - low
+        apart = (max(0.0, room) / self.noise / math.sqrt(2.0) for room in (above, below))
+        odd = sum(math.erfc(room) / 2.0 for room in apart)
+        return Error(odd=odd) if odd < ODD else Error(far)
+
+    def between(self, low: float, high: float) -> Facts:
+        """Clipped, noise and all."""
+        low, high = max(low, self.limits[0]), min(high, self.limits[1])
+        return replace(self, limits=(low, high))
+
+    def amplified(self, factor: float) -> Error:
+        """What a gain that is off by a factor >= 0 changes: value and noise alike."""
+        noisy = Error(self.size + self.tail, self.noise)
+        most = Error(max(-self.limits[0], self.limits[1]))
+        return min(noisy, most, key=lambda error: error.total).times(factor)
+
+    def in_columns(self, height: int) -> float:
+        """Largest mean of a column, noise included."""
+        return self.size + self.tail + mean_size(self.noise, height)
 
     def with_jump(self, jump: tuple[float, float]) -> Facts:
         """One layer with these steps and whatever bends they allow."""

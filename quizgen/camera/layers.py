@@ -40,9 +40,15 @@ def within(amount: float, facts: Facts) -> Error:
     return Error(min(amount, facts.span))
 
 
-def shifted(facts: Facts, distance: float) -> Error:
+def rounding(view: View) -> float:
+    """How far positions in single precision may lie beside what they should be, px."""
+    return float(np.spacing(np.float32(max(view.width, view.height))))
+
+
+def shifted(facts: Facts, distance: float, view: View) -> Error:
     """Error of reading every layer a distance away, px: distance times the steepest slope."""
-    return within(sum(distance * math.hypot(*layer.jump) for layer in facts.layers), facts)
+    far = distance + rounding(view)
+    return within(sum(far * math.hypot(*layer.jump) for layer in facts.layers), facts)
 
 
 def mixed_axes(facts: Facts, factor: float) -> Facts:
@@ -79,7 +85,10 @@ def rim(motion: Motion, view: View) -> float:
 
 def chord(motion: Motion, view: View, time: float) -> float:
     """Farthest any point of a turning layer gets from where it is at time 0, px."""
-    return 2.0 * rim(motion, view) * math.sin(min(abs(motion.spin) * time / 2.0, math.pi / 2.0))
+    if not motion.spin:
+        return 0.0
+    turn = math.sin(min(abs(motion.spin) * time / 2.0, math.pi / 2.0))
+    return 2.0 * rim(motion, view) * turn + rounding(view)
 
 
 def turned(image: Image, view: View, motion: Motion, angle: float | Field) -> Image:

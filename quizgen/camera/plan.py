@@ -18,7 +18,7 @@ from quizgen.camera.camera import Camera
 from quizgen.camera.costs import FACTS_PER_MEGAPIXEL
 from quizgen.camera.draw import Stack, draw
 from quizgen.camera.effect import Effect
-from quizgen.camera.facts import NO_ERROR, Error, Facts, coarse, glimpsed, measured
+from quizgen.camera.facts import LARGEST, NO_ERROR, Error, Facts, coarse, glimpsed, measured
 from quizgen.camera.filters import opencv
 from quizgen.camera.scene import Scene, SceneError
 from quizgen.camera.view import View
@@ -140,7 +140,8 @@ class _Chain:
         for index, effect in enumerate(self.present):
             made = choice.get(index, EXACT)
             if made == SKIP:
-                error = error.plus(self.lost[index])
+                lost = self.lost[index]
+                error = error.plus(lost) if effect.random else error.along(lost)
                 continue
             error = self._carried(effect, index, error)
             if made != EXACT:
@@ -178,6 +179,8 @@ def _facts_along(present: tuple[Effect, ...], view: View, facts: Facts) -> list[
             facts = facts.flat()
         before.append(facts)
         facts = effect.after(facts, view)
+        if not facts.size + facts.reach < LARGEST:
+            raise SceneError(f"{effect.name} makes signals of more than {LARGEST:g}")
     return before
 
 
@@ -270,7 +273,7 @@ def read_budget(text: str | float) -> float:
         budget = BUDGETS[text] if text in BUDGETS else float(text)
     except (TypeError, ValueError):
         budget = math.nan
-    if not budget >= 0.0:
+    if not 0.0 <= budget < math.inf:
         raise SceneError(f"budget {text!r}: a number of grey levels >= 0 or {', '.join(BUDGETS)}")
     return budget
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from time import perf_counter
 
@@ -106,11 +107,50 @@ def difference_dn(planned: Photo, whole: Photo) -> float:
     """
     if planned.values is whole.values:
         return 0.0
-    apart = np.abs(planned.values - whole.values).reshape(-1) * GREY_LEVELS
+    apart = _apart(planned, whole)
     if not _random_differs(planned.plan):
         return float(apart.max())
     allowed = int(EXCEEDED * apart.size)
     return float(np.partition(apart, apart.size - 1 - allowed)[apart.size - 1 - allowed])
+
+
+def _apart(planned: Photo, whole: Photo) -> Image:
+    """Difference of every value in grey levels."""
+    return np.abs(planned.values - whole.values).reshape(-1) * np.float32(GREY_LEVELS)
+
+
+_SLACK = 1e-4
+"""Grey levels that single precision may add."""
+_CHANCE = 1e-9
+"""Chance that a promise that holds is called broken."""
+
+
+def is_broken(planned: Photo, whole: Photo) -> bool:
+    """Whether two pictures differ by more than the plan promised.
+
+    Without noise, if a single value does. With noise, if so many do that it happens to a kept
+    promise (a share `EXCEEDED` of the values, each on its own) at most once in 10^9 pictures.
+    """
+    if planned.values is whole.values:
+        return False
+    apart = _apart(planned, whole)
+    if not np.isfinite(apart).all():
+        return True
+    beyond = int((apart > planned.plan.predicted_error_dn + _SLACK).sum())
+    if not _random_differs(planned.plan):
+        return beyond > 0
+    return _rarity(beyond, apart.size) < _CHANCE
+
+
+def _rarity(beyond: int, count: int) -> float:
+    """Chernoff's bound on the chance of at least so many events of probability `EXCEEDED`."""
+    share = beyond / count
+    if share <= EXCEEDED:
+        return 1.0
+    apart = share * math.log(share / EXCEEDED)
+    if share < 1.0:
+        apart += (1.0 - share) * math.log((1.0 - share) / (1.0 - EXCEEDED))
+    return math.exp(-count * apart)
 
 
 def _random_differs(what: Plan) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypedDict, Unpack
@@ -66,6 +67,13 @@ def simulate(scene: str | None, **options: Unpack[Options]) -> None:
         click.echo(json.dumps(report, ensure_ascii=False, indent=1))
     else:
         _print(prepared.given.scene.title or scene, photo, whole, report)
+    if not report.get("promise_kept", True):
+        click.echo(
+            f"quizgen: broken: {report['predicted_error_dn']:.3g} DN at most were promised, "
+            f"{report['difference_dn']:.3g} DN are found; please report this scene",
+            err=True,
+        )
+        sys.exit(1)
 
 
 def _find(scene: str) -> Path:
@@ -97,7 +105,7 @@ def _write(photo: Photo, target: Path | None) -> None:
 
 def summary(photo: Photo, whole: Photo | None = None) -> dict[str, Any]:
     """The plan as plain data; ``difference_dn`` only when everything was run for comparison."""
-    from quizgen.camera.simulate import difference_dn
+    from quizgen.camera.simulate import difference_dn, is_broken
 
     what = photo.plan
     report: dict[str, Any] = {
@@ -121,6 +129,7 @@ def summary(photo: Photo, whole: Photo | None = None) -> dict[str, Any]:
     if whole is not None:
         report["difference_dn"] = difference_dn(photo, whole)
         report["everything_ms"] = whole.measured_ms
+        report["promise_kept"] = not is_broken(photo, whole)
     return report
 
 

@@ -213,7 +213,15 @@ def test_shipped_scenes(name, tmp_path):
 EXPECTED = {
     "pinhole": [],
     "fisheye": ["distortion"],
-    "flat": ["shot noise", "read noise", "gamma"],
+    "flat": [
+        "distortion",
+        "lateral colour",
+        "defocus",
+        "shot noise",
+        "read noise",
+        "quantisation",
+        "gamma",
+    ],
     "landscape": ["shot noise", "read noise", "gamma"],
     "propeller": ["motion blur", "rolling shutter", "gamma"],
 }
@@ -222,6 +230,12 @@ EXPECTED = {
 @pytest.mark.parametrize("name", EXPECTED)
 def test_what_shipped_scenes_call_for(name):
     assert json.loads(invoke(name, "--json"))["ran"] == EXPECTED[name]
+
+
+def test_a_rounding_error_may_be_a_code_in_the_dark():
+    """A code of 12 bits is 0.8 grey levels where gamma is steepest: at 2 levels the lens is left."""
+    ran = json.loads(invoke("flat", "--json", "--budget", "2"))["ran"]
+    assert ran == ["shot noise", "read noise", "quantisation", "gamma"]
 
 
 def test_there_are_eight_scenes_and_a_list():
@@ -243,6 +257,13 @@ def test_the_table_says_why():
     assert "skipped" in text
     assert "DN" in text
     assert "everything:" in text
+
+
+def test_a_broken_promise_is_said_with_exit_code_1(monkeypatch):
+    monkeypatch.setattr("quizgen.camera.simulate.is_broken", lambda *_: True)
+    result = CliRunner().invoke(simulate, ["pinhole", "--all"])
+    assert result.exit_code == 1
+    assert "broken" in result.stderr
 
 
 def test_errors_are_one_line_and_exit_code_2(tmp_path):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy as np
 from quizgen.camera.body import NEEDS_FULL_WELL
 from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, on_picture
-from quizgen.camera.facts import Error, Facts
+from quizgen.camera.facts import Error, Facts, mean_size
 from quizgen.camera.scene import Image
 from quizgen.camera.settings import Setting
 from quizgen.camera.values import truth
@@ -50,17 +51,20 @@ def skipped(facts: Facts, view: View) -> Error:
 
 
 def carried(error: Error, facts: Facts, view: View) -> Error:
-    """Spilt charge adds up along a column."""
-    if not _overflows(facts, error.total):
+    """Spilt charge adds up along a column: whatever any of its rows may be off by."""
+    if not _overflows(facts, error.certain):
         return error
-    return Error(min((view.height + 1) * error.total, 1.0 - min(facts.bottom - error.total, 0.0)))
+    added = error.sure + mean_size(error.sigma, view.height)
+    filled = 1.0 - min(facts.bottom - error.certain, 0.0)
+    spilt = math.inf if error.odd else view.height * added + error.certain
+    return Error(min(spilt, filled))
 
 
 def after(facts: Facts, view: View) -> Facts:
     """A filled column is a step of the whole range."""
     if not _overflows(facts):
         return facts
-    full = replace(facts, high=1.0)
+    full = replace(facts, high=1.0).between(-math.inf, 1.0)
     return full.with_jump((full.span + full.reach, full.span + full.reach))
 
 

@@ -11,7 +11,7 @@ from quizgen.camera.body import NEEDS_FULL_WELL, SHUTTER
 from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, on_picture
 from quizgen.camera.facts import Error, Facts
-from quizgen.camera.noise import POISSON_GAP, bands, electrons_at_white, noisier, stream
+from quizgen.camera.noise import bands, electrons_at_white, noisier, poisson_gap, stream
 from quizgen.camera.scene import Image
 from quizgen.camera.settings import NOT_NEGATIVE, SHARE, Rule, Setting, Settings
 from quizgen.camera.values import quantity
@@ -65,26 +65,33 @@ def run(image: Image, view: View, rung: str = "") -> Image:
     return result
 
 
-def _dark(view: View) -> Error:
+def _noise(view: View) -> Error:
+    """The dark charge's own shot noise."""
     electrons, well = dark_electrons(view), electrons_at_white(view)
-    gap = POISSON_GAP / well if electrons else 0.0
-    return Error(electrons / well + gap, math.sqrt(electrons) / well)
+    gap = poisson_gap(electrons) if electrons else 0.0
+    return Error(gap / well, math.sqrt(electrons) / well)
+
+
+def _mean(view: View) -> Error:
+    return Error(dark_electrons(view) / electrons_at_white(view))
 
 
 def skipped(facts: Facts, view: View) -> Error:
     """Mean charge and its noise; a hot pixel may be anywhere."""
     if view.camera[HOT_PIXELS]:
         return Error(math.inf)
-    return _dark(view)
+    return _mean(view).plus(_noise(view))
 
 
 def after(facts: Facts, view: View) -> Facts:
     """Brighter and noisier; hot pixels are steps of the whole range."""
-    mean = dark_electrons(view) / electrons_at_white(view)
-    lifted = noisier(replace(facts, high=facts.high + mean), _dark(view).sigma)
+    mean, (low, high) = _mean(view).sure, facts.limits
+    lifted = replace(facts, high=facts.high + mean, limits=(low, high + mean))
+    lifted = noisier(lifted, _noise(view))
     if not view.camera[HOT_PIXELS]:
         return lifted
-    lifted = replace(lifted, high=max(lifted.high, 1.0))
+    low, high = lifted.limits
+    lifted = replace(lifted, high=max(lifted.high, 1.0), limits=(low, max(high, 1.0)))
     return lifted.with_jump((lifted.span, lifted.span))
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -77,7 +78,12 @@ def skipped(facts: Facts, view: View) -> Error:
     """Means of two or four neighbours miss by half the bends; noise is averaged differently."""
     bend, jump = facts.bend, facts.jump
     missed = min((bend[0] + bend[1]) / 2.0, jump[0] + jump[1], facts.span)
-    return Error(missed, math.sqrt(1.5) * facts.noise)
+    return Error(missed + 2.0 * facts.tail, math.sqrt(1.5) * facts.noise)
+
+
+def carried(error: Error, facts: Facts, view: View) -> Error:
+    """Means do not grow; one photosite shows in up to four of them."""
+    return replace(error, odd=4.0 * error.odd)
 
 
 def after(facts: Facts, view: View) -> Facts:
@@ -94,6 +100,7 @@ EFFECT = Effect(
     run=on_picture(run),
     cost=measured((1.64, 173)),
     skipped=skipped,
+    carried=carried,
     after=after,
     pair="bayer",
 )

@@ -15,7 +15,7 @@ from quizgen.camera.draw import Layer, Stack, sheets
 from quizgen.camera.effect import Effect, Rung
 from quizgen.camera.facts import Error, Facts
 from quizgen.camera.filters import sample, sample_nearest
-from quizgen.camera.layers import Field, mixed_axes, resampled, shifted, within
+from quizgen.camera.layers import Field, mixed_axes, resampled, rounding, shifted, within
 from quizgen.camera.scene import Image, SceneError
 from quizgen.camera.settings import Setting
 from quizgen.camera.values import number
@@ -153,17 +153,18 @@ def skipped(facts: Facts, view: View) -> Error:
     distance = largest_displacement(view)
     if view.camera[F_NUMBER] is not None and view.has_depth_map and distance >= 0.5:
         return Error(facts.span)
-    return shifted(facts, distance)
+    return shifted(facts, distance, view)
 
 
 def nearest(facts: Facts, view: View) -> Error:
     """At most half a pixel along each axis."""
-    return within(sum(sum(layer.jump) for layer in facts.layers) / 2.0, facts)
+    most = 0.5 + rounding(view)
+    return within(most * sum(sum(layer.jump) for layer in facts.layers), facts)
 
 
 def after(facts: Facts, view: View) -> Facts:
     """Steps grow by the local magnification."""
-    return mixed_axes(facts, magnification(view))
+    return mixed_axes(facts, magnification(view) + rounding(view))
 
 
 def cost(view: View, rung: str, opencv_used: bool) -> float:

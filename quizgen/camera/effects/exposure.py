@@ -23,7 +23,7 @@ def run(image: Image, view: View, rung: str = "") -> Image:
 
 def skipped(facts: Facts, view: View) -> Error:
     """Largest value times the missing factor."""
-    return Error(facts.size * abs(2.0 ** view.camera[EXPOSURE] - 1.0))
+    return facts.amplified(abs(2.0 ** view.camera[EXPOSURE] - 1.0))
 
 
 def carried(error: Error, facts: Facts, view: View) -> Error:

@@ -52,7 +52,7 @@ def _gain(view: View) -> tuple[float, float]:
 
 def skipped(facts: Facts, view: View) -> Error:
     """The mean lies between corner and centre, so factors lie between V and 1/V of the corner."""
-    return Error(facts.size * (_gain(view)[1] - 1.0), facts.noise * (_gain(view)[1] - 1.0))
+    return facts.amplified(_gain(view)[1] - 1.0)
 
 
 def carried(error: Error, facts: Facts, view: View) -> Error:
@@ -66,7 +66,9 @@ def after(facts: Facts, view: View) -> Facts:
     grown = facts.scaled(gain)
     step = (facts.size + facts.reach) * gain * gain * steepest_fall_off(view)
     low = min(facts.low * _gain(view)[0], grown.low)
-    return replace(grown.with_jump((grown.jump[0] + step, grown.jump[1] + step)), low=low)
+    limits = min(facts.limits[0] * _gain(view)[0], grown.limits[0]), grown.limits[1]
+    steep = grown.with_jump((grown.jump[0] + step, grown.jump[1] + step))
+    return replace(steep, low=low, limits=limits)
 
 
 EFFECT = Effect(

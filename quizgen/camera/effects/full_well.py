@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -21,12 +22,13 @@ def run(image: Image, view: View, rung: str = "") -> Image:
 
 def skipped(facts: Facts, view: View) -> Error:
     """What would stand above the full well."""
-    return Error(max(0.0, facts.top - 1.0))
+    return facts.outside(-math.inf, 1.0)
 
 
 def after(facts: Facts, view: View) -> Facts:
     """No more than 1; clipping may bend."""
     capped = replace(facts, high=min(facts.high, 1.0), low=min(facts.low, 1.0))
+    capped = capped.between(-math.inf, 1.0)
     return capped.with_jump(facts.jump) if facts.top > 1.0 else capped
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from quizgen.camera.costs import measured
@@ -53,7 +55,7 @@ def skipped(facts: Facts, view: View) -> Error:
     curve = np.array([encode_number(float(value), view.camera[GAMMA]) for value in grid])
     # both curves rise, so between two points the gap is at most the later minus the earlier
     gap = float(max((curve[1:] - grid[:-1]).max(), curve[0] - low))
-    return Error(gap + CURVE_ERROR + max(facts.top - 1.0, -facts.bottom, 0.0))
+    return facts.outside(0.0, 1.0).plus(Error(gap + CURVE_ERROR))
 
 
 def table(facts: Facts, view: View) -> Error:
@@ -62,11 +64,26 @@ def table(facts: Facts, view: View) -> Error:
     return Error(_gap(half, facts.bottom - half, view))
 
 
+def _spread(error: Error, bottom: float, view: View) -> Error:
+    """An error after encoding: above a concave curve lies its tangent where the error ends.
+
+    With a chord instead, small luck would be spread by more than its share.
+    """
+    total = _gap(error.total, bottom, view)
+    if not error.sigma:
+        return replace(error, sure=total)
+    shorter = error.total * (1.0 - _SHORT)
+    slope = (total - _gap(shorter, bottom, view)) / (error.total * _SHORT)
+    sure = total - slope * DEVIATIONS * error.sigma + CURVE_ERROR
+    return replace(error, sure=sure, sigma=slope * error.sigma)
+
+
+_SHORT = 2.0**-10
+
+
 def carried(error: Error, facts: Facts, view: View) -> Error:
     """The darkest values are spread most."""
-    sure = _gap(error.sure, facts.bottom - error.total, view)
-    total = _gap(error.total, facts.bottom - error.total, view)
-    return Error(sure, max(0.0, total - sure) / DEVIATIONS)
+    return _spread(error, facts.bottom - error.certain, view)
 
 
 def after(facts: Facts, view: View) -> Facts:
@@ -74,8 +91,9 @@ def after(facts: Facts, view: View) -> Facts:
     gamma, bottom = view.camera[GAMMA], facts.bottom
     low, high = encode_number(facts.low, gamma), encode_number(facts.high, gamma)
     jump = (_gap(facts.jump[0], bottom, view), _gap(facts.jump[1], bottom, view))
-    noise = _gap(facts.reach, bottom, view) / DEVIATIONS
-    return Facts(low, high, facts.layers, noise).with_jump(jump)
+    noise = _spread(Error(facts.tail, facts.noise), bottom, view)
+    limits = encode_number(facts.limits[0], gamma), encode_number(facts.limits[1], gamma)
+    return Facts(low, high, facts.layers, noise.sigma, noise.sure, limits).with_jump(jump)
 
 
 EFFECT = Effect(

@@ -45,14 +45,14 @@ def run(image: Image, view: View, rung: str = "") -> Image:
 
 def skipped(facts: Facts, view: View) -> Error:
     """Its standard deviation, and what it clips."""
-    return Error(max(facts.top - 1.0, -facts.bottom, 0.0), view.camera[GAUSSIAN_NOISE])
+    return facts.outside(0.0, 1.0).plus(Error(sigma=view.camera[GAUSSIAN_NOISE]))
 
 
 def after(facts: Facts, view: View) -> Facts:
     """Noisier and clipped."""
     low, high = min(max(facts.low, 0.0), 1.0), max(0.0, min(facts.high, 1.0))
     noise = math.hypot(facts.noise, view.camera[GAUSSIAN_NOISE])
-    noisy = replace(facts, noise=noise, low=low, high=high)
+    noisy = replace(facts, noise=noise, low=low, high=high, limits=(0.0, 1.0))
     return noisy.with_jump(facts.jump)
 
 

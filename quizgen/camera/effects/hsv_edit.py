@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, on_picture
@@ -38,17 +39,12 @@ def run(image: Image, view: View, rung: str = "") -> Image:
 def skipped(facts: Facts, view: View) -> Error:
     """Hue stays between a pixel's channels, saturation and value scale them."""
     camera = view.camera
-    clip = max(facts.top - 1.0, -facts.bottom, 0.0)
     top = min(max(facts.top, 0.0), 1.0)
     chroma = min(top, facts.span + 2 * facts.reach)
     turned = chroma if _turn(view) else 0.0
-    return Error(
-        turned
-        + abs(camera[SATURATION] - 1.0) * chroma
-        + abs(camera[VALUE] - 1.0) * top
-        + clip
-        + CURVE_ERROR
-    )
+    edited = turned + abs(camera[SATURATION] - 1.0) * chroma + abs(camera[VALUE] - 1.0) * top
+    clipped = facts.outside(0.0, 1.0)
+    return replace(clipped, odd=3.0 * clipped.odd).plus(Error(edited + CURVE_ERROR))
 
 
 def _gain(view: View) -> float:
@@ -61,15 +57,16 @@ def _gain(view: View) -> float:
 
 
 def carried(error: Error, facts: Facts, view: View) -> Error:
-    """Spread by at most `_gain`."""
-    return error.times(_gain(view))
+    """Spread by at most `_gain`: any channel's luck may decide."""
+    return Error(error.certain * _gain(view), odd=3.0 * error.odd)
 
 
 def after(facts: Facts, view: View) -> Facts:
     """Anything from black to the brightest value."""
     gain = _gain(view)
     high = min(1.0, facts.top * max(1.0, view.camera[VALUE]))
-    changed = Facts(0.0, high, facts.layers, min(facts.noise * gain, 1.0))
+    tail = min(facts.reach * gain, 1.0)
+    changed = Facts(0.0, high, facts.layers, tail=tail, limits=(0.0, 1.0))
     return changed.with_jump((facts.jump[0] * gain, facts.jump[1] * gain))
 
 

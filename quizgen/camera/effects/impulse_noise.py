@@ -50,7 +50,9 @@ def skipped(facts: Facts, view: View) -> Error:
 
 def after(facts: Facts, view: View) -> Facts:
     """Steps of the whole range."""
+    low, high = facts.limits
     wide = replace(facts, low=min(facts.low, 0.0), high=max(facts.high, 1.0))
+    wide = replace(wide, limits=(min(low, 0.0), max(high, 1.0)))
     return wide.with_jump((wide.span, wide.span))
 
 

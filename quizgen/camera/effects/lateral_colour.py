@@ -9,7 +9,7 @@ from quizgen.camera.draw import Layer, Stack, sheets
 from quizgen.camera.effect import Effect
 from quizgen.camera.facts import Error, Facts
 from quizgen.camera.filters import sample_grid
-from quizgen.camera.layers import resampled, shifted
+from quizgen.camera.layers import resampled, rounding, shifted
 from quizgen.camera.scene import Image, SceneError
 from quizgen.camera.settings import Setting
 from quizgen.camera.values import quantity
@@ -72,12 +72,12 @@ def _share(view: View) -> float:
 
 def skipped(facts: Facts, view: View) -> Error:
     """Shift at the corner times the steepest slope."""
-    return shifted(facts, _shift(view) / (1.0 - _share(view)))
+    return shifted(facts, _shift(view) / (1.0 - _share(view)), view)
 
 
 def after(facts: Facts, view: View) -> Facts:
     """Steps grow by the reduced colour's scale."""
-    factor = 1.0 / (1.0 - _share(view))
+    factor = 1.0 / (1.0 - _share(view)) + rounding(view)
     return facts.stepped(factor, factor)
 
 

@@ -83,7 +83,9 @@ def after(facts: Facts, view: View) -> Facts:
     ends = _normalised(facts.low, view), _normalised(facts.high, view)
     factor = _slope(view)
     jump = facts.jump[0] * factor, facts.jump[1] * factor
-    return Facts(min(ends), max(ends), facts.layers, facts.noise * factor).with_jump(jump)
+    noise = facts.noise * factor, facts.tail * factor
+    far = _normalised(facts.limits[0], view), _normalised(facts.limits[1], view)
+    return Facts(min(ends), max(ends), facts.layers, *noise, (min(far), max(far))).with_jump(jump)
 
 
 EFFECT = Effect(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -40,16 +41,15 @@ def _step(view: View) -> float:
 
 def skipped(facts: Facts, view: View) -> Error:
     """Half a code, and what the converter would clip."""
-    clipped = max(facts.top - 1.0, 0.0 - facts.bottom, 0.0)
-    return Error(_step(view) / 2.0 + clipped)
+    return facts.outside(0.0, 1.0).plus(Error(_step(view) / 2.0))
 
 
 def carried(error: Error, facts: Facts, view: View) -> Error:
     """Any difference may become a whole code."""
     step = _step(view)
     if error.sigma:
-        return Error(error.sure + step, error.sigma)
-    return Error(math.ceil(error.sure / step - 1e-9) * step)
+        return error.plus(Error(step))
+    return replace(error, sure=math.ceil(error.sure / step - 1e-9) * step)
 
 
 def after(facts: Facts, view: View) -> Facts:
@@ -61,8 +61,9 @@ def after(facts: Facts, view: View) -> Facts:
     low = min(max(facts.low - step / 2, 0.0), 1.0)
     high = max(min(facts.high + step / 2, 1.0), 0.0)
     if clipped:
-        return Facts(low, high, (LayerFacts(jump, (2 * jump[0], 2 * jump[1])),), facts.noise)
-    return Facts(low, high, (LayerFacts(jump, bend),), facts.noise)
+        bend = 2 * jump[0], 2 * jump[1]
+    coded = replace(facts, low=low, high=high, layers=(LayerFacts(jump, bend),))
+    return replace(coded, limits=(0.0, min(1.0, facts.limits[1] + step / 2)))
 
 
 EFFECT = Effect(

@@ -32,7 +32,7 @@ def skipped(facts: Facts, view: View) -> Error:
 
 def after(facts: Facts, view: View) -> Facts:
     """Noisier."""
-    return noisier(facts, _sigma(view))
+    return noisier(facts, skipped(facts, view))
 
 
 EFFECT = Effect(

@@ -21,6 +21,7 @@ from quizgen.camera.layers import (
     path,
     resampled,
     rim,
+    rounding,
     turned,
     within,
 )
@@ -71,8 +72,10 @@ def skipped(facts: Facts, view: View) -> Error:
     """How far things move until the first or last row is read, times the steepest slope."""
     time, total = (view.height - 1) / 2 * view.camera[ROW_TIME], 0.0
     for layer, sheet, _ in each(facts, view):
-        across, down = path(sheet.motion, view, time)
-        total += abs(across) * layer.jump[0] + abs(down) * layer.jump[1]
+        across, down = (abs(part) for part in path(sheet.motion, view, time))
+        if across or down:
+            across, down = across + rounding(view), down + rounding(view)
+        total += across * layer.jump[0] + down * layer.jump[1]
         total += chord(sheet.motion, view, time) * math.hypot(*layer.jump)
     return within(total, facts)
 

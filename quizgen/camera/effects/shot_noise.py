@@ -9,9 +9,16 @@ import numpy as np
 from quizgen.camera.body import FULL_WELL
 from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, Rung, on_picture
-from quizgen.camera.facts import EXCEEDED, Error, Facts
+from quizgen.camera.facts import ODD, Error, Facts
 from quizgen.camera.layers import Field
-from quizgen.camera.noise import POISSON_GAP, bands, electrons_at_white, noisier, stream
+from quizgen.camera.noise import (
+    POISSON_GAP,
+    bands,
+    electrons_at_white,
+    noisier,
+    poisson_gap,
+    stream,
+)
 from quizgen.camera.scene import Image
 from quizgen.camera.settings import Setting
 from quizgen.camera.values import truth
@@ -103,26 +110,28 @@ def run(image: Image, view: View, rung: str = "") -> Image:
     return result
 
 
-def _sigma(facts: Facts, view: View) -> float:
-    """Standard deviation at the brightest place: sqrt(N)/full well."""
-    return math.sqrt(max(facts.high, 0.0) / electrons_at_white(view))
-
-
 def skipped(facts: Facts, view: View) -> Error:
-    """The noise of the brightest place."""
-    return Error(0.0, _sigma(facts, view))
+    """The noise of the brightest place, sqrt(N)/full well, and by how much counts exceed it."""
+    well, brightest = electrons_at_white(view), max(facts.high, 0.0)
+    return Error(poisson_gap(brightest * well) / well, math.sqrt(brightest / well))
 
 
 def carried(error: Error, facts: Facts, view: View) -> Error:
     """Another signal has another noise, and may make one electron more.
 
-    The root is steepest at the darkest place; a change of the mean by less than `EXCEEDED`
-    electrons changes fewer counts than that share.
+    A change of the mean by a small part of an electron changes no more than this share of the
+    counts. The root is steepest at the darkest place. Beside it and whole electrons, the skewness
+    of the law changes by 1.6/N^(3/2) per electron of the mean, up to 6 standard deviations.
     """
-    well, start = electrons_at_white(view), max(0.0, facts.bottom - error.total)
-    apart = math.sqrt(start + error.total) - math.sqrt(start)
-    electron = 1.0 / well if error.total * well > EXCEEDED else 0.0
-    return Error(error.sure + electron, error.sigma + apart / math.sqrt(well))
+    well, most = electrons_at_white(view), error.certain
+    start = max(0.0, facts.bottom - most)
+    apart = math.sqrt(start + most) - math.sqrt(start)
+    noisy = error.along(Error(sigma=apart / math.sqrt(well)))
+    if most * well <= ODD:
+        return noisy.plus(Error(odd=most * well))
+    dark = max(start * well, 1e-9)
+    electrons = min(POISSON_GAP, 1.0 + 1.6 * most * well / dark**1.5)
+    return noisy.plus(Error(electrons / well))
 
 
 def gaussian(facts: Facts, view: View) -> Error:
@@ -132,7 +141,7 @@ def gaussian(facts: Facts, view: View) -> Error:
 
 def after(facts: Facts, view: View) -> Facts:
     """Noisier; never below zero electrons."""
-    return noisier(facts, _sigma(facts, view))
+    return noisier(facts, skipped(facts, view)).between(0.0, math.inf)
 
 
 EFFECT = Effect(

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from quizgen.camera.body import NEEDS_FULL_WELL
 from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, on_picture
-from quizgen.camera.facts import Error, Facts
+from quizgen.camera.facts import Error, Facts, mean_size
 from quizgen.camera.scene import Image
 from quizgen.camera.settings import SHARE, Setting
 from quizgen.camera.values import quantity
@@ -25,17 +27,22 @@ def run(image: Image, view: View, rung: str = "") -> Image:
 
 def skipped(facts: Facts, view: View) -> Error:
     """Share of the brightest possible column."""
-    return Error(view.camera[SMEAR] * facts.size)
+    return Error(view.camera[SMEAR] * facts.in_columns(view.height))
 
 
 def carried(error: Error, facts: Facts, view: View) -> Error:
-    """The column's mean carries the error again."""
-    return error.times(1.0 + view.camera[SMEAR])
+    """The column's mean carries the error again; its luck is that of all its rows."""
+    mean = error.sure + mean_size(error.sigma, view.height)
+    if error.odd:  # no column has more odd values than these
+        several = min(1.0, 12.0 / view.height + 10.0 * error.odd)
+        mean += several * (facts.top - facts.bottom)
+    return error.plus(Error(view.camera[SMEAR] * mean))
 
 
 def after(facts: Facts, view: View) -> Facts:
     """Brighter; steps between columns grow."""
-    return facts.scaled(1.0 + view.camera[SMEAR])
+    grown, low = facts.scaled(1.0 + view.camera[SMEAR]), facts.limits[0]
+    return replace(grown, limits=(min(low, grown.limits[0]), grown.limits[1]))
 
 
 EFFECT = Effect(

@@ -108,7 +108,7 @@ def steepest_fall_off(view: View) -> float:
 
 def skipped(facts: Facts, view: View) -> Error:
     """The corner loses most: largest value times (1 - V)."""
-    return Error(facts.size * (1.0 - corner_light(view)))
+    return facts.amplified(1.0 - corner_light(view))
 
 
 def after(facts: Facts, view: View) -> Facts:

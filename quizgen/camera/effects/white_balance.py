@@ -33,7 +33,7 @@ def run(image: Image, view: View, rung: str = "") -> Image:
 def skipped(facts: Facts, view: View) -> Error:
     """Largest value times the gain farthest from 1."""
     factor = max(abs(gain - 1.0) for gain in view.camera[WHITE_BALANCE])
-    return Error(facts.size * factor, facts.noise * factor)
+    return facts.amplified(factor)
 
 
 def carried(error: Error, facts: Facts, view: View) -> Error:
@@ -48,7 +48,9 @@ def after(facts: Facts, view: View) -> Facts:
     grown = facts.scaled(max(gains))
     low = min(facts.low * min(gains), facts.low * max(gains))
     high = max(facts.high * min(gains), facts.high * max(gains))
-    return replace(grown, low=low, high=high)
+    least, most = facts.limits
+    limits = min(least * min(gains), least * max(gains)), most * max(gains)
+    return replace(grown, low=low, high=high, limits=limits)
 
 
 EFFECT = Effect(
