@@ -70,32 +70,56 @@ def marked(
 
 
 def _marked(keys: Keys, attempt: Attempt, number: int, options: Options) -> Marked:
-    known: dict[str, tuple[Kept, list[tuple[Response, Entry]]]] = {}
-    questions: dict[str, str] = {}
+    found = given(keys, attempt)
+    parts = [part for one in found.questions for part in _parts(one, options)]
+    places = [*found.places]
+    parts.sort(key=lambda part: places.index(part.number))
+    return Marked(attempt, number, PaperResult("", tuple(parts)), found.places, found.foreign)
+
+
+@dataclass(frozen=True, slots=True)
+class Given:
+    """What an attempt holds, question by question.
+
+    Parameters
+    ----------
+    questions : tuple of (Kept, mapping)
+        A question, and by part the number where it stood and what would have been typed.
+    places : mapping
+        The id of the question that stood at each number of the quiz.
+    foreign : tuple of str
+        Numbers of questions that are not in the keys.
+    """
+
+    questions: tuple[tuple[Kept, Mapping[str, tuple[str, Typed]]], ...]
+    places: Mapping[str, str]
+    foreign: tuple[str, ...]
+
+
+def given(keys: Keys, attempt: Attempt) -> Given:
+    """Sort what was responded by the questions that it is about, of which some were asked apart."""
+    known: dict[str, tuple[Kept, dict[str, tuple[str, Typed]]]] = {}
+    places: dict[str, str] = {}
     foreign: list[str] = []
     for one in attempt.responses:
         if one.question not in keys.found:
             foreign.append(one.number or one.question)
             continue
         kept, entry = keys.found[one.question]
-        place = kept.slot if kept.slot not in questions else entry.id
+        place = kept.slot if kept.slot not in places else entry.id
         response = replace(one, number=one.number or place)
-        known.setdefault(kept.id, (kept, []))[1].append((response, entry))
-        questions[response.number] = entry.id
-    parts = [part for kept, given in known.values() for part in _parts(kept, given, options)]
-    places = [*questions]
-    parts.sort(key=lambda part: places.index(part.number))
-    return Marked(attempt, number, PaperResult("", tuple(parts)), questions, tuple(foreign))
+        typed = known.setdefault(kept.id, (kept, {}))[1]
+        for name, text in _typed(kept, entry, response).items():
+            typed[name] = (response.number, text)
+        places[response.number] = entry.id
+    return Given(tuple(known.values()), places, tuple(foreign))
 
 
 def _parts(
-    kept: Kept, given: Iterable[tuple[Response, Entry]], options: Options
+    question: tuple[Kept, Mapping[str, tuple[str, Typed]]], options: Options
 ) -> Iterator[PartResult]:
     """The parts of one question, which a system may have asked as several."""
-    typed: dict[str, tuple[str, Typed]] = {}
-    for response, entry in given:
-        for name, text in _typed(kept, entry, response).items():
-            typed[name] = (response.number, text)
+    kept, typed = question
     marker = Marker(kept.key, structs.replace(options, lang=options.lang or kept.lang))
     for part in kept.key.parts:
         if part.id in typed:
