@@ -97,13 +97,14 @@ class Keys:
 
     def items(self) -> set[str]:
         """What the papers ask: templates, with the letters of their parts."""
-        missing = {name for family in self.folder.settings.templates for name in family}
+        families = self.folder.settings.templates  # of a quiz that was played none are known
+        missing = {name for family in families for name in family}
         found: set[str] = set()
         for student in self.places:
             outline = self.outline(student)
             found |= outline.options.keys()
             missing -= outline.identities.keys()
-            if not missing:
+            if families and not missing:
                 break
         return found
 

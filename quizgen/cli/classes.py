@@ -100,6 +100,27 @@ def code(folder: Path, printed: str) -> None:
     click.echo(f"{found.head.code}: {one_line(found.head.id)}")
 
 
+@class_.command()
+@click.argument("keys", type=click.Path(path_type=Path))
+@click.argument("reports", type=click.Path(path_type=Path), nargs=-1, required=True)
+@click.option("--out", type=click.Path(path_type=Path), required=True, help="Folder of the class.")
+def take(keys: Path, reports: tuple[Path, ...], out: Path) -> None:
+    """Make a class of a quiz that Moodle or a player of QTI has played.
+
+    KEYS is what quizgen export left behind (.keys.jsonl), REPORTS are responses as quizgen check
+    reads them. A later report adds who is new.
+    """
+    from quizgen.classes.folder import ClassFolder
+    from quizgen.classes.quiz import take as take_quiz
+
+    lost: list[str] = []
+    found = take_quiz(ClassFolder(out), keys, reports, lost.append)
+    for line in lost:
+        tell(one_line(line))
+    tell(f"{out}: {found.people} on the roster, answers of {found.new} new. "
+         f"Next: quizgen class mark {out}")  # fmt: skip
+
+
 def _columns(text: str | None) -> Mapping[str, str]:
     pairs = [name.partition("=") for name in split(text)]
     for ours, sign, theirs in pairs:
@@ -121,6 +142,8 @@ def _blueprint(folder: ClassFolder, students: list[Student], options: Options) -
         folder.create(new_settings(name, bank, blueprint, lang, vary=options["vary"]), students)
         return blueprint
     settings = folder.settings
+    if not settings.digest:
+        raise ClassError(f"{folder.path}: is of a quiz that was played, and has no papers")
     _same(folder, options)
     return load_blueprint(options["blueprint"] or settings.blueprint, bank_of(settings))
 
