@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -260,7 +261,7 @@ def test_the_table_says_why():
 
 
 def test_a_broken_promise_is_said_with_exit_code_1(monkeypatch):
-    monkeypatch.setattr("quizgen.camera.simulate.is_broken", lambda *_: True)
+    monkeypatch.setattr(import_module("quizgen.camera.simulate"), "is_broken", lambda *_: True)
     result = CliRunner().invoke(simulate, ["pinhole", "--all"])
     assert result.exit_code == 1
     assert "broken" in result.stderr
