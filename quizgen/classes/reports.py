@@ -272,7 +272,7 @@ def report_pdf(report: Report) -> bytes:
     )
     heads = ", ".join(string(words[name]) for name in ("part", "yours", "right", "points"))
     body = "\n".join(_question(section, heads) for section in report.sections)
-    return compiled(document("report.typ", f"{head}\n{_revise(report)}\n{body}\n", PACKAGE), {})
+    return compiled(document("report.typ", f"{head}\n{_revise(report)}\n{body}\n", PACKAGE))
 
 
 def _revise(report: Report) -> str:

@@ -18,6 +18,7 @@ from quizgen.render.typ import (
     equation,
     inline,
     joined,
+    passage,
     printable,
     say,
     string,
@@ -49,14 +50,12 @@ class _Sheet:
         return f"{self._opening()}\n{cover}\n{body}\n"
 
     def _opening(self) -> str:
-        page = word(self.main, "paper.page", page="\u0001", pages="\u0002")
-        for mark, name in (("\u0001", "page"), ("\u0002", "pages")):
-            page = page.replace(mark, f'" + {name} + "')
+        of = word(self.main, "paper.page", page="{page}", pages="{pages}")
         title = self._title(self.main)
         return (
-            f"#show: paper.with(title: {string(title)}, code: {string(self.paper.code)}, "
-            f"holder: {string(_named(self.paper))}, "
-            f'lang: {string(self.main)}, of: (page, pages) => "{page}")'
+            f"#about(title: {string(title)}, code: {string(self.paper.code)}, "
+            f"holder: {string(_named(self.paper))})\n"
+            f"#show: paper.with(lang: {string(self.main)}, of: {string(of)})"
         )
 
     def _title(self, lang: str) -> str:
@@ -240,7 +239,7 @@ class _Sheet:
     def _step(self, lines: list[Line]) -> str:
         why = each(
             self.langs,
-            [inline(line.why, lang) for line, lang in zip(lines, self.langs, strict=True)],
+            [passage(inline(line.why, lang)) for line, lang in zip(lines, self.langs, strict=True)],
         )
         maths, cite = equation(lines[0].maths, self.main, block=True), string(lines[0].formula)
         shown = f"#fitted[{maths}]" if len(lines[0].maths.typed) > SURE_TO_FIT else maths
@@ -297,14 +296,15 @@ def _left_over(part: Part) -> str:
 
 def _reasons(part: PartSolution, lang: str) -> str:
     """Why the answer of a part is right, and why each other choice is wrong."""
-    why = [f"#block(inset: (left: 0.7em))[{inline(part.why, lang)}]"] if part.why else []
+    why = [f"#block(inset: (left: 0.7em))[{passage(inline(part.why, lang))}]"] if part.why else []
     wrong = [_mistake("", reason, lang) for reason in part.reasons]
     return "\n".join([*why, *wrong])
 
 
 def _mistake(label: str, mistake: Mistake, lang: str) -> str:
     name = string(f"({label}) " if label else "")
-    return f"#mistake({name}, [{inline(mistake.shown, lang)}], [{inline(mistake.sentence, lang)}])"
+    shown, sentence = (passage(inline(one, lang)) for one in (mistake.shown, mistake.sentence))
+    return f"#mistake({name}, [{shown}], [{sentence}])"
 
 
 def _heading(section: str, lang: str) -> str:
@@ -312,10 +312,10 @@ def _heading(section: str, lang: str) -> str:
     return f"#heading(level: 3)[#{string(word(lang, key))};]"
 
 
-def source(paper: Paper, kind: str) -> tuple[str, dict[str, bytes]]:
-    """Typst source and pictures of a sheet."""
+def source(paper: Paper, kind: str) -> dict[str, bytes]:
+    """Typst files of a sheet, and its pictures."""
     sheet = _Sheet(paper, kind)
-    return document("paper.typ", sheet.source()), sheet.pictures
+    return {**document("paper.typ", sheet.source()), **sheet.pictures}
 
 
 def render(paper: Paper, kind: str) -> bytes:
@@ -326,4 +326,4 @@ def render(paper: Paper, kind: str) -> bytes:
     RenderError
         If Typst refuses the document or a font is missing.
     """
-    return compiled(*source(paper, kind))
+    return compiled(source(paper, kind))

@@ -30,7 +30,7 @@ def render(sheet: Sheet) -> bytes:
     RenderError
         If Typst refuses the document or a font is missing.
     """
-    return compiled(document("sheet.typ", _source(sheet)), {})
+    return compiled(document("sheet.typ", _source(sheet)))
 
 
 def _source(sheet: Sheet) -> str:

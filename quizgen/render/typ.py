@@ -21,6 +21,7 @@ from quizgen.render import fonts
 _KNOWN = frozenset(map(chr, (*range(0x20, 0x7F), *range(0xA1, 0x180), *range(0x985, 0x9E4))))
 """Latin and Bangla, in which most names are written."""
 STANDARD: Final = "ua-1"
+MAIN: Final = "main.typ"
 MOMENT = datetime(2000, 1, 1, tzinfo=UTC)
 """The date written into every file: the same paper is the same bytes on any day."""
 
@@ -67,6 +68,15 @@ def _styled(part: prose.Styled, lang: str) -> str:
     return f"#{name}[{inline(part.children, lang)}];"
 
 
+def passage(body: str) -> str:
+    """Markup that reads markup of one passage out of a string.
+
+    Typst remembers how it laid a passage out, but takes its place in a file as part of it. What is
+    read from a string has none: it is laid out once for all papers that say it.
+    """
+    return f"#passage({string(body)});" if body else ""
+
+
 def equation(maths: Maths, lang: str, *, block: bool) -> str:
     """A formula with its spoken alternative."""
     spoken = string(typeset.spoken(maths.node, lang))
@@ -87,7 +97,7 @@ def _block(part: prose.Block, lang: str) -> str:
 
 @_block.register
 def _paragraph(part: prose.Paragraph, lang: str) -> str:
-    return inline(part.children, lang)
+    return passage(inline(part.children, lang))
 
 
 @_block.register
@@ -116,7 +126,7 @@ def within(lang: str, body: str) -> str:
 
 def say(lang: str, body: str) -> str:
     """Words in a language, within a line."""
-    return f"#say({string(lang)})[{body}];"
+    return f"#say({string(lang)})[{passage(body)}];"
 
 
 def each(langs: Iterable[str], bodies: Iterable[str]) -> str:
@@ -158,7 +168,7 @@ def _has_glyph(character: str) -> bool:
         return True  # a mark is printed with the letter before it
     page = f'#set document(title: [x])\n#text(lang: "en", {string(character)})'
     try:
-        compiled(page, {})
+        compiled({MAIN: page.encode()})
     except RenderError:
         return False
     return True
@@ -184,13 +194,8 @@ def forget(documents: int) -> None:
         _scratch().compile(b"", format="pdf")
 
 
-@cache
-def _layout(name: str, package: str) -> str:
-    return (files(package) / "pages" / name).read_text(encoding="utf-8")
-
-
-def document(layout: str, body: str, package: str = "quizgen.render") -> str:
-    """Source of a document.
+def document(layout: str, body: str, package: str = "quizgen.render") -> dict[str, bytes]:
+    """Files of a document: the layouts stand in files of their own, the same for all documents.
 
     Parameters
     ----------
@@ -201,13 +206,23 @@ def document(layout: str, body: str, package: str = "quizgen.render") -> str:
     package : str
         Whose ``pages``.
     """
-    bangla = "".join(f"{string(lang)}," for lang in in_script("Beng"))
-    pages = f"{_layout('common.typ', 'quizgen.render')}\n{_layout(layout, package)}"
-    return f"#let bangla = ({bangla})\n{pages}\n{body}"
+    names = {"common.typ": "quizgen.render", layout: package}
+    imports = "".join(f"#import {string(name)}: *\n" for name in names)
+    pages = {name: _layout(name, whose) for name, whose in names.items()}
+    return {**pages, MAIN: f"{imports}{body}".encode()}
 
 
-def compiled(text: str, pictures: Mapping[str, bytes]) -> bytes:
-    """Typeset a document as a tagged PDF.
+@cache
+def _layout(name: str, package: str) -> bytes:
+    before = '#import "common.typ": *'
+    if name == "common.typ":
+        before = f"#let bangla = ({''.join(f'{string(lang)},' for lang in in_script('Beng'))})"
+    text = (files(package) / "pages" / name).read_text(encoding="utf-8")
+    return f"{before}\n{text}".encode()
+
+
+def compiled(sources: Mapping[str, bytes]) -> bytes:
+    """Typeset a document, with the pictures among its files, as a tagged PDF.
 
     Raises
     ------
@@ -216,7 +231,7 @@ def compiled(text: str, pictures: Mapping[str, bytes]) -> bytes:
     """
     import typst
 
-    world: Any = {"main.typ": text.encode(), **pictures}  # the stub knows one file only
+    world: Any = dict(sources)  # the stub knows one file only
     try:
         data, warnings = typst.compile_with_warnings(
             world, format="pdf", pdf_standards=STANDARD, font_paths=_fonts(), timestamp=MOMENT

@@ -32,7 +32,7 @@ def trial(bank):
 
 @pytest.fixture(scope="module")
 def body(mock):
-    source, _ = pdf.source(mock, "exam")
+    source = pdf.source(mock, "exam")["main.typ"].decode()
     return source.partition("#show: paper.with")[2]
 
 
@@ -59,8 +59,22 @@ def test_each_calculation_has_room_and_each_statement_two_boxes(mock, body):
     assert calls["truth"] == sum(control.form == "truth" for control in fields)
 
 
+def test_papers_of_a_language_share_their_rules_and_read_sentences_out_of_strings(bank, mock):
+    """What Typst has laid out for one of them it need not lay out for another."""
+    other = build(bank, load_blueprint("mock"), 4, "en")
+    kinds = [(mock, "exam"), (mock, "solutions"), (other, "exam")]
+    files = [pdf.source(paper, kind) for paper, kind in kinds]
+    texts = [file["main.typ"].decode() for file in files]
+    assert len({re.search(r"^#show: .*$", text, re.MULTILINE)[0] for text in texts}) == 1
+    assert mock.code in texts[0]
+    assert mock.code not in texts[0].partition("#show: ")[2].partition("\n")[0]
+    assert files[0]["paper.typ"] == files[2]["paper.typ"]
+    assert '#spoken("en")[#passage(' in texts[0]
+    assert not re.search(r'^#spoken\("en"\)\[#"', texts[1], re.MULTILINE)
+
+
 def test_a_trial_has_a_box_to_sketch_in(trial):
-    source, _ = pdf.source(trial, "exam")
+    source = pdf.source(trial, "exam")["main.typ"].decode()
     number = next(item.number for item in trial.items if "sketch" in item.questions[0].template)
     assert source.count(f'#image("figure-{number}b.svg"') == 1
     page = html.render(trial, "exam").decode()
@@ -85,9 +99,7 @@ def test_the_page_says_how_to_type_and_printed_how_to_write(browser, mock, tmp_p
 
 def white_below(paper, kind):
     """What share of each page is white at its end, the cover and the last page aside."""
-    text, pictures = pdf.source(paper, kind)
-    world = {"main.typ": text.encode(), **pictures}
-    pages = typst.compile(world, format="png", ppi=24, font_paths=_fonts())
+    pages = typst.compile(pdf.source(paper, kind), format="png", ppi=24, font_paths=_fonts())
     for page in pages[kind == "exam" : -1]:
         grey = np.asarray(Image.open(io.BytesIO(page)).convert("L"))
         mm = len(grey) / 297
@@ -114,8 +126,8 @@ def test_an_answer_told_in_words_alone_begins_with_them(bank):
     paper = single(bank.template("define-image-pixel-channel"), 3, "en", figures=False)
     said = re.findall(r"<strong>Answer:</strong>\s*(\S+)", html.render(paper, "solutions").decode())
     assert said[1:] == ["one", "one", "false"]
-    typst_text, _ = pdf.source(paper, "solutions")
-    assert '#strong("Answer:"); #" - "' not in typst_text
+    typst_text = pdf.source(paper, "solutions")["main.typ"].decode()
+    assert r"#strong(\"Answer:\"); #\" - \"" not in typst_text
 
 
 def test_of_a_drawn_mistake_only_the_sentence_is_told(bank):
@@ -123,6 +135,6 @@ def test_of_a_drawn_mistake_only_the_sentence_is_told(bank):
     paper = single(bank.template("draw-image-through-a-pinhole"), 1, "en")
     said = "The image stands upright."
     assert f"<li>{said}" in html.render(paper, "solutions").decode()
-    typst_text, _ = pdf.source(paper, "solutions")
-    assert f'#mistake("(a) ", [], [#"{said}' in typst_text
+    typst_text = pdf.source(paper, "solutions")["main.typ"].decode()
+    assert f'#mistake("(a) ", [], [#passage("#\\"{said}' in typst_text
     assert f"! upright: {said}" in question_text(paper.items[0])
