@@ -6,12 +6,15 @@ import os
 import shutil
 import subprocess
 import sys
+import tomllib
 import zipfile
 from pathlib import Path
 
 import pytest
 
 ROOT = Path(__file__).parent.parent
+TABLE = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+PINS = TABLE["tool"]["uv"]["constraint-dependencies"]
 ARGUMENTS = ["exam", "--seed", "3", "--blueprint", "trial", "--lang", "both", "--out", "paper"]
 
 
@@ -44,6 +47,25 @@ def test_wheel_and_sdist_hold_the_bank(built):
     assert next(built.glob("*.tar.gz")).stat().st_size > 0
 
 
+ALL = """
+import sys
+from quizgen.bank import folder
+print(len(list(folder.builtin())), folder.__file__, *sys.modules)
+"""
+
+
+def test_a_wheel_brings_what_its_bank_comes_to(built, tmp_path):
+    """Where nothing can be kept: solvers were run, and prose was read, when it was built."""
+    zipfile.ZipFile(next(built.glob("*.whl"))).extractall(tmp_path)
+    around = os.environ | {"PYTHONPATH": str(tmp_path), "XDG_CACHE_HOME": "/dev/null/nowhere"}
+    done = subprocess.run([sys.executable, "-c", ALL], check=True, capture_output=True, text=True,
+                          cwd=tmp_path, env=around)  # fmt: skip
+    count, file, *loaded = done.stdout.split()
+    assert int(count) == len(list((ROOT / "templates").rglob("template.toml")))
+    assert Path(file).is_relative_to(tmp_path)
+    assert not {"sympy", "markdown_it"} & set(loaded)
+
+
 @pytest.mark.slow
 def test_a_wheel_in_an_empty_environment_makes_the_same_paper(uv, built, tmp_path):
     environment = tmp_path / "venv"
@@ -53,7 +75,7 @@ def test_a_wheel_in_an_empty_environment_makes_the_same_paper(uv, built, tmp_pat
     python = next(p for p in (environment / "bin" / "python", environment / "Scripts" / "python.exe")
                   if p.exists())  # fmt: skip
     pins = tmp_path / "pins.txt"
-    pins.write_text(_pins())
+    pins.write_text("\n".join(PINS))
     subprocess.run(
         [uv, "pip", "install", "--quiet", "--python", str(python), "--constraint", str(pins),
          str(next(built.glob("*.whl")))], check=True,
@@ -74,8 +96,7 @@ def test_a_wheel_in_an_empty_environment_makes_the_same_paper(uv, built, tmp_pat
         assert data == made["checkout"][name], name
 
 
-def _pins() -> str:
-    import tomllib
-
-    table = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
-    return "\n".join(table["tool"]["uv"]["constraint-dependencies"])
+def test_a_wheel_is_built_with_what_a_checkout_runs_with():
+    """What is kept under another version of SymPy is not found."""
+    hook = TABLE["tool"]["hatch"]["build"]["targets"]["wheel"]["hooks"]["custom"]
+    assert set(hook["dependencies"]) <= set(PINS)

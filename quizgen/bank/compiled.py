@@ -1,7 +1,7 @@
 """What a bank's files come to - chains, rules, prose - kept, so that each is worked out once.
 
-It follows from the files, from quizgen's code between them and what is kept, and from the packages
-that code asks.
+It follows from the files, from quizgen's code between them and what is kept, and from the package
+that this code asks. A wheel brings what its own bank comes to (``tools/keep.py``).
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from quizgen import kept
 
 T = TypeVar("T")
 
-_OTHERS = {"sympy": "release.py", "markdown_it": "__init__.py"}
-"""A package and its file that says which version it is: to import it would take longer."""
+_VERSIONS = {"sympy": "release.py", "markdown_it": "__init__.py"}
+"""A package's file that says which version it is: to import it would take longer."""
 _UNFIT = msgspec.MsgspecError, ValueError, OverflowError, RecursionError
 """What is raised where a thing cannot be written, or what is found is none."""
 
@@ -34,15 +34,17 @@ class Compiled(Generic[T]):
         Names them in the cache.
     shape : type
         What they are.
+    package : str
+        What else has a say in them, if anything.
     """
 
-    def __init__(self, kind: str, shape: type[T]) -> None:
-        self.kind = kind
+    def __init__(self, kind: str, shape: type[T], package: str = "") -> None:
+        self.kind, self.package = kind, package
         self._decoder = msgspec.msgpack.Decoder(shape, dec_hook=lambda kind, text: kind(text))
 
     def find(self, *sources: bytes) -> T | None:
         """What sources came to, if it is kept."""
-        found = kept.find(self.kind, _key(sources))
+        found = kept.find(self.kind, self._key(sources))
         if found is None:
             return None
         with suppress(*_UNFIT):
@@ -54,26 +56,24 @@ class Compiled(Generic[T]):
         with suppress(*_UNFIT):
             data = msgspec.msgpack.encode(thing, enc_hook=str)
             if self._decoder.decode(data) == thing:
-                kept.keep(self.kind, _key(sources), data)
+                kept.keep(self.kind, self._key(sources), data)
         return thing
 
-
-def _key(sources: tuple[bytes, ...]) -> str:
-    return kept.digest_of(_maker(), *sources)
+    def _key(self, sources: tuple[bytes, ...]) -> str:
+        return kept.digest_of(_maker(self.package), *sources)
 
 
 @cache
-def _maker() -> bytes:
+def _maker(package: str) -> bytes:
     """Digest of the code that makes of sources what is kept."""
-    return kept.digest_of(*(file.read_bytes() for file in _code())).encode()
+    return kept.digest_of(*(file.read_bytes() for file in _code(package))).encode()
 
 
-def _code() -> Iterator[Path]:
-    package = Path(__file__).parent.parent
+def _code(package: str) -> Iterator[Path]:
+    own = Path(__file__).parent.parent
     for folder in ("bank", "maths"):
-        yield from sorted((package / folder).rglob("*.py"))
-    yield package / "outside.py"
-    for name, file in _OTHERS.items():
-        found = find_spec(name)
-        if found is not None and found.origin is not None:
-            yield Path(found.origin).with_name(file)
+        yield from sorted((own / folder).rglob("*.py"))
+    yield own / "outside.py"
+    found = find_spec(package) if package else None
+    if found is not None and found.origin is not None:
+        yield Path(found.origin).with_name(_VERSIONS[package])

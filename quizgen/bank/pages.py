@@ -38,7 +38,7 @@ NAMED_SECTIONS = frozenset(
     {"steps", "traps", "options", "words", "gaps", "points", "reasons", "claims"}
 )
 PROSE_SECTIONS = frozenset({"why", "check", "note"})
-_TEXTS = Compiled("prose", Text)
+_TEXTS = Compiled("prose", Text, "markdown_it")
 
 
 def read_text(path: Path) -> Text:

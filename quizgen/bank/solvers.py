@@ -25,7 +25,7 @@ from quizgen.maths.chain import Chain
 from quizgen.maths.model import Model
 from quizgen.outside import read_bytes
 
-_CHAINS = Compiled("chains", Chain)
+_CHAINS = Compiled("chains", Chain, "sympy")
 _PRIVATE = "_quizgen_solvers_"
 _RELATIVE = re.compile(rb"\bfrom[ \t]+\.")
 _PURE = {"__future__", "fractions", "math", "quizgen", "sympy", "typing"}

@@ -1,0 +1,33 @@
+"""Bring what the bank's files come to with the wheel, so that nobody has to wait for it once."""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from hatchling.builders.hooks.plugin.interface import BuildHookInterface
+
+
+class Keep(BuildHookInterface):  # type: ignore[type-arg]
+    """Loads every template of the bank while its wheel is built."""
+
+    def initialize(self, version: str, build_data: dict[str, Any]) -> None:
+        """Add what is kept to the files of the wheel; a checkout keeps it when it is asked."""
+        if version == "editable":
+            return
+        sys.path.insert(0, self.root)
+        from quizgen import kept
+        from quizgen.bank.folder import Bank
+
+        self._made = tempfile.TemporaryDirectory()
+        kept.own = lambda: Path(self._made.name)
+        list(Bank(Path(self.root), trusted=True))
+        build_data["force_include"][self._made.name] = "quizgen/builtin/kept"
+
+    def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:
+        """Remove what was made for the wheel."""
+        del build_data, artifact_path
+        if version != "editable":
+            self._made.cleanup()
