@@ -149,6 +149,10 @@ class Bank:
     def _beside(self, name: str) -> dict[str, Path]:
         return {path.stem: path for path in sorted((self.folder / name).glob("*.toml"))}
 
+    def __reduce__(self) -> tuple[object, ...]:
+        """Another process opens the folder for itself."""
+        return (builtin, ()) if self is builtin() else (_opened, (self.root, self.trusted))
+
     def __repr__(self) -> str:
         return f"<Bank {self.root.name}: {len(self)} templates>"
 
@@ -322,6 +326,10 @@ class Bank:
     def __len__(self) -> int:
         """How many templates there are."""
         return len(self.paths)
+
+
+def _opened(root: Path, trusted: bool) -> Bank:
+    return Bank(root, trusted=trusted)
 
 
 def _titled(name: str) -> str:

@@ -8,7 +8,7 @@ diagnosing all run the same compiled chain. It serialises to plain formulas of t
 from __future__ import annotations
 
 from collections.abc import Container, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 from typing import TypeAlias
 
@@ -51,6 +51,10 @@ class Chain:
     steps: tuple[ChainStep, ...]
     traps: Mapping[str, tuple[ChainStep, ...]] = field(default_factory=dict)
     formulas: Mapping[str, str] = field(default_factory=dict)
+
+    def __getstate__(self) -> dict[str, object]:
+        """What another process is told: it compiles for itself."""
+        return {one.name: getattr(self, one.name) for one in fields(self)}
 
     @cached_property
     def by_name(self) -> dict[str, ChainStep]:
