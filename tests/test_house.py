@@ -76,3 +76,14 @@ def test_no_two_test_files_have_one_name():
     """pytest collects only one of them."""
     names = [path.name for path in (ROOT / "tests").rglob("test_*.py")]
     assert sorted(names) == sorted(set(names))
+
+
+def test_a_type_is_described_by_one_thread_at_a_time():
+    """msgspec crashes where two begin together: whoever asks it has ``shapes`` describe the type."""
+    asks = re.compile(
+        r"msgspec\.convert\b|msgspec\.\w+\.Decoder\b|msgspec\.\w+\.decode\([^)]*type="
+    )
+    described = re.compile(r"^ +describe\(", re.MULTILINE)
+    sources = {path: path.read_text(encoding="utf-8") for path in FILES}
+    asking = [path for path, source in sources.items() if asks.search(source)]
+    assert [path for path in asking if not described.search(sources[path])] == []

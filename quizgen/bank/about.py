@@ -17,6 +17,7 @@ from quizgen.errors import BankError, FormulaError
 from quizgen.locale import FIRST
 from quizgen.maths.units import System, system
 from quizgen.outside import parse_toml, read_text
+from quizgen.shapes import converted
 
 S = TypeVar("S", bound=msgspec.Struct)
 
@@ -92,7 +93,7 @@ def read_struct(path: Path, kind: type[S]) -> S:
     if not path.exists():
         return kind()
     try:
-        return msgspec.convert(parse_toml(read_text(path, BankError), path, BankError), kind)
+        return converted(parse_toml(read_text(path, BankError), path, BankError), kind)
     except msgspec.ValidationError as error:
         raise BankError(f"{path}: {error}") from error
 

@@ -16,6 +16,7 @@ from typing import Generic, TypeVar
 import msgspec
 
 from quizgen import kept
+from quizgen.shapes import describe
 
 T = TypeVar("T")
 
@@ -40,6 +41,7 @@ class Compiled(Generic[T]):
 
     def __init__(self, kind: str, shape: type[T], package: str = "") -> None:
         self.kind, self.package = kind, package
+        describe(shape)
         self._decoder = msgspec.msgpack.Decoder(shape, dec_hook=lambda kind, text: kind(text))
 
     def find(self, *sources: bytes) -> T | None:

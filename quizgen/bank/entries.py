@@ -13,6 +13,7 @@ import msgspec
 from quizgen.bank.folder import Bank
 from quizgen.errors import BankError
 from quizgen.outside import parse_toml, read_text
+from quizgen.shapes import converted
 
 Tier = Literal["A", "B", "C", "D"]
 
@@ -78,7 +79,7 @@ def load(source: str, kind: type[E], where: str, langs: tuple[str, ...] = ()) ->
 
 def _entry(row: dict[str, object], kind: type[E], where: str, langs: tuple[str, ...]) -> E:
     try:
-        entry = msgspec.convert({**row, _FROM: where}, kind)
+        entry = converted({**row, _FROM: where}, kind)
     except msgspec.ValidationError as error:
         names = {field.encode_name for field in msgspec.structs.fields(kind)}
         allowed = ", ".join(sorted(names - {_FROM}))

@@ -18,6 +18,7 @@ from quizgen.maths.constants import Scalar
 from quizgen.maths.numbers import written
 from quizgen.maths.tolerance import MOST_DIGITS
 from quizgen.outside import NAMES, is_name
+from quizgen.shapes import converted
 
 LARGEST = 10**100
 """Largest size of an authored number, and of its inverse."""
@@ -179,7 +180,7 @@ def _out_of(field: str, value: Scalar, most: int) -> Problems:
 
 def _answer(table: Mapping[str, object]) -> Problems:
     try:
-        answer = msgspec.convert(table, Answer)
+        answer = converted(table, Answer)
     except msgspec.ValidationError as error:
         yield "answer", str(error)
         return

@@ -23,6 +23,7 @@ import msgspec
 from quizgen.bank.prose import Inline, inlines
 from quizgen.errors import BankError
 from quizgen.outside import parse_toml, read_text
+from quizgen.shapes import converted
 
 
 class Quantities(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
@@ -58,7 +59,7 @@ def read_quantities(paths: Iterable[Path]) -> dict[str, Quantities]:
     for path in paths:
         table = parse_toml(read_text(path, BankError), path, BankError)
         try:
-            read = msgspec.convert(table, dict[str, Quantities])
+            read = converted(table, dict[str, Quantities])
         except msgspec.ValidationError as error:
             raise BankError(f"{path}: {error}") from error
         for solver in read:

@@ -7,7 +7,7 @@ are written in the grammar that students type, over quantities in the units they
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 from pathlib import Path
 from types import ModuleType
@@ -21,11 +21,13 @@ from quizgen.bank.compiled import Compiled
 from quizgen.bank.limits import problems
 from quizgen.bank.quantities import Quantities
 from quizgen.bank.rules import DrawRule, FigureRule, KeepRule, PartRule, Rules, minutes_of
+from quizgen.bank.solvers import module_of
 from quizgen.errors import BankError, FormulaError
 from quizgen.maths.chain import Chain
 from quizgen.maths.notation import parse
 from quizgen.maths.tree import Expr, names
 from quizgen.outside import parse_toml, read_text
+from quizgen.shapes import converted
 
 PART_LABELS = "abcdefghij"
 _RULES = Compiled("rules", Rules)
@@ -66,6 +68,15 @@ class Template:
     about: About = field(default=About())
     quantities: Quantities = field(default=Quantities())
     figure: ModuleType | None = None
+
+    def __getstate__(self) -> dict[str, object]:
+        """What another process is told: where a figure of the bank's own stands."""
+        told = {one.name: getattr(self, one.name) for one in fields(self)}
+        return told | {"figure": self.figure and self.figure.__file__}
+
+    def __setstate__(self, told: dict[str, object]) -> None:
+        file = Path(str(told["figure"] or ""))
+        self.__dict__.update(told, figure=module_of(file.parent, file.stem) if file.name else None)
 
     def __repr__(self) -> str:
         return f"<Template {self.id}, in {', '.join(self.texts)}>"
@@ -151,7 +162,7 @@ def read_rules(path: Path) -> Rules:
 def _read(path: Path, source: str) -> Rules:
     try:
         table = parse_toml(source, path, BankError, parse_float=str)
-        rules = msgspec.convert(table, Rules, strict=True)
+        rules = converted(table, Rules)
     except msgspec.ValidationError as error:
         raise BankError(f"{path}: {error}{_allowed(str(error))}") from error
     _check_draws(path, rules)

@@ -14,6 +14,7 @@ from quizgen.cards.content import words
 from quizgen.cards.note import field_name, field_names
 from quizgen.cards.versions import BASE, STEP
 from quizgen.locale import FIRST, language, line_heights
+from quizgen.shapes import converted
 
 NAMES = {"basic": "Quizgen", "term": "Quizgen term", "cloze": "Quizgen formula"}
 FONT = "_qg_hind_siliguri.woff2"
@@ -37,7 +38,7 @@ class Listed(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 @cache
 def listed() -> Listed:
     """Versions of the note types; ``python -m quizgen.cards.renew`` keeps them."""
-    return msgspec.toml.decode(_file("looks.toml"), type=Listed)
+    return converted(msgspec.toml.decode(_file("looks.toml")), Listed)
 
 
 def _file(name: str) -> str:

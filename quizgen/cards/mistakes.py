@@ -30,6 +30,7 @@ from quizgen.paper.blueprint import load_blueprint
 from quizgen.paper.code import parse_code
 from quizgen.paper.paper import Paper, rebuild
 from quizgen.question.compose import Key, put_into_words
+from quizgen.shapes import converted
 
 LOOKED_AT = frozenset({"wrong", "partial", "blank"})
 """What becomes a card; an answer that could not be read is not a mistake."""
@@ -66,7 +67,7 @@ def read_marks(path: Path) -> tuple[Marked, ...]:
     table = parse_json(read_text(path, KeyFileError), path, KeyFileError)
     papers = table if isinstance(table, list) else [table]
     try:
-        return tuple(msgspec.convert(paper, Marked) for paper in papers)
+        return tuple(converted(paper, Marked) for paper in papers)
     except msgspec.ValidationError as error:
         raise KeyFileError(f"{path}: not a result of `quizgen check --json`: {error}") from error
 

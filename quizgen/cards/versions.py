@@ -22,6 +22,7 @@ from quizgen.cards.note import Note
 from quizgen.errors import BankError
 from quizgen.locale import FIRST
 from quizgen.outside import parse_toml, read_text
+from quizgen.shapes import converted
 
 BASE = 1_577_836_800
 """Modification time of version 0, 1 January 2020: earlier than any change a learner makes."""
@@ -44,7 +45,7 @@ def registry(bank: Bank) -> Registry:
         return {}
     path = bank.cards[FILE]
     try:
-        return msgspec.convert(parse_toml(read_text(path, BankError), path, BankError), Registry)
+        return converted(parse_toml(read_text(path, BankError), path, BankError), Registry)
     except msgspec.ValidationError as error:
         raise BankError(f"{path}: {error}") from error
 

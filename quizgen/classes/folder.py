@@ -22,6 +22,7 @@ from quizgen.errors import ClassError
 from quizgen.files import PRIVATE, private, write_all
 from quizgen.outside import parse_json, parse_toml, read_text
 from quizgen.paper.key import Key, digest_of_key, load_key
+from quizgen.shapes import converted, decoded, decoder
 
 SETTINGS, ROSTER, KEYS = "class.toml", "roster.csv", "keys.jsonl"
 PAPERS, SOLUTIONS, FORMS, ANSWERS = "papers", "solutions", "forms", "answers"
@@ -135,7 +136,7 @@ class ClassFolder:
             raise ClassError(f"{self.path}: is not the folder of a class (it has no {SETTINGS})")
         table = parse_toml(read_text(place, ClassError), place, ClassError)
         try:
-            found = msgspec.convert(table, Settings)
+            found = converted(table, Settings)
             bytes.fromhex(found.secret)
         except (msgspec.ValidationError, ValueError) as error:
             raise ClassError(f"{place}: {error}") from None
@@ -226,7 +227,7 @@ class ClassFolder:
             stream.seek(at)
             line = stream.readline()
         table = parse_json(written_key(line, place).decode(), place, ClassError)
-        head = msgspec.json.decode(line, type=Head)
+        head = decoded(line, Head)
         if not isinstance(table, dict):
             raise ClassError(f"{place}: a table is expected in each line")
         return Record(head, load_key(table, f"{place}: {head.id}"))
@@ -238,7 +239,7 @@ class _Line(msgspec.Struct):
     digest: str = ""
 
 
-_LINE = msgspec.json.Decoder(_Line).decode
+_LINE = decoder(_Line).decode
 
 
 def line_of(head: Head, key: Key) -> bytes:
@@ -278,7 +279,7 @@ def _head(line: bytes) -> Head | None:
     if not line.endswith(b"\n"):
         return None
     try:
-        return msgspec.json.decode(line, type=Head)
+        return decoded(line, Head)
     except msgspec.DecodeError:
         return None
 

@@ -19,12 +19,13 @@ from quizgen.classes.mark import Marks, PartMark
 from quizgen.errors import ClassError
 from quizgen.files import private
 from quizgen.outside import csv_text
+from quizgen.shapes import decoder
 
 FOLDER, CHANGES = "marks", "changes.csv"
 HEAD = ("run", "when", "student", "part", "item", "answer", "before", "after", "why")
 
 _ENCODE = msgspec.json.Encoder().encode
-_DECODE = msgspec.json.Decoder(Marks).decode
+_DECODE = decoder(Marks).decode
 
 
 class Change(NamedTuple):
@@ -165,7 +166,7 @@ class _Who(msgspec.Struct):
     student: str
 
 
-_WHO = msgspec.json.Decoder(_Who).decode
+_WHO = decoder(_Who).decode
 
 
 def _student(line: bytes, path: Path) -> str:

@@ -17,6 +17,7 @@ from quizgen.classes.folder import KEYS, ClassFolder, Head, written_key
 from quizgen.classes.mark import item_named
 from quizgen.errors import ClassError
 from quizgen.paper.key import Key
+from quizgen.shapes import decoder
 
 
 @dataclass(frozen=True)
@@ -64,8 +65,8 @@ class _ShortLine(msgspec.Struct):
     key: _ShortKey
 
 
-_KEY = msgspec.json.Decoder(Key).decode
-_SHORT = msgspec.json.Decoder(_ShortLine).decode
+_KEY = decoder(Key).decode
+_SHORT = decoder(_ShortLine).decode
 
 
 class Keys:

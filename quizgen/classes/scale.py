@@ -12,6 +12,7 @@ import msgspec
 from quizgen.errors import ClassError, FormulaError
 from quizgen.maths.numbers import written
 from quizgen.outside import parse_toml, read_text
+from quizgen.shapes import converted
 
 FILE = "scale.toml"
 GERMAN = ("1.0", "1.3", "1.7", "2.0", "2.3", "2.7", "3.0", "3.3", "3.7", "4.0")
@@ -110,7 +111,7 @@ def read_scale(folder: Path) -> Scale:
         return Scale()
     table = parse_toml(read_text(path, ClassError), path, ClassError, parse_float=str)
     try:
-        found = msgspec.convert(table, Scale)
+        found = converted(table, Scale)
         found.check()
     except (msgspec.ValidationError, ClassError, FormulaError) as error:
         raise ClassError(f"{path}: {error}") from None

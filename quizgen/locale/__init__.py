@@ -33,6 +33,7 @@ from typing import Any
 import msgspec
 
 from quizgen.errors import QuizgenError, one_of
+from quizgen.shapes import converted
 
 FIRST = "en"
 """The language that every other one falls back to, and the first in every list."""
@@ -104,7 +105,7 @@ def language(lang: str) -> Language:
     QuizgenError
         If there is no such language.
     """
-    return msgspec.convert(table(lang, "language"), Language)
+    return converted(table(lang, "language"), Language)
 
 
 def in_script(script: str) -> tuple[str, ...]:

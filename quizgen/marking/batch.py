@@ -9,6 +9,7 @@ import msgspec
 
 from quizgen.errors import QuizgenError
 from quizgen.marking.mark import mark
+from quizgen.shapes import decoder
 
 
 class Line(msgspec.Struct):
@@ -20,7 +21,7 @@ class Line(msgspec.Struct):
     decimal: str = "auto"
 
 
-_DECODER = msgspec.json.Decoder(Line)
+_DECODER = decoder(Line)
 _ENCODER = msgspec.json.Encoder()
 
 

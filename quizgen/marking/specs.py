@@ -19,6 +19,7 @@ from quizgen.maths.constants import Scalar, exact_value
 from quizgen.maths.tolerance import Tolerance
 from quizgen.maths.units import System, system
 from quizgen.maths.values import Value
+from quizgen.shapes import converted
 
 Notes = dict[str, dict[str, str]]
 """Language to sentences by trap name."""
@@ -203,7 +204,7 @@ def decode(shape: type[Shape], table: Table) -> Shape:
         Naming the field that is wrong.
     """
     try:
-        spec = msgspec.convert(table, shape)
+        spec = converted(table, shape)
         with spec.known_units().in_use():
             spec.validate()
     except (msgspec.ValidationError, FormulaError, ValueError, TypeError) as error:

@@ -12,6 +12,7 @@ from flint import fmpq
 from quizgen.maths.constants import Scalar, exact_value
 from quizgen.maths.numbers import magnitude, to_float
 from quizgen.maths.values import Value
+from quizgen.shapes import converted
 
 MOST_DIGITS = 40
 """Most decimals or significant figures that can be asked."""
@@ -155,6 +156,6 @@ def tolerance_of(answer: Mapping[str, object]) -> Tolerance:
     """
     shape = AngleTolerance if answer.get("kind") == "angle" else Tolerance
     names = {*shape.__struct_fields__} - {"accept"}
-    found = msgspec.convert({n: answer[n] for n in names & answer.keys()}, shape)
+    found = converted({n: answer[n] for n in names & answer.keys()}, shape)
     found.validate()
     return found

@@ -34,6 +34,7 @@ from quizgen.bank.limits import MOST_MINUTES, MOST_POINTS
 from quizgen.errors import BlueprintError
 from quizgen.locale import languages, word
 from quizgen.outside import NAMES, is_name, parse_toml, read_text
+from quizgen.shapes import converted
 
 MOST_QUESTIONS = 200
 """Questions of a paper."""
@@ -168,7 +169,7 @@ def _read(path: Path) -> Blueprint:
 
 def _convert(source: str, name: str, where: Path) -> Blueprint:
     try:
-        found = msgspec.convert(parse_toml(source, where, BlueprintError), Authored)
+        found = converted(parse_toml(source, where, BlueprintError), Authored)
     except msgspec.ValidationError as error:
         raise BlueprintError(f"{where}: {error}{_allowed(str(error))}") from error
     _check(found, where)

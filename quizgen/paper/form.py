@@ -22,6 +22,7 @@ from quizgen.files import read_table
 from quizgen.locale import word
 from quizgen.marking.options import DECIMALS
 from quizgen.outside import defused, parse_csv, read_text
+from quizgen.shapes import converted
 
 if TYPE_CHECKING:
     from quizgen.paper.paper import Item, Paper
@@ -166,7 +167,7 @@ def read_answers(path: Path) -> Answers:
     if "answers" not in table:
         raise KeyFileError(f"{path}: has no table [answers]")
     try:
-        found = msgspec.convert(table, Answers)
+        found = converted(table, Answers)
     except msgspec.ValidationError as error:
         raise KeyFileError(f"{path}: {error}") from None
     if found.student.decimal not in DECIMALS:

@@ -23,6 +23,7 @@ from quizgen.maths.numbers import written
 from quizgen.maths.precision import working_precision
 from quizgen.maths.units import System, system
 from quizgen.paper.code import digest_of_parts
+from quizgen.shapes import converted
 
 if TYPE_CHECKING:
     from quizgen.paper.paper import Item, Paper
@@ -181,7 +182,7 @@ def key_question(item: Item) -> KeyQuestion:
         topic=question.topic,
         tier=question.tier,
         title={q.lang: q.title for q in item.questions},
-        chain=msgspec.convert(key.chain, KeyChain | None),
+        chain=None if key.chain is None else converted(key.chain, KeyChain),
     )
 
 
@@ -219,7 +220,7 @@ def load_key(table: Mapping[str, Any], place: str = "key") -> Key:
         found = f"format is {table.get('format')!r}, not {FORMAT!r}"
         raise KeyFileError(f"{place}: {found}{form}")
     try:
-        key = msgspec.convert(table, Key)
+        key = converted(table, Key)
     except msgspec.ValidationError as error:
         raise KeyFileError(f"{place}: {error}") from None
     seen: set[str] = set()

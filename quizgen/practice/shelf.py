@@ -10,6 +10,7 @@ import msgspec
 from quizgen.bank.levels import EXAM
 from quizgen.files import write_all
 from quizgen.practice.state import State, Wish
+from quizgen.shapes import decoded
 
 
 class Shelf:
@@ -64,6 +65,6 @@ def _digest(wish: Wish) -> str:
 
 def _read(path: Path) -> State | None:
     try:
-        return msgspec.json.decode(path.read_bytes(), type=State)
+        return decoded(path.read_bytes(), State)
     except (OSError, msgspec.MsgspecError, RecursionError):
         return None

@@ -19,6 +19,7 @@ from quizgen.maths.numbers import key_text, rational, short_decimal
 from quizgen.maths.values import Value
 from quizgen.question.contract import Built, Named, S
 from quizgen.question.filling import Filler, as_typed, plain
+from quizgen.shapes import converted
 
 LETTERS = "ABCDEFGHIJKL"
 OWN_KEYS = frozenset(
@@ -57,7 +58,7 @@ def specification(shape: type[S], drawn: Draw, index: int, **given: object) -> S
     if "accept" in answer:
         table["accept"] = [key_text(drawn.computed(str(bound))) for bound in answer["accept"]]
     try:
-        spec = msgspec.convert({**table, **given}, shape)
+        spec = converted({**table, **given}, shape)
         with spec.known_units().in_use():
             spec.validate()
     except (msgspec.ValidationError, FormulaError, ValueError) as error:

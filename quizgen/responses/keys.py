@@ -18,6 +18,7 @@ from quizgen.outside import read_text
 from quizgen.paper.key import FORMAT as KEY_FORMAT
 from quizgen.paper.key import KeyQuestion, load_key
 from quizgen.question.contract import Form
+from quizgen.shapes import decoder
 
 FORMAT = "quizgen-responses/1"
 SUFFIX = ".keys.jsonl"
@@ -152,9 +153,9 @@ def _lines(path: Path) -> Iterator[Kept]:
     text = read_text(path, KeyFileError, LARGEST)
     if not keys_of(text):
         raise KeyFileError(f"{path}: not the keys of an export (their first line says {FORMAT!r})")
-    decoder = msgspec.json.Decoder(Kept)
+    read = decoder(Kept).decode
     for number, line in enumerate(text.splitlines()[1:], 2):
         try:
-            yield decoder.decode(line)
+            yield read(line)
         except (msgspec.MsgspecError, RecursionError) as error:
             raise KeyFileError(f"{path}: line {number}: {error}") from None

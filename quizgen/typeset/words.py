@@ -8,6 +8,7 @@ import msgspec
 
 from quizgen.errors import QuizgenError
 from quizgen.locale import table
+from quizgen.shapes import converted
 
 
 class Words(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
@@ -45,6 +46,6 @@ def words_of(lang: str) -> Words:
         If there is no such language, or a table is missing in its file.
     """
     try:
-        return msgspec.convert(table(lang, "speech"), Words)
+        return converted(table(lang, "speech"), Words)
     except msgspec.ValidationError as error:
         raise QuizgenError(f"{lang}/speech.toml: {error}") from error

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-import msgspec
 from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
@@ -14,6 +13,7 @@ from starlette.routing import Route
 
 from quizgen.bank.folder import Bank
 from quizgen.practice.state import PartState
+from quizgen.shapes import converted
 from quizgen.web.mistakes import Part, Practised, Sat, packed
 from quizgen.web.site import Site
 from quizgen.web.store import Attempt, Sitting
@@ -74,7 +74,7 @@ def _practised(attempts: Iterable[Attempt]) -> Iterator[Practised]:
     """Questions of which something was not right, each mistake once."""
     known: set[tuple[str, str, str]] = set()
     for attempt in attempts:
-        kept = msgspec.convert(attempt.state.get("parts", {}), dict[str, Progress])
+        kept = converted(attempt.state.get("parts", {}), dict[str, Progress])
         parts = tuple(_part(name, one.state) for name, one in kept.items())
         wrong = {
             (attempt.template, part.id, kept[part.id].state.note) for part in parts if part.wrong

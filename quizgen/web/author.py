@@ -18,6 +18,7 @@ from quizgen.bank.folder import Bank
 from quizgen.bank.levels import EXAM, GUIDED
 from quizgen.errors import QuizgenError
 from quizgen.question.compose import instance, put_into_words
+from quizgen.shapes import decoded
 from quizgen.web.made import Made, Wanted, made
 from quizgen.web.site import Site
 from quizgen.web.views import lang_of, page
@@ -105,7 +106,7 @@ async def template(request: Request) -> Response:
     shown, wrong = list[Made](), ""
     try:
         data = await site.workers.done(Preview(name, seed, level, stamp))
-        shown = msgspec.json.decode(data, type=list[Made])
+        shown = decoded(data, list[Made])
     except QuizgenError as error:
         wrong = str(error)
     return page(
@@ -127,8 +128,8 @@ async def lint(request: Request) -> Response:
     name, examine = _name(request), site.settings.examine
     stamp = await run_in_threadpool(stamp_of, site.bank.root)
     assert examine is not None  # noqa: S101 - without it there is no such page
-    problems: list[str] = msgspec.json.decode(
-        await site.workers.done(Examined(name, examine, stamp))
+    problems: list[str] = decoded(
+        await site.workers.done(Examined(name, examine, stamp)), list[str]
     )
     return page(request, "lint.html.j2", name=name, problems=problems)
 

@@ -12,6 +12,7 @@ from starlette.responses import Response
 from starlette.routing import Route
 
 from quizgen.errors import QuizgenError
+from quizgen.shapes import describe
 from quizgen.web.photo import BUDGETS, SCENES, Shoot, Shot, Slider, sliders
 from quizgen.web.site import Site
 from quizgen.web.views import lang_of, page, said
@@ -54,6 +55,7 @@ async def camera(request: Request) -> Response:
     except QuizgenError:
         shot = None
     else:
+        describe(Shot)
         shot = msgspec.msgpack.decode(data, type=Shot)
     return page(
         request,

@@ -20,6 +20,7 @@ from quizgen.errors import CodeError, QuizgenError
 from quizgen.paper.blueprint import EVERYTHING, named_blueprint
 from quizgen.paper.code import LARGEST_SEED, parse_code
 from quizgen.practice.boxes import filled
+from quizgen.shapes import decoded
 from quizgen.web.agenda import learning_of
 from quizgen.web.echo import read_back
 from quizgen.web.forms import every, one, posted
@@ -167,7 +168,7 @@ def _fields(form: FormData) -> dict[str, list[str]]:
 def _shown(sent: str) -> list[str] | None:
     """What a part held when the page was made; None where a script sends only what was changed."""
     try:
-        return _plain(msgspec.json.decode(sent, type=list[str]))
+        return _plain(decoded(sent, list[str]))
     except msgspec.DecodeError:
         return None
 

@@ -18,6 +18,7 @@ from quizgen.question.sheet import NOTES, Line, Sheet, sheet
 from quizgen.question.shown import Maths
 from quizgen.render import render_sheet
 from quizgen.render.sheet_html import style
+from quizgen.shapes import decoded
 from quizgen.web.made import Html
 from quizgen.web.site import Site
 from quizgen.web.views import lang_of, page
@@ -112,7 +113,7 @@ async def formulas(request: Request) -> Response:
     if "formulas" not in site.bank.cards:
         return _missing(request)
     data = await site.workers.done(SheetPage(lang_of(request)))
-    made = msgspec.json.decode(data, type=MadeSheet)
+    made = decoded(data, MadeSheet)
     words = {name: word(lang_of(request), f"sheet.{name}") for name in ("units", "topics")}
     return page(request, "formulas.html.j2", sheet=made, words=words)
 

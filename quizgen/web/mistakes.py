@@ -16,6 +16,7 @@ from quizgen.paper.marking import Marker
 from quizgen.paper.paper import Item, rebuild
 from quizgen.practice.boxes import joined
 from quizgen.question.compose import instance, put_into_words
+from quizgen.shapes import converted
 from quizgen.web.store import Which
 
 if TYPE_CHECKING:
@@ -112,4 +113,4 @@ def _marked(item: Item, typed: Mapping[str, str], lang: str) -> Iterator[MarkedP
     marker = Marker(keyed, Options(lang))
     for part in keyed.parts:
         result = marker.mark(part, typed.get(part.id, ""))
-        yield msgspec.convert(result.as_json(), MarkedPart)
+        yield converted(result.as_json(), MarkedPart)

@@ -12,6 +12,7 @@ from starlette.routing import Route
 
 from quizgen.bank.folder import Bank
 from quizgen.locale import languages, table
+from quizgen.shapes import decoded
 from quizgen.tradeoff.plot import style
 from quizgen.web.made import Html
 from quizgen.web.site import Site
@@ -43,7 +44,7 @@ async def tradeoff(request: Request) -> Response:
     said: dict[str, Html] = {}
     try:
         data = await asyncio.wait_for(site.workers.done(Measurement()), PATIENCE)
-        said = msgspec.json.decode(data, type=dict[str, Html])
+        said = decoded(data, dict[str, Html])
     except TimeoutError:
         pass
     lang = lang_of(request)

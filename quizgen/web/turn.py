@@ -13,6 +13,7 @@ from quizgen.paper.marking import Marker
 from quizgen.practice.boxes import filled, joined
 from quizgen.practice.state import PartState
 from quizgen.practice.task import TRIES, Next, Task
+from quizgen.shapes import converted
 from quizgen.web.learning import seen_of
 from quizgen.web.made import Made, MadePart
 from quizgen.web.store import Attempt, Seen
@@ -83,7 +84,7 @@ class Turn:
         kept = attempt.state.get("parts", {})
         self._marker = Marker(made.key, Options(made.wanted.lang))
         self.places = [
-            self._place(part, keyed, msgspec.convert(kept.get(part.field.id, {}), Progress))
+            self._place(part, keyed, converted(kept.get(part.field.id, {}), Progress))
             for part, keyed in zip(made.parts, made.key.parts, strict=True)
         ]
 

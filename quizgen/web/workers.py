@@ -8,9 +8,8 @@ from collections import OrderedDict
 from concurrent.futures import ThreadPoolExecutor
 from queue import LifoQueue
 
-import msgspec
-
 from quizgen.errors import QuizgenError
+from quizgen.shapes import decoded
 from quizgen.web.made import Job, Made, MadePaper, Wanted, WantedPaper
 from quizgen.web.makers import Maker
 from quizgen.web.settings import Settings
@@ -153,8 +152,8 @@ class Workers:
 def _read(wanted: Asked, data: bytes) -> tuple[Asked, Given]:
     """What was made, after what it will be asked by: a paper by its code, however chosen."""
     if isinstance(wanted, WantedPaper):
-        paper = msgspec.json.decode(data, type=MadePaper)
+        paper = decoded(data, MadePaper)
         return WantedPaper(wanted.lang, code=paper.code), paper
     if isinstance(wanted, Wanted):
-        return wanted, msgspec.json.decode(data, type=Made)
+        return wanted, decoded(data, Made)
     return wanted, data

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import pickle
 import sys
 from pathlib import Path
 
@@ -137,3 +138,10 @@ def test_what_bank_toml_cannot_hold_is_located(tmp_path, wrong, said):
     bank = Bank(write(tmp_path, {"templates/bank.toml": wrong}))
     with pytest.raises(BankError, match=said):
         assert bank.about
+
+
+def test_a_template_goes_to_another_process_with_its_figure(tmp_path):
+    template = Bank(write(tmp_path), trusted=True).template("push")
+    again = pickle.loads(pickle.dumps(template))
+    assert again.figure.__file__ == template.figure.__file__
+    assert again.chain == template.chain

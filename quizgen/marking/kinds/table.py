@@ -21,6 +21,7 @@ from quizgen.marking.verdict import Verdict, ambiguous, correct, partial, shared
 from quizgen.maths.constants import Scalar
 from quizgen.maths.notation import ReadError, people
 from quizgen.maths.tolerance import RULES
+from quizgen.shapes import converted
 
 Cell = number.Spec | quantity.Spec | angle.Spec
 
@@ -89,7 +90,7 @@ _INHERITED = (*RULES, "within", "strict")
 def cell(spec: Spec, name: str) -> Cell:
     """Return the spec of one cell."""
     shape, table = _shape(spec, name)
-    return msgspec.convert(table, shape)
+    return converted(table, shape)
 
 
 def _shape(spec: Spec, name: str) -> tuple[type[Cell], dict[str, Any]]:

@@ -21,6 +21,7 @@ from quizgen.maths.systems import compile_expr, floats
 from quizgen.question.contract import Built, Control
 from quizgen.question.shown import Shown, said
 from quizgen.question.specs import answer_of, mistaken, notes, specification, why
+from quizgen.shapes import converted
 
 SAMPLES = 8
 """Pieces of a curve."""
@@ -61,7 +62,7 @@ class Answer(msgspec.Struct, frozen=True):
 
 def build(drawn: Draw, index: int) -> Built[Spec]:
     """The wanted lines and those of each mistake, and the field that they are drawn in."""
-    answer = msgspec.convert(answer_of(drawn, index), Answer)
+    answer = converted(answer_of(drawn, index), Answer)
     right = _Place({name: to_float(value) for name, value in drawn.shown_values.items()})
     traps = {
         trap: _typed(right.but(changed).lines(answer.lines))

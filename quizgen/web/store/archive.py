@@ -12,6 +12,7 @@ from sqlalchemy import Connection, Table, insert, select, update
 from quizgen.errors import StoreError
 from quizgen.practice.schedule import Card, Moment
 from quizgen.practice.state import PartState
+from quizgen.shapes import decoded
 from quizgen.web.store.cards import cards_of, put_card
 from quizgen.web.store.database import Database
 from quizgen.web.store.tables import ANSWER, ATTEMPT, CARD, FLAG, LEARNER, SEEN, SITTING
@@ -120,7 +121,7 @@ def read_archive(data: bytes) -> Archive:
         If it is none of ours, of another version, or something in it cannot be.
     """
     try:
-        return msgspec.json.decode(data, type=Archive)
+        return decoded(data, Archive)
     except (msgspec.MsgspecError, RecursionError, UnicodeDecodeError) as error:
         raise StoreError(f"{error}") from error
 

@@ -8,6 +8,7 @@ import msgspec
 from sqlalchemy import Connection, select
 
 from quizgen.practice.schedule import Asked, Card, Name, after
+from quizgen.shapes import converted
 from quizgen.web.store.database import Database, put
 from quizgen.web.store.tables import CARD
 
@@ -52,7 +53,7 @@ class Cards:
 def cards_of(connection: Connection, learner: int) -> dict[Name, Card]:
     """A learner's cards."""
     rows = connection.execute(select(CARD.c.data).where(CARD.c.learner == learner)).scalars()
-    found = (msgspec.convert(row, Card) for row in rows)
+    found = (converted(row, Card) for row in rows)
     return {(card.kind, card.name): card for card in found}
 
 
