@@ -12,6 +12,7 @@ from __future__ import annotations
 import re
 from functools import cache, lru_cache
 from pathlib import Path as File
+from threading import Lock
 from typing import NamedTuple
 
 import matplotlib as mpl
@@ -34,6 +35,10 @@ class Outline(NamedTuple):
     width: float
 
 
+_FONT = Lock()
+"""A font holds the letter that it was asked for last."""
+
+
 @cache
 def _font(italic: bool) -> FT2Font:
     name = "STIXGeneralItalic.ttf" if italic else "STIXGeneral.ttf"
@@ -44,11 +49,12 @@ def _font(italic: bool) -> FT2Font:
 
 @cache
 def _glyph(character: str, italic: bool) -> Outline:
-    font = _font(italic)
-    if not font.get_char_index(ord(character)):
-        raise LookupError(f"no glyph for {character!r}")
-    glyph = font.load_char(ord(character), flags=LoadFlags.NO_HINTING)
-    points, codes = font.get_path()
+    with _FONT:
+        font = _font(italic)
+        if not font.get_char_index(ord(character)):
+            raise LookupError(f"no glyph for {character!r}")
+        glyph = font.load_char(ord(character), flags=LoadFlags.NO_HINTING)
+        points, codes = font.get_path()
     return Outline(points / _EM, codes.astype(np.uint8), glyph.linearHoriAdvance / 65536 / _EM)
 
 

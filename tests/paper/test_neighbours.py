@@ -1,0 +1,46 @@
+"""Threads of one process, from a cold start, make what one alone makes."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+TOGETHER = str(Path(__file__).with_name("together.py"))
+USUAL, HASTY = "0.005", "1e-5"
+"""Seconds after which threads take turns: as Python has it, and so that they meet everywhere."""
+
+
+def made(threads, papers, interval, *formats):
+    """Digest of all papers, pages, keys and marks; the arithmetic's precision afterwards."""
+    done = subprocess.run(
+        [sys.executable, TOGETHER, str(threads), str(papers), interval, *formats],
+        capture_output=True, text=True, check=False, timeout=120,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr[-2000:]
+    digest, precision = done.stdout.split()
+    return digest, int(precision)
+
+
+def test_threads_that_begin_together_make_what_one_makes():
+    alone = made(1, 4, USUAL, "html")
+    assert alone[1] == 53
+    assert made(8, 4, HASTY, "html") == alone
+
+
+@pytest.mark.slow
+def test_sixteen_threads_make_what_one_makes():
+    assert made(16, 100, USUAL, "html") == made(1, 100, USUAL, "html")
+
+
+@pytest.mark.slow
+def test_typesetting_in_threads_is_what_it_is_in_one():
+    assert made(8, 12, HASTY, "html", "pdf") == made(1, 12, USUAL, "html", "pdf")
+
+
+@pytest.mark.slow
+def test_cold_starts_do_not_crash():
+    alone = made(1, 6, USUAL, "html")
+    assert [made(6, 6, HASTY, "html") for _ in range(20)] == [alone] * 20
