@@ -21,6 +21,7 @@ from zlib import adler32, crc32
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
+    from PIL.Image import Exif
     from PIL.PngImagePlugin import PngImageFile
 
     Codes = NDArray[np.uint8] | NDArray[np.uint16]
@@ -165,13 +166,16 @@ def _chunk(kind: bytes, content: bytes) -> bytes:
 
 # Photographs, by Pillow
 
+_FAST = 1
+"""Effort of packing: more makes noise hardly smaller and takes several times as long."""
+
 
 def compact(codes: NDArray[np.uint8]) -> bytes:
     """Encode 8-bit codes of a photograph, shape (H, W) or (H, W, C) with C = 3 or 4."""
     from PIL import Image
 
     stream = BytesIO()
-    Image.fromarray(codes).save(stream, "PNG")
+    Image.fromarray(codes).save(stream, "PNG", compress_level=_FAST)
     return stream.getvalue()
 
 
@@ -224,18 +228,33 @@ def decode(data: bytes) -> Codes:
     Raises
     ------
     ValueError
-        If the file is broken or larger than `MOST_MEGAPIXELS`, interlaced, has a palette or fewer
-        than 8 bits.
+        If the file is none, broken or larger than `MOST_MEGAPIXELS`.
     """
     if not data.startswith(_SIGNATURE):
-        raise ValueError("not a PNG file")
+        raise ValueError("not a PNG or JPEG file")
     width, height = unpack(">II", data[16:24].ljust(8, b"\0"))
-    if width * height > MOST_MEGAPIXELS * 1_000_000:
-        raise ValueError(f"more than {MOST_MEGAPIXELS} megapixels")
+    bounded(width, height)
     try:
         return _decoded(data).reshape(height, width, -1)
     except _BROKEN as error:
         raise ValueError("a broken PNG file") from error
+
+
+def bounded(width: int, height: int) -> None:
+    """Refuse a picture that would take too much memory.
+
+    Raises
+    ------
+    ValueError
+        If it has more than `MOST_MEGAPIXELS`.
+    """
+    if width * height > MOST_MEGAPIXELS * 1_000_000:
+        raise ValueError(f"more than {MOST_MEGAPIXELS} megapixels")
+
+
+def exif(data: bytes) -> Exif:
+    """What the camera wrote into a PNG file that can be decoded."""
+    return _opened(data).getexif()
 
 
 def _decoded(data: bytes) -> Codes:
@@ -243,8 +262,8 @@ def _decoded(data: bytes) -> Codes:
 
     file = _opened(data)
     packing = str(file.tile[0].args) if file.tile else ""
-    if file.info.get("interlace") or packing not in _WAYS:
-        raise ValueError("only PNG files of 8 or 16 bits without palette or interlacing")
+    if packing not in _WAYS:
+        return np.asarray(file.convert(_PLAIN.get(file.mode, "RGBA")))
     first, *second = (_unpacked(data, way) for way in _WAYS[packing])
     if second:
         return first.astype(np.uint16) * 256 + second[0]
@@ -264,6 +283,9 @@ def _unpacked(data: bytes, way: str) -> Codes:
     file.tile = [tile._replace(args=way) for tile in file.tile]
     return np.asarray(file)
 
+
+_PLAIN = {"1": "L", "L": "L"}
+"""Few bits become eight; a palette becomes its colours, with alpha."""
 
 _WAYS = {
     **{raw: (raw,) for raw in ("L", "LA", "RGB", "RGBA", "I;16B")},

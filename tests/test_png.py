@@ -122,20 +122,43 @@ def test_broken_files_are_refused():
             png.decode(broken)
 
 
-@pytest.mark.parametrize("mode", ["1", "P"])
-def test_palettes_and_few_bits_are_refused(mode):
+@pytest.mark.parametrize(("mode", "plain"), [("1", "L"), ("P", "RGBA")])
+def test_palettes_and_few_bits_become_colours(mode, plain):
+    image = Image.fromarray(pictures()[1]).convert(mode)
     stream = io.BytesIO()
-    Image.fromarray(pictures()[1]).convert(mode).save(stream, "PNG")
-    with pytest.raises(ValueError, match="without palette or interlacing"):
-        png.decode(stream.getvalue())
+    image.save(stream, "PNG")
+    expected = np.asarray(image.convert(plain))
+    assert np.array_equal(png.decode(stream.getvalue()), expected.reshape(7, 5, -1))
 
 
-def test_interlaced_files_are_refused():
-    data = bytearray(png.encode(pictures()[1]))
-    data[28] = 1
-    data[29:33] = struct.pack(">I", zlib.crc32(bytes(data[12:29])))
-    with pytest.raises(ValueError, match="interlacing"):
-        png.decode(bytes(data))
+ADAM7 = (
+    (0, 0, 8, 8),
+    (0, 4, 8, 8),
+    (4, 0, 8, 4),
+    (0, 2, 4, 4),
+    (2, 0, 4, 2),
+    (0, 1, 2, 2),
+    (1, 0, 2, 1),
+)
+"""First row and column of each pass, and its steps (PNG specification, section 8.2)."""
+
+
+@pytest.mark.parametrize("kind", [np.uint8, np.uint16])
+def test_interlaced_files_are_read(kind):
+    codes = np.random.default_rng(4).integers(0, 1 << 8 * kind().itemsize, (11, 13, 3)).astype(kind)
+    rows = b"".join(
+        b"\0" + row.astype(row.dtype.newbyteorder(">")).tobytes()
+        for top, left, down, across in ADAM7
+        for row in codes[top::down, left::across]
+    )
+
+    def chunk(name, content):
+        body = name + content
+        return struct.pack(">I", len(content)) + body + struct.pack(">I", zlib.crc32(body))
+
+    header = struct.pack(">IIBBBBB", 13, 11, 8 * kind().itemsize, 2, 0, 0, 1)
+    parts = chunk(b"IHDR", header), chunk(b"IDAT", zlib.compress(rows)), chunk(b"IEND", b"")
+    assert np.array_equal(png.decode(b"\x89PNG\r\n\x1a\n" + b"".join(parts)), codes)
 
 
 def test_huge_pictures_are_refused_before_they_are_unpacked():

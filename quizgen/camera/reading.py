@@ -9,11 +9,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quizgen import png
 from quizgen.arrays.gamma import srgb_decode
-from quizgen.camera import effects
+from quizgen.camera import codecs, effects
 from quizgen.camera.camera import Camera, nearest
 from quizgen.camera.draw import SHAPES, SIZES, TEXTURES
 from quizgen.camera.scene import Image, Length, Scene, SceneError, SettingError, Thing
@@ -226,7 +225,7 @@ def _scene(file: _File, things: tuple[Thing, ...]) -> Scene:
         if key in values:
             values[key] = _picture(file, key, values[key])
     if "image" in values:
-        values["image"] = np.asarray(srgb_decode(values["image"]), np.float32)
+        values["image"] = _linear(values["image"])
         values["height"], values["width"] = values["image"].shape[:2]
     if (nearness := values.pop("depth_map", None)) is not None:
         shape = (values.get("height"), values.get("width"))
@@ -236,22 +235,31 @@ def _scene(file: _File, things: tuple[Thing, ...]) -> Scene:
     return Scene(things=things, file=file.path, **values)
 
 
-def _depths(nearness: NDArray[np.float64], near: float, far: float) -> Image:
+def _depths(nearness: png.Codes, near: float, far: float) -> Image:
     """White is near, black is far, linear in 1/z."""
-    inverse = nearness[..., 0] / near + (1.0 - nearness[..., 0]) / far
+    share = nearness[..., 0] / float(np.iinfo(nearness.dtype).max)
+    inverse = share / near + (1.0 - share) / far
     return (1.0 / np.maximum(inverse, 1e-9)).astype(np.float32)
 
 
-def _picture(file: _File, key: str, name: str) -> NDArray[np.float64]:
-    """Values in [0, 1], shape (H, W, 3)."""
+def _linear(codes: png.Codes) -> Image:
+    """Radiance of every code, looked up."""
+    top = int(np.iinfo(codes.dtype).max)
+    table = np.asarray(srgb_decode(np.arange(top + 1) / top), np.float32)
+    return np.asarray(table[codes])
+
+
+def _picture(file: _File, key: str, name: str) -> png.Codes:
+    """Codes, shape (H, W, 3)."""
     path = file.path.parent / name
     try:
-        pixels = png.decode(read_bytes(path, SceneError, LARGEST_PICTURE))
+        pixels = codecs.decode(read_bytes(path, SceneError, LARGEST_PICTURE))
         if min(pixels.shape[:2]) < SIDES[0]:
             raise ValueError(f"a picture has at least {SIDES[0]} rows and columns")  # noqa: TRY301
     except SceneError as error:
         raise file.fail("scene", 0, key, str(error)) from error
     except ValueError as error:
         raise file.fail("scene", 0, key, f"{name}: {error}") from error
-    values = pixels / float(np.iinfo(pixels.dtype).max)
-    return np.repeat(values[..., :1], 3, axis=2) if values.shape[2] < 3 else values[..., :3]
+    if pixels.shape[2] >= 3:
+        return pixels[..., :3]
+    return pixels[..., :1].repeat(3, axis=2)

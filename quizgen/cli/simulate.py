@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypedDict, Unpack
 
@@ -12,8 +12,12 @@ import click
 
 from quizgen.cli.terminal import print_table, tell
 from quizgen.errors import ChoiceError
+from quizgen.files import write_all
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from quizgen.camera.simulate import Photo
 
 HEAD = ("effect", "", "DN", "ms", "took", "why")
@@ -42,7 +46,11 @@ class Options(TypedDict):
 )
 @click.option("--question", multiple=True, metavar="KIND", help="Keep what decides this question.")
 @click.option("--all", "compare", is_flag=True, help="Also run everything; show the difference.")
-@click.option("--out", type=click.Path(path_type=Path, dir_okay=False), help="Write a PNG here.")
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path, dir_okay=False),
+    help="Write the picture here: .png or .jpg.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Print the plan as JSON.")
 def simulate(scene: str | None, **options: Unpack[Options]) -> None:
     """Photograph SCENE (a TOML file, or the name of a shipped scene).
@@ -57,11 +65,13 @@ def simulate(scene: str | None, **options: Unpack[Options]) -> None:
     from quizgen.camera.reading import load
     from quizgen.camera.simulate import run
 
+    encode = _writer(options["out"])
     prepared = Prepared(*load(_find(scene)))
     question = options["question"] or None
     photo = run(prepared, plan(prepared, question=question, budget=options["budget"]))
     whole = run(prepared, everything(prepared)) if options["compare"] else None
-    _write(photo, options["out"])
+    if options["out"] is not None:
+        write_all(options["out"].parent, {options["out"].name: encode(photo.pixels())})
     report = summary(photo, whole)
     if options["as_json"]:
         click.echo(json.dumps(report, ensure_ascii=False, indent=1))
@@ -94,13 +104,14 @@ def _list_scenes() -> None:
         click.echo(f"{path.stem:14} {load(path)[0].title}")
 
 
-def _write(photo: Photo, target: Path | None) -> None:
-    if target is None:
-        return
-    from quizgen import png
-    from quizgen.files import write_all
+def _writer(target: Path | None) -> Callable[[NDArray[np.uint8]], bytes]:
+    """What encodes a picture for a file, by its ending; asked before anything is computed."""
+    from quizgen.camera.codecs import WRITERS
 
-    write_all(target.parent, {target.name: png.compact(photo.pixels())})
+    ending = ".png" if target is None else target.suffix.lower()
+    if ending not in WRITERS:
+        raise ChoiceError(f"cannot write {target} (endings: {', '.join(WRITERS)})")
+    return WRITERS[ending]
 
 
 def summary(photo: Photo, whole: Photo | None = None) -> dict[str, Any]:

@@ -89,7 +89,7 @@ def a_picture(name):
 
 @pytest.mark.parametrize(
     ("name", "words"),
-    [("other", "not a PNG file"), ("short", "a broken PNG file"), ("none", "not a PNG file"),
+    [("other", "not a PNG or JPEG file"), ("short", "a broken PNG file"), ("none", "not a PNG or JPEG file"),
      ("huge", "more than 24 megapixels")],
 )  # fmt: skip
 @pytest.mark.parametrize("key", ["image", "depth_map"])

@@ -1,0 +1,83 @@
+"""Photographs in files: PNG and JPEG, read the right way up and written by the file's ending."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Callable
+from io import BytesIO
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quizgen import png
+
+if TYPE_CHECKING:
+    from PIL.Image import Exif
+    from PIL.JpegImagePlugin import JpegImageFile
+
+_JPEG = b"\xff\xd8\xff"
+_ORIENTATION = 0x0112
+_TURNED: dict[object, Callable[[png.Codes], png.Codes]] = {
+    2: lambda pixels: pixels[:, ::-1],
+    3: lambda pixels: pixels[::-1, ::-1],
+    4: lambda pixels: pixels[::-1],
+    5: lambda pixels: pixels.swapaxes(0, 1),
+    6: lambda pixels: pixels.swapaxes(0, 1)[:, ::-1],
+    7: lambda pixels: pixels[::-1, ::-1].swapaxes(0, 1),
+    8: lambda pixels: pixels.swapaxes(0, 1)[::-1],
+}
+"""What brings pixels upright, by EXIF's number for how the camera was held."""
+_QUALITY = 95
+_BROKEN = (OSError, SyntaxError, ArithmeticError, LookupError, struct.error, TypeError)
+
+
+def decode(data: bytes) -> png.Codes:
+    """Pixels of a PNG or JPEG file, upright.
+
+    Returns
+    -------
+    ndarray of uint8 or uint16, shape (H, W, C)
+        C = 1 grey, 2 grey and alpha, 3 RGB, 4 RGB and alpha.
+
+    Raises
+    ------
+    ValueError
+        If the file is neither, broken or larger than `png.MOST_MEGAPIXELS`.
+    """
+    if not data.startswith(_JPEG):
+        return _upright(png.decode(data), png.exif(data))
+    try:
+        file = _jpeg(data)
+        png.bounded(*file.size)
+        pixels = np.asarray(file if file.mode == "L" else file.convert("RGB"))
+        return _upright(pixels.reshape(*pixels.shape[:2], -1), file.getexif())
+    except _BROKEN as error:
+        raise ValueError("a broken JPEG file") from error
+
+
+def _jpeg(data: bytes) -> JpegImageFile:
+    from PIL.JpegImagePlugin import JpegImageFile
+
+    return JpegImageFile(BytesIO(data))
+
+
+def _upright(pixels: png.Codes, exif: Exif) -> png.Codes:
+    turn = _TURNED.get(exif.get(_ORIENTATION))
+    return pixels if turn is None else turn(pixels)
+
+
+def _jpeg_file(codes: NDArray[np.uint8]) -> bytes:
+    from PIL import Image
+
+    stream = BytesIO()
+    Image.fromarray(codes).save(stream, "JPEG", quality=_QUALITY, subsampling=0)
+    return stream.getvalue()
+
+
+WRITERS: dict[str, Callable[[NDArray[np.uint8]], bytes]] = {
+    ".png": png.compact,
+    ".jpg": _jpeg_file,
+    ".jpeg": _jpeg_file,
+}
+"""Ending of a file to what encodes 8-bit codes, shape (H, W, 3), for it."""

@@ -1,0 +1,91 @@
+"""Photographs in files, against OpenCV and Pillow."""
+
+import io
+import json
+
+import cv2
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from PIL import Image, ImageOps
+
+from quizgen.camera import codecs
+from quizgen.camera.reading import load
+from quizgen.cli.simulate import simulate
+
+
+def smooth(height=24, width=40):
+    rows, columns = np.mgrid[0:height, 0:width]
+    return np.stack([rows * 9, columns * 6, 255 - rows * 4], axis=2).astype(np.uint8)
+
+
+def held(how, kind):
+    exif, stream = Image.Exif(), io.BytesIO()
+    exif[0x0112] = how
+    Image.fromarray(smooth()).save(
+        stream, kind, exif=exif, **({"quality": 95} if kind == "JPEG" else {})
+    )
+    return stream.getvalue()
+
+
+@pytest.mark.parametrize("how", range(1, 9))
+@pytest.mark.parametrize("kind", ["JPEG", "PNG"])
+def test_photographs_stand_upright(how, kind):
+    data = held(how, kind)
+    theirs = ImageOps.exif_transpose(Image.open(io.BytesIO(data)))
+    assert np.array_equal(codecs.decode(data), np.asarray(theirs))
+    if kind == "JPEG":
+        opencv = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR)[..., ::-1]
+        assert np.abs(codecs.decode(data).astype(int) - opencv).max() <= 4
+
+
+@pytest.mark.parametrize("mode", ["L", "CMYK"])
+def test_other_colours_of_jpeg_are_read(mode):
+    stream, image = io.BytesIO(), Image.fromarray(smooth()).convert(mode)
+    image.save(stream, "JPEG", quality=95)
+    read = codecs.decode(stream.getvalue())
+    assert read.shape == (24, 40, 1 if mode == "L" else 3)
+    expected = np.asarray(image.convert("L" if mode == "L" else "RGB")).reshape(read.shape)
+    assert np.abs(read.astype(int) - expected).mean() < 3
+
+
+def test_broken_photographs_are_refused():
+    data = held(1, "JPEG")
+    for broken in (data[:20], data[:100], data[:-400], data[:2] + b"\xff" + data[60:]):
+        with pytest.raises(ValueError, match="a broken JPEG file"):
+            codecs.decode(broken)
+
+
+def test_huge_photographs_are_refused_before_they_are_unpacked():
+    data = bytearray(held(1, "JPEG"))
+    frame = data.index(b"\xff\xc0")
+    data[frame + 5 : frame + 9] = (20_000).to_bytes(2, "big") * 2
+    with pytest.raises(ValueError, match="more than 24 megapixels"):
+        codecs.decode(bytes(data))
+
+
+@pytest.mark.parametrize(("ending", "most"), [(".png", 0), (".jpg", 6), (".JPEG", 6)])
+def test_the_ending_says_how_a_picture_is_written(tmp_path, ending, most):
+    """From a photograph to a file through a camera that changes nothing but back to sRGB."""
+    (tmp_path / "photo.jpg").write_bytes(held(6, "JPEG"))
+    scene, out = tmp_path / "scene.toml", tmp_path / f"out{ending}"
+    scene.write_text('[scene]\nimage = "photo.jpg"\n[camera]\ngamma = "srgb"\n', "utf-8")
+    result = CliRunner().invoke(
+        simulate, [str(scene), "--json", "--budget", "0", "--out", str(out)]
+    )
+    assert result.exit_code == 0
+    assert json.loads(result.stdout)["ran"] == ["gamma"]
+    with Image.open(out) as file:
+        assert file.format == ("PNG" if ending == ".png" else "JPEG")
+        written = np.asarray(file).astype(int)
+    assert written.shape == (40, 24, 3)
+    assert np.abs(written - codecs.decode(held(6, "JPEG"))).max() <= most
+    assert load(scene)[0].width == 24
+
+
+def test_another_ending_is_refused_before_anything_is_made(tmp_path):
+    out = tmp_path / "out.gif"
+    result = CliRunner().invoke(simulate, ["pinhole", "--out", str(out)])
+    assert "cannot write" in str(result.exception)
+    assert ".png, .jpg, .jpeg" in str(result.exception)
+    assert not out.exists()
