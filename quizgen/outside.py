@@ -18,7 +18,7 @@ import tomllib
 import unicodedata
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from itertools import chain
+from itertools import chain, islice
 from pathlib import Path
 from typing import TypeAlias
 
@@ -39,6 +39,8 @@ MOST_DIGITS = 400
 """Digits of one whole number."""
 LONGEST_NAME = 100
 
+_STRING = re.compile(r'"(?:[^"\\]|\\.)*+(?:"|\\?\Z)', re.DOTALL)
+"""A text in JSON, up to its quotation mark or the end of all."""
 _MARKS = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 """What a text in UTF-16 begins with, as some editors and shells of Windows write it."""
 _SEPARATORS = ",;\t"
@@ -226,16 +228,21 @@ def csv_rows(
         Of the kind asked for, naming the file and the line.
     """
     rest, above = iter(lines), [""]
-    while above[-1].strip("\r\n") == "" and (line := next(rest, None)) is not None:
+    for line in islice(rest, MOST_VALUES):
         above.append(line)
+        if line.strip("\r\n"):
+            break
     said = re.fullmatch(r"sep=([^\"\r\n])\s*", above[-1])
     separator = said[1] if said else max(_SEPARATORS, key=above[-1].count)
     start = [*above[1:-1], "\n"] if said else above[1:]
     reader = csv.reader(chain(start, rest), delimiter=separator, strict=True)
+    blank = 0
     try:
         for row in reader:
             if any(map(str.strip, row)):
                 yield reader.line_num, row
+            elif (blank := blank + 1) > MOST_VALUES:
+                raise error(f"{where}: more than {MOST_VALUES} empty rows")
     except csv.Error as found:
         raise error(f"{where}: line {reader.line_num}: {_short(found)}") from None
 
@@ -304,6 +311,8 @@ def parse_json(text: str, where: object, error: Failure) -> object:
     QuizgenError
         Of the kind asked for, naming the file and the line or the place.
     """
+    if _counted(text) > MOST_VALUES and _counted(_STRING.sub("", text)) > MOST_VALUES:
+        raise error(f"{where}: more than {MOST_VALUES} values")
     try:
         value = json.loads(
             text, parse_float=str, parse_constant=_no_number, object_pairs_hook=_without_twins
@@ -316,6 +325,11 @@ def parse_json(text: str, where: object, error: Failure) -> object:
         raise error(f"{where}: {_short(found)}") from None
     _check(value, where, error)
     return value
+
+
+def _counted(text: str) -> int:
+    """Values of JSON at most: what is small in a file may be large once it is read."""
+    return sum(map(text.count, ",[{"))
 
 
 def _no_number(text: str) -> object:

@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+LONGEST = 131_072
+"""Characters of the longest text that is taken for a response, as many as a cell of CSV has."""
+
 Lost = Callable[[str], None]
 """Told what cannot be read, and where it stands."""
 

@@ -28,6 +28,7 @@ Reader = Callable[[str, Path, Collection[str], Lost], Iterator[Attempt]]
 READERS: dict[str, Reader] = {".csv": from_csv, ".tsv": from_csv, ".txt": from_csv,
                               ".json": from_json, ".xml": from_xml}  # fmt: skip
 """What reads a file, by its suffix."""
+KNOWN = ", ".join(READERS)
 
 
 def attempts(paths: Iterable[Path], known: Collection[str], lost: Lost) -> Iterator[Attempt]:
@@ -64,7 +65,7 @@ def _read(path: Path, data: bytes, known: Collection[str], lost: Lost) -> Iterat
 def _reader(path: Path) -> Reader:
     found = READERS.get(path.suffix.lower())
     if found is None:
-        raise KeyFileError(f"{path}: no file of responses (known: {', '.join(READERS)} and .zip)")
+        raise KeyFileError(f"{path}: no file of responses (known: {KNOWN} and .zip)")
     return found
 
 
@@ -76,9 +77,10 @@ def _unpacked(path: Path, data: bytes) -> Iterator[tuple[Path, bytes]]:
             inside = [one for one in archive.infolist() if not one.is_dir()]
             if len(inside) > MOST_FILES:
                 raise KeyFileError(f"{path}: more than {MOST_FILES} files")
-            for one in inside:
-                if Path(one.filename).suffix.lower() not in READERS:
-                    continue
+            readable = [one for one in inside if Path(one.filename).suffix.lower() in READERS]
+            if not readable:
+                raise KeyFileError(f"{path}: no file of responses in it (known: {KNOWN})")
+            for one in readable:
                 with archive.open(one) as stream:
                     content = stream.read(left + 1)
                 left -= len(content)

@@ -14,9 +14,13 @@ from quizgen.errors import KeyFileError
 from quizgen.marking.echo import safe
 from quizgen.maths.notation import ReadError
 from quizgen.outside import DEEPEST, MOST_VALUES
-from quizgen.responses.attempts import Attempt, Lost, Response
+from quizgen.responses.attempts import LONGEST, Attempt, Lost, Response
 from quizgen.responses.keys import Asked, Entry
 from quizgen.responses.summaries import Values, in_places, with_unit
+
+LARGEST = 5_000_000
+"""Characters of the largest report of one person: a reader of XML looks at all that it has of a
+mark whenever it is given more of it, so that a long one takes time with its square."""
 
 
 def from_xml(text: str, where: Path, _known: Collection[str], _lost: Lost) -> Iterator[Attempt]:
@@ -39,12 +43,17 @@ def from_xml(text: str, where: Path, _known: Collection[str], _lost: Lost) -> It
                            f"{safe(_name(root))})")  # fmt: skip
     who = "".join(one.get("sourcedId", "") for one in root if _name(one) == "context")
     items = {one.get("identifier", ""): one for one in root if _name(one) == "itemResult"}
-    responses = tuple(Response("", name, _given(one)) for name, one in items.items())
+    given = {name: _given(one) for name, one in items.items()}
+    if any(map(_too_long, given.values())):
+        raise KeyFileError(f"{where}: a text of more than {LONGEST} characters")
+    responses = tuple(Response("", name, values) for name, values in given.items())
     yield Attempt(str(where), "", who.strip() or where.stem, "", responses)
 
 
 def _tree(text: str, where: Path) -> ET.Element:
     """The document; one that defines entities, or is too deep or too long, is refused."""
+    if len(text) > LARGEST:
+        raise KeyFileError(f"{where}: larger than {LARGEST // 10**6} MB")
     if "<!DOCTYPE" in text:
         raise KeyFileError(f"{where}: a document with a DOCTYPE is not read")
     depth = 0
@@ -79,6 +88,10 @@ def _given(item: ET.Element) -> Mapping[str, list[str]]:
         for variable in item
         if _name(variable) == "responseVariable"
     }
+
+
+def _too_long(given: Mapping[str, list[str]]) -> bool:
+    return any(len(value) > LONGEST for values in given.values() for value in values)
 
 
 def variables(entry: Entry, given: Mapping[str, list[str]]) -> list[Values | ReadError]:

@@ -183,6 +183,8 @@ def _listed(options: Mapping[str, Iterable[str]], text: str) -> Values:
             else:
                 del pieces[:count]
                 break
+        if len(found) > len(options):
+            raise ReadError("option-twice", 1, safe(text))
     return found
 
 

@@ -15,7 +15,7 @@ from pathlib import Path
 from quizgen.errors import KeyFileError
 from quizgen.marking.echo import safe
 from quizgen.outside import located, parse_csv, parse_json
-from quizgen.responses.attempts import Attempt, Lost, Response
+from quizgen.responses.attempts import LONGEST, Attempt, Lost, Response
 from quizgen.responses.keys import MARK
 from quizgen.responses.summaries import NOTHING
 
@@ -100,10 +100,12 @@ def _attempts(
         )
     people = head[: min(column.question for column in columns)]
     for place, cells in rows[1:]:
-        if len(cells) == len(head):
-            yield _attempt(place, cells, columns, people)
-        else:
+        if len(cells) != len(head):
             lost(f"{place}: {len(cells)} cells, but {len(head)} columns")
+        elif any(len(cell) > LONGEST for cell in cells):
+            lost(f"{place}: a text of more than {LONGEST} characters")
+        else:
+            yield _attempt(place, cells, columns, people)
 
 
 def _columns(rows: Sequence[Row], head: Sequence[str], known: Collection[str]) -> list[Column]:

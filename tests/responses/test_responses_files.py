@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import zipfile
 from pathlib import Path
 
@@ -15,6 +16,13 @@ GOOD = Path(__file__).parent / "moodle" / "responses.csv"
 KEYS = Path(__file__).parent / "moodle" / "quiz.keys.jsonl"
 HEAD = "Last name,First name,Question 1,Response 1\n"
 KNOWN = {"abcd-2345"}
+
+
+LONG = (
+    '<assessmentResult><itemResult identifier="a"><responseVariable identifier="R">'
+    f"<candidateResponse><value>{'x' * 140_000}</value></candidateResponse></responseVariable>"
+    "</itemResult></assessmentResult>"
+)
 
 
 def refused(path, known=KNOWN):
@@ -37,10 +45,17 @@ def refused(path, known=KNOWN):
         ("a.json", b"[" * 100_000, "within each other"),
         ("a.json", b'{"question1": "[abcd-2345]"}', "a list of attempts"),
         ("a.json", b'[[{"question1": "", "question1": ""}]]', "stands twice"),
+        ("a.json", b"[" + b"{}," * 600_000 + b"{}]", "more than 500000 values"),
+        ("a.json", b'["' + b'\\"' * 600_000, "line 1"),
+        ("a.json", b'[[{"question1": "[abcd-2345]", "r1": "' + b"x;" * 100_000 + b'"}]]', "131072"),
+        ("a.csv", b"\n" * 1_100_000 + b"a,b\n", "more than 500000 empty rows"),
+        ("a.csv", b"a,b\n" + b" ,\n" * 600_000, "more than 500000 empty rows"),
         ("a.zip", b"PK\x03\x04 and no more", "not an archive"),
         ("a.pdf", b"%PDF", "no file of responses"),
         ("a.xml", b"<a><b></a>", "line 1, column 9: not XML"),
         ("a.xml", b"", "not XML"),
+        ("a.xml", b'<a b="' + b"x" * 6_000_000 + b'"/>', "larger than 5 MB"),
+        ("a.xml", LONG.encode(), "more than 131072 characters"),
         ("a.xml", b"<html/>", "not a result report of QTI (its first element is html)"),
         ("a.xml", b"<a>" * 100_000, "too deep"),
         ("a.xml", "<a>\u00f6</a>".encode("latin-1"), "save it as UTF-8"),
@@ -70,6 +85,23 @@ def test_a_row_that_cannot_be_read_stops_no_other(tmp_path, name, data, told):
     (found,) = attempts([path], KNOWN, lost.append)
     assert [one.given for one in found.responses] == ["1"]
     assert [line.startswith(f"{path}{told}") for line in lost] == [True, True]
+
+
+def test_commas_in_texts_are_no_values(tmp_path):
+    """A long report is one of long texts."""
+    path = tmp_path / "a.json"
+    row = {"question1": "[abcd-2345]", "response1": 'so, "well", {[\\' * 5000}
+    path.write_text(json.dumps([[row] * 40]), encoding="utf-8")
+    assert path.read_bytes().count(b",") > 300_000
+    found = list(attempts([path], KNOWN, pytest.fail))
+    assert [one.responses[0].given for one in found] == [row["response1"]] * 40
+
+
+def test_an_archive_without_reports(tmp_path):
+    path = tmp_path / "a.zip"
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("inner.zip", b"PK")
+    assert "no file of responses in it" in refused(path)
 
 
 def test_a_bomb_is_not_unpacked(tmp_path):
