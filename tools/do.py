@@ -23,6 +23,7 @@ COMMANDS: dict[str, tuple[list[str], ...]] = {
     "pins": ([sys.executable, "tools/pin.py"],),
     "fonts": ([sys.executable, "tools/pack_fonts.py"],),
     "picture": ([sys.executable, "tools/picture.py"],),
+    "scenes": ([sys.executable, "tools/scenes.py"],),
 }
 """What to type, and what it runs."""
 

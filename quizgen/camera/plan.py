@@ -94,6 +94,7 @@ class Prepared:
     def __init__(self, scene: Scene, camera: Camera) -> None:
         self.given = View(scene, camera)
         self.prepared_ms: dict[str, float] = {}
+        self.drawn_ms = 0.0
 
     @cached_property
     def view(self) -> View:
@@ -110,7 +111,10 @@ class Prepared:
     @cached_property
     def stack(self) -> Stack:
         """The drawn layers."""
-        return draw(self.view)
+        view, started = self.view, perf_counter()
+        drawn = draw(view)
+        self.drawn_ms = (perf_counter() - started) * 1e3
+        return drawn
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from time import perf_counter
 
@@ -51,25 +52,36 @@ class Photo:
         return rounded(self.values * np.float32(GREY_LEVELS))
 
 
-def run(prepared: Prepared, what: Plan) -> Photo:
-    """Run the steps of a plan on a scene."""
+def silent(name: str) -> None:
+    """Nobody wants to know what is done now."""
+
+
+def run(prepared: Prepared, what: Plan, told: Callable[[str], None] = silent) -> Photo:
+    """Run the steps of a plan on a scene.
+
+    Parameters
+    ----------
+    prepared : Prepared
+    what : Plan
+    told : callable
+        Gets the name of each effect before it runs.
+    """
     with located(prepared.given.scene.file):
-        return _run(prepared, what)
+        return _run(prepared, what, told)
 
 
-def _run(prepared: Prepared, what: Plan) -> Photo:
+def _run(prepared: Prepared, what: Plan, told: Callable[[str], None]) -> Photo:
     if what.steps:
         warm_up()
-    started = perf_counter()
     stack = prepared.stack
-    drawn = (perf_counter() - started) * 1e3
     times: dict[str, float] = {}
     for step in what.steps:
+        told(step.effect)
         started = perf_counter()
         stack = effects.by_name(step.effect).run(stack, prepared.view, step.rung)
         spent = (perf_counter() - started) * 1e3
         times[step.effect] = spent + prepared.prepared_ms.get(step.effect, 0.0)
-    return Photo(composite(stack), what, times, drawn)
+    return Photo(composite(stack), what, times, prepared.drawn_ms)
 
 
 def simulate(

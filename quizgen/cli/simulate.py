@@ -5,12 +5,16 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
+from time import perf_counter
 from typing import TYPE_CHECKING, Any, TypedDict, Unpack
 
 import click
 
-from quizgen.cli.terminal import print_table, tell
+from quizgen.cli import contrast
+from quizgen.cli.terminal import Progress, print_table, tell
 from quizgen.errors import ChoiceError
 from quizgen.files import write_all
 
@@ -18,10 +22,13 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from quizgen.camera.plan import Skipped, Step
     from quizgen.camera.simulate import Photo
 
-HEAD = ("effect", "", "DN", "ms", "took", "why")
+HEAD = ("effect", "", "DN", "ms", "took", "")
 """What an effect can change, what it was to take (or saves, if skipped), what it took."""
+REALLY = (*HEAD[:3], "really", *HEAD[3:])
+"""With what it really changes."""
 SCENES = Path(__file__).parent.parent / "camera" / "scenes"
 
 
@@ -30,9 +37,31 @@ class Options(TypedDict):
 
     budget: str
     question: tuple[str, ...]
-    compare: bool
+    everything: bool
+    compare: Path | None
     out: Path | None
     as_json: bool
+
+
+@dataclass
+class Shot:
+    """A scene photographed: the picture, what it is compared with, and where the time went."""
+
+    title: str
+    photo: Photo
+    whole: Photo | None
+    seed: int
+    really: dict[str, float]
+    """What each effect really changes, where that was asked."""
+    times: dict[str, float]
+    """ms of reading, planning, drawing, the effects and writing."""
+
+    @contextmanager
+    def timed(self, what: str) -> Iterator[None]:
+        """Count the time of what is done within."""
+        started = perf_counter()
+        yield
+        self.times[what] = self.times.get(what, 0.0) + (perf_counter() - started) * 1e3
 
 
 @click.command()
@@ -45,7 +74,12 @@ class Options(TypedDict):
     help="Largest tolerated change in 8-bit grey levels, or same (0.5), visible (2), sketch (8).",
 )
 @click.option("--question", multiple=True, metavar="KIND", help="Keep what decides this question.")
-@click.option("--all", "compare", is_flag=True, help="Also run everything; show the difference.")
+@click.option("--all", "everything", is_flag=True, help="Also run everything; show the difference.")
+@click.option(
+    "--compare",
+    type=click.Path(path_type=Path, dir_okay=False),
+    help="As --all, and write planned, everything and their difference here: .html, .png or .jpg.",
+)
 @click.option(
     "--out",
     type=click.Path(path_type=Path, dir_okay=False),
@@ -61,22 +95,16 @@ def simulate(scene: str | None, **options: Unpack[Options]) -> None:
     if scene is None:
         _list_scenes()
         return
-    from quizgen.camera.plan import Prepared, everything, plan
-    from quizgen.camera.reading import load
-    from quizgen.camera.simulate import run
-
+    contrast.check(options["compare"])
     encode = _writer(options["out"])
-    prepared = Prepared(*load(_find(scene)))
-    question = options["question"] or None
-    photo = run(prepared, plan(prepared, question=question, budget=options["budget"]))
-    whole = run(prepared, everything(prepared)) if options["compare"] else None
-    if options["out"] is not None:
-        write_all(options["out"].parent, {options["out"].name: encode(photo.pixels())})
-    report = summary(photo, whole)
+    with Progress("simulate:") as told:
+        shot = _shoot(scene, options, told)
+        _write(shot, options, encode)
+    report = summary(shot)
     if options["as_json"]:
         click.echo(json.dumps(report, ensure_ascii=False, indent=1))
     else:
-        _print(prepared.given.scene.title or scene, photo, whole, report)
+        _print(shot, report)
     if not report.get("promise_kept", True):
         click.echo(
             f"quizgen: broken: {report['predicted_error_dn']:.3g} DN at most were promised, "
@@ -84,6 +112,41 @@ def simulate(scene: str | None, **options: Unpack[Options]) -> None:
             err=True,
         )
         sys.exit(1)
+
+
+def _shoot(scene: str, options: Options, told: Progress) -> Shot:
+    from quizgen.camera.compare import really
+    from quizgen.camera.plan import Prepared, everything, plan
+    from quizgen.camera.reading import load
+    from quizgen.camera.simulate import run
+
+    started = perf_counter()
+    told("reading")
+    prepared = Prepared(*load(_find(scene)))
+    read = (perf_counter() - started) * 1e3
+    told("planning")
+    what = plan(prepared, question=options["question"] or None, budget=options["budget"])
+    planned = (perf_counter() - started) * 1e3 - read - prepared.drawn_ms
+    photo = run(prepared, what, told)
+    times = {"read": read, "planned": planned, "drawn": photo.drawn_ms}
+    title, seed = prepared.given.scene.title or scene, prepared.given.scene.seed
+    shot = Shot(title, photo, None, seed, {}, {**times, "effects": photo.measured_ms})
+    if options["everything"] or options["compare"] is not None:
+        shot.whole = run(prepared, everything(prepared), told)
+    if options["compare"] is not None:
+        shot.really = really(prepared, photo, told)
+    return shot
+
+
+def _write(shot: Shot, options: Options, encode: Callable[[NDArray[np.uint8]], bytes]) -> None:
+    out, beside = options["out"], options["compare"]
+    if out is not None:
+        with shot.timed("written"):
+            write_all(out.parent, {out.name: encode(shot.photo.pixels())})
+    if beside is not None and shot.whole is not None:
+        photos, told = (shot.photo, shot.whole), (REALLY, *_rows(shot))
+        page = contrast.contents(beside, shot.title, photos, told)
+        write_all(beside.parent, {beside.name: page})
 
 
 def _find(scene: str) -> Path:
@@ -114,28 +177,23 @@ def _writer(target: Path | None) -> Callable[[NDArray[np.uint8]], bytes]:
     return WRITERS[ending]
 
 
-def summary(photo: Photo, whole: Photo | None = None) -> dict[str, Any]:
-    """The plan as plain data; ``difference_dn`` only when everything was run for comparison."""
+def summary(shot: Shot) -> dict[str, Any]:
+    """The plan as plain data; what everything gives only where it was run for comparison."""
     from quizgen.camera.simulate import difference_dn, is_broken
 
-    what = photo.plan
+    photo, whole, what = shot.photo, shot.whole, shot.photo.plan
     report: dict[str, Any] = {
         "ran": [step.effect for step in what.steps],
         "rungs": {step.effect: step.rung for step in what.steps if step.rung},
-        "skipped": [
-            {
-                "effect": item.effect,
-                "reason": item.reason,
-                "bound_dn": item.bound_dn,
-                "saved_ms": item.saved_ms,
-            }
-            for item in what.skipped
-        ],
+        "steps": [_step(step, shot) for step in what.steps],
+        "skipped": [_skip(item, shot) for item in what.skipped],
         "absent": list(what.absent),
+        "seed": shot.seed,
         "budget_dn": what.budget,
         "predicted_error_dn": what.predicted_error_dn,
         "predicted_ms": what.predicted_ms,
         "measured_ms": photo.measured_ms,
+        "times_ms": shot.times,
     }
     if whole is not None:
         report["difference_dn"] = difference_dn(photo, whole)
@@ -144,36 +202,67 @@ def summary(photo: Photo, whole: Photo | None = None) -> dict[str, Any]:
     return report
 
 
-def _print(title: str, photo: Photo, whole: Photo | None, report: dict[str, Any]) -> None:
-    click.echo(title)
-    rows = [*_ran(photo), *_skipped(photo)]
-    if rows:
-        print_table(HEAD, rows)
-    _print_totals(photo, whole, report)
+def _step(step: Step, shot: Shot) -> dict[str, Any]:
+    return {
+        "effect": step.effect,
+        "rung": step.rung,
+        "reason": step.reason,
+        "bound_dn": step.bound_dn,
+        "predicted_ms": step.predicted_ms,
+        "measured_ms": shot.photo.times[step.effect],
+        **_real(step.effect, shot),
+    }
 
 
-def _ran(photo: Photo) -> Iterator[tuple[str, ...]]:
-    for step in photo.plan.steps:
-        times = f"{step.predicted_ms:.2f}", f"{photo.times[step.effect]:.2f}"
-        why = f"as {step.rung}: {step.reason}" if step.rung else step.reason
-        yield step.effect, "ran", f"{step.bound_dn:.3g}", *times, why
+def _skip(item: Skipped, shot: Shot) -> dict[str, Any]:
+    return {
+        "effect": item.effect,
+        "reason": item.reason,
+        "bound_dn": item.bound_dn,
+        "saved_ms": item.saved_ms,
+        **_real(item.effect, shot),
+    }
 
 
-def _skipped(photo: Photo) -> Iterator[tuple[str, ...]]:
-    for item in photo.plan.skipped:
-        saved = f"{item.saved_ms:.2f}"
-        yield item.effect, "skipped", f"{item.bound_dn:.3g}", saved, "", item.reason
+def _real(effect: str, shot: Shot) -> dict[str, float]:
+    return {"really_dn": shot.really[effect]} if effect in shot.really else {}
 
 
-def _print_totals(photo: Photo, whole: Photo | None, report: dict[str, Any]) -> None:
-    if not photo.plan.steps and not photo.plan.skipped:
+def _print(shot: Shot, report: dict[str, Any]) -> None:
+    click.echo(shot.title)
+    if rows := list(_rows(shot)):
+        print_table(REALLY if shot.really else HEAD, rows)
+    _print_totals(shot, report)
+
+
+def _rows(shot: Shot) -> Iterator[tuple[str, ...]]:
+    """Rows of the table; what the column of grey levels says is not said again as a reason."""
+
+    def cells(effect: str, state: str, bound: float) -> tuple[str, ...]:
+        real = f"{shot.really[effect]:.3g}" if effect in shot.really else ""
+        return effect, state, f"{bound:.3g}", *((real,) if shot.really else ())
+
+    for step in shot.photo.plan.steps:
+        times = f"{step.predicted_ms:.2f}", f"{shot.photo.times[step.effect]:.2f}"
+        off = step.reason.partition("this rung is ")[2].removesuffix(" at most")
+        rung = f"{step.rung}, {off}"
+        why = rung if step.rung else "" if step.reason.startswith("may change") else step.reason
+        yield *cells(step.effect, "ran", step.bound_dn), *times, why
+    for item in shot.photo.plan.skipped:
+        yield *cells(item.effect, "skipped", item.bound_dn), f"{item.saved_ms:.2f}", "", ""
+
+
+def _print_totals(shot: Shot, report: dict[str, Any]) -> None:
+    what, whole = shot.photo.plan, shot.whole
+    if not what.steps and not what.skipped:
         tell("nothing is called for: the picture is the scene")
     tell(
         f"error at most {report['predicted_error_dn']:.3g} DN of {report['budget_dn']:g} allowed; "
-        f"{report['predicted_ms']:.1f} ms predicted, {report['measured_ms']:.1f} ms measured"
+        f"effects {report['predicted_ms']:.1f} ms predicted, {report['measured_ms']:.1f} ms taken"
     )
-    if photo.plan.absent:
-        tell(f"not in this camera: {', '.join(photo.plan.absent)}")
+    tell("; ".join(f"{name} {spent:.0f} ms" for name, spent in shot.times.items()))
+    if what.absent:
+        tell(f"not in this camera: {', '.join(what.absent)}")
     if whole is not None:
         tell(
             f"everything: {report['everything_ms']:.1f} ms, "

@@ -3,17 +3,21 @@
 import json
 import subprocess
 import sys
+from base64 import b64decode
 from importlib import import_module
 from pathlib import Path
 
+import html5lib
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from PIL import Image
 
 from quizgen import png
 from quizgen.camera import SceneError, plan
 from quizgen.camera.reading import load
 from quizgen.cli.simulate import SCENES, simulate
+from quizgen.cli.terminal import Progress
 
 NAMES = sorted(path.stem for path in SCENES.glob("*.toml"))
 
@@ -253,11 +257,84 @@ def test_budgets_by_name_skip_more():
     assert counts[0] > counts[-1]
 
 
-def test_the_table_says_why():
-    text = invoke("landscape", "--all")
-    assert "skipped" in text
-    assert "DN" in text
-    assert "everything:" in text
+def test_the_table_fits_the_narrowest_usual_terminal(tmp_path):
+    for arguments in ([], ["--compare", str(tmp_path / "c.jpg")]):
+        lines = invoke("landscape", *arguments).splitlines()
+        table = lines[1 : lines.index(next(line for line in lines if line.startswith("error")))]
+        assert len(table) == 9
+        assert max(map(len, table)) <= 80
+    assert any("table, off by 0.00" in line for line in table)
+
+
+def test_what_was_run_and_left_out_says_its_bound_and_what_is_real(tmp_path):
+    report = json.loads(invoke("landscape", "--json", "--compare", str(tmp_path / "c.png")))
+    told = {item["effect"]: item for item in report["steps"] + report["skipped"]}
+    assert [step["effect"] for step in report["steps"]] == report["ran"]
+    for item in told.values():
+        assert 0 <= item["really_dn"] <= item["bound_dn"] * 1.001 + 1e-4, item
+    # gamma lifts linear 0.2 to 0.48; a converter of 14 bits is off by half a code of 1/16383
+    assert 60 < told["gamma"]["really_dn"] < 80
+    assert 0 < told["quantisation"]["really_dn"] < 12.92 * 255 / 16383
+    assert told["full well"]["really_dn"] == 0
+    assert report["promise_kept"] is True
+    assert report["seed"] == 2
+    assert {"read", "planned", "drawn", "effects"} == set(report["times_ms"])
+    assert min(report["times_ms"].values()) >= 0
+
+
+def picture(path):
+    with Image.open(path) as file:
+        return np.asarray(file).astype(int)
+
+
+def test_a_comparison_stands_side_by_side(tmp_path):
+    """As planned, everything, and 16 times their difference, with 8 white columns between."""
+    beside, alone = tmp_path / "c.png", tmp_path / "p.png"
+    invoke("texture", "--budget", "60", "--compare", str(beside), "--out", str(alone))
+    wide, planned = picture(beside), picture(alone)
+    height, width = planned.shape[:2]
+    assert wide.shape == (height, 3 * width + 16, 3)
+    assert (wide[:, width : width + 8] == 255).all()
+    left, middle, right = (wide[:, n * (width + 8) :][:, :width] for n in range(3))
+    assert np.array_equal(left, planned)
+    apart = np.abs(left - middle)
+    assert apart.max() > 2
+    assert (right[apart > 17] == 255).all()
+    assert np.abs(right - 16 * apart)[apart < 15].max() <= 16 + 1
+
+
+def test_a_page_shows_the_pictures_and_the_table(tmp_path):
+    page = tmp_path / "c.html"
+    invoke("pinhole", "--compare", str(page))
+    invoke("landscape", "--compare", str(page))
+    tree = html5lib.HTMLParser(strict=True, namespaceHTMLElements=False).parse(
+        page.read_text("utf-8")
+    )
+    images = [image.get("src") for image in tree.iter("img")]
+    assert len(images) == 3
+    sizes = {png.decode(b64decode(source.partition("base64,")[2])).shape for source in images}
+    assert sizes == {(480, 640, 3)}
+    cells = [[cell.text or "" for cell in row] for row in tree.iter("tr")]
+    assert [row[0] for row in cells][1:4] == ["shot noise", "read noise", "gamma"]
+    assert all(len(row) == 7 for row in cells)
+    assert [caption.text for caption in tree.iter("figcaption")] == [
+        "as planned",
+        "everything",
+        "difference × 16",
+    ]
+
+
+def test_another_ending_of_a_comparison_is_refused(tmp_path):
+    result = CliRunner().invoke(simulate, ["pinhole", "--compare", str(tmp_path / "c.pdf")])
+    assert ".jpeg, .html" in str(result.exception)
+
+
+def test_what_takes_long_says_what_it_does(monkeypatch):
+    """Each step is told as it begins; the terminal decides when to show it."""
+    told = []
+    monkeypatch.setattr(Progress, "__call__", lambda _, name: told.append(name))
+    ran = json.loads(invoke("landscape", "--json"))["ran"]
+    assert told == ["reading", "planning", *ran]
 
 
 def test_a_broken_promise_is_said_with_exit_code_1(monkeypatch):

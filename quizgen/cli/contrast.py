@@ -1,0 +1,97 @@
+"""What ``simulate --compare`` writes: planned, everything and their difference, with the table."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from quizgen.errors import ChoiceError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from quizgen.camera.compare import Codes
+    from quizgen.camera.simulate import Photo
+
+_STYLE = """
+body { font: 16px/1.4 system-ui, sans-serif; margin: 1.5em; color: #1b1f24; background: #fff }
+.pictures { display: flex; flex-wrap: wrap; gap: 1em }
+figure { margin: 0; flex: 1 1 20em; max-width: 48em }
+img { width: 100%; image-rendering: pixelated }
+.table { overflow-x: auto }
+table { border-collapse: collapse; margin: 1em 0 }
+th, td { text-align: left; padding: .2em .8em .2em 0; border-bottom: 1px solid #d0d7de }
+"""
+
+
+def check(target: Path | None) -> None:
+    """Refuse an ending before anything is computed.
+
+    Raises
+    ------
+    ChoiceError
+        If the file is neither a picture nor a page.
+    """
+    from quizgen.camera.codecs import WRITERS
+
+    endings = (*WRITERS, ".html")
+    if target is not None and target.suffix.lower() not in endings:
+        raise ChoiceError(f"cannot write {target} (endings: {', '.join(endings)})")
+
+
+def contents(
+    target: Path, title: str, photos: tuple[Photo, Photo], told: tuple[Sequence[str], ...]
+) -> bytes:
+    """A file that shows what a plan leaves out.
+
+    Parameters
+    ----------
+    target : Path
+        ``.html`` for a page with the table, else three pictures beside each other.
+    title : str
+        The scene's.
+    photos : (Photo, Photo)
+        As planned, and with everything.
+    told : tuple of sequence of str
+        Head and rows of the table.
+    """
+    from quizgen.camera.codecs import WRITERS
+    from quizgen.camera.compare import GAIN, difference, side_by_side
+
+    planned, whole = photos
+    pictures = planned.pixels(), whole.pixels(), difference(planned, whole)
+    if target.suffix.lower() != ".html":
+        return WRITERS[target.suffix.lower()](side_by_side(*pictures))
+    names = "as planned", "everything", f"difference × {GAIN:g}"
+    return _page(title, zip(names, pictures, strict=True), told).encode()
+
+
+def _page(
+    title: str, pictures: Iterable[tuple[str, Codes]], told: tuple[Sequence[str], ...]
+) -> str:
+    head, *rows = told
+    figures = "".join(_figure(name, codes) for name, codes in pictures)
+    body = "".join(_row("td", row) for row in rows)
+    return (
+        f'<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
+        f'<meta name="viewport" content="width=device-width">\n'
+        f"<title>{escape(title)}</title>\n<style>{_STYLE}</style>\n</head>\n<body>\n"
+        f'<h1>{escape(title)}</h1>\n<div class="pictures">\n{figures}</div>\n'
+        f'<div class="table">\n<table>\n<thead>{_row("th", head)}</thead>\n'
+        f"<tbody>\n{body}</tbody>\n</table>\n</div>\n</body>\n</html>\n"
+    )
+
+
+def _figure(name: str, codes: Codes) -> str:
+    from quizgen import png
+
+    data = b64encode(png.compact(codes)).decode()
+    source = f"data:image/png;base64,{data}"
+    label = escape(name)
+    return f'<figure><img src="{source}" alt="{label}"><figcaption>{label}</figcaption></figure>\n'
+
+
+def _row(cell: str, texts: Sequence[str]) -> str:
+    return "<tr>" + "".join(f"<{cell}>{escape(text)}</{cell}>" for text in texts) + "</tr>\n"
