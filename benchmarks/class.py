@@ -1,15 +1,20 @@
-"""What a class costs: ``uv run python benchmarks/class.py [STUDENTS]`` (300 if left out).
+"""What a class costs: ``uv run python benchmarks/class.py [STUDENTS] [marks]`` (300 if left out).
 
 Papers and solutions of twenty questions for each student, as ``quizgen class make`` writes them: in
 this process, in four processes, and on a Dask cluster of two workers on this machine of which one
 is killed half way. Prints CPU seconds and megabytes, and whether all wrote the same bytes.
+With ``marks``, what marking and analysing costs instead: one table of answers, of which six of ten
+are right, one is blank, two are wrong numbers and one cannot be read. A hundred papers are drawn,
+and every hundredth student has the same, under a code of the own; nothing is typeset.
 CPU seconds grow when others use the machine: the line ``loop`` says how fast it is now.
 """
 
 from __future__ import annotations
 
+import csv
 import hashlib
 import os
+import random
 import resource
 import shutil
 import signal
@@ -20,19 +25,31 @@ from collections.abc import Iterator
 from concurrent.futures import Executor
 from contextlib import contextmanager
 from pathlib import Path
+from unittest.mock import patch
+
+import msgspec
 
 from quizgen.bank.folder import builtin
+from quizgen.classes import make as made_by
 from quizgen.classes.executors import Here, workers
-from quizgen.classes.folder import ClassFolder, Settings
+from quizgen.classes.folder import ANSWERS, ClassFolder, Settings, line_of
+from quizgen.classes.keys import Keys
 from quizgen.classes.make import CHUNK, make, new_settings
+from quizgen.classes.overview import analyse
 from quizgen.classes.roster import Student
+from quizgen.classes.run import mark_class
+from quizgen.marking.mark import show
 from quizgen.paper.blueprint import load_blueprint
+from quizgen.paper.key import Key
 from quizgen.paper.paper import Progress, silent
 
 PROCESSES = 4
 MOST_CPU, MOST_MEMORY = 0.3, 400
 FIRST = CHUNK
 """Papers that warm a process."""
+DRAWN = 100
+"""Different papers where only marks are looked at."""
+UNREAD = ("maybe 5", "12 mm", "x=3", "abc", "A")
 
 
 def loop() -> float:
@@ -132,14 +149,70 @@ def on_a_cluster(home: Path, settings: Settings, students: list[Student]) -> str
     return name
 
 
-def main(count: int) -> None:
+def answered(folder: ClassFolder, count: int) -> int:
+    """Write a table of what students answered; how many answers are in it."""
+    chance, number, keys = random.Random(1), 0, Keys(folder)
+    drawn = list(keys.places)
+    first = keys.key(drawn[0])
+    names = [part.id for question in first.questions for part in question.parts]
+    typed = [_typed(keys.key(one)) for one in drawn]
+    (folder.path / ANSWERS).mkdir()
+    with (folder.path / ANSWERS / "all.csv").open("w", encoding="utf-8", newline="") as stream:
+        rows = csv.writer(stream)
+        rows.writerow(["id", *names])
+        for place in range(count):
+            shown = typed[place % len(drawn)]
+            row = [_answer(shown.get(name, ""), chance) for name in names]
+            number += sum(map(bool, row))
+            rows.writerow([10_000 + place, *row])
+    return number
+
+
+def _typed(key: Key) -> dict[str, str]:
+    """What is right in each part."""
+    return {part.id: show(part.in_order()) for one in key.questions for part in one.parts}
+
+
+def _answer(right: str, chance: random.Random) -> str:
+    way = chance.random()
+    wrong = f"{chance.uniform(0, 50):.2f}" if way < 0.93 else chance.choice(UNREAD)
+    return right if way < 0.6 else "" if way < 0.7 else wrong
+
+
+def marks(home: Path, settings: Settings, students: list[Student]) -> None:
+    """Mark and analyse a class, in this process."""
+    folder, plan = ClassFolder(home / "class"), load_blueprint(settings.blueprint, builtin())
+    folder.create(settings, students)
+    with patch.object(made_by, "render_paper", lambda *_: b""):
+        make(folder, students[:DRAWN], plan, Here(), 1, silent)
+    keys, heads = Keys(folder), folder.heads()
+    for place in range(DRAWN, len(students)):
+        own, other = students[place].id, students[place % DRAWN].id
+        head = msgspec.structs.replace(heads[other], id=own, code=f"{heads[other].code}{place}")
+        folder.append([line_of(head, keys.key(other))])
+    folder.write_roster(students)
+    number = answered(folder, len(students))
+    before = cpu()
+    run = mark_class(folder, Here(), 1)
+    between = cpu()
+    analyse(folder)
+    print(f"{number} answers marked in {between - before:.1f} CPU s ({run.groups} groups to "
+          f"decide), analysed in {cpu() - between:.1f}; {memory():.0f} MB")  # fmt: skip
+
+
+def main(count: int, mode: str = "") -> None:
     """Print the table."""
     students = [Student(str(10_000 + number), f"Student {number}") for number in range(count)]
-    settings = new_settings("class", builtin(), load_blueprint("mock", builtin()), "en")
+    with patch.object(made_by, "new_secret", lambda: "5" * 32):  # the same papers in every run
+        settings = new_settings("class", builtin(), load_blueprint("mock", builtin()), "en")
     print(f"{count} students, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}")
     with tempfile.TemporaryDirectory() as temporary:
         home = Path(temporary)
         print(f"loop: {loop():.1f} ms")
+        if mode:
+            marks(home, settings, students)
+            print(f"loop: {loop():.1f} ms")
+            return
         names = [here(home, settings, students)]
         print(f"loop: {loop():.1f} ms")
         names.append(processes(home, settings, students, PROCESSES))
@@ -148,4 +221,4 @@ def main(count: int) -> None:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 300)
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else 300, *sys.argv[2:3])
