@@ -26,7 +26,7 @@ from quizgen.marking.mark import explained, judge, load_spec
 from quizgen.marking.options import Options
 from quizgen.maths.numbers import written
 from quizgen.outside import csv_text
-from quizgen.paper.key import Key
+from quizgen.paper.key import Key, KeyPart
 from quizgen.paper.marking import in_quarters
 
 FILE = "decisions.csv"
@@ -139,17 +139,20 @@ def cases(answers: Iterable[Answer], key_of: Callable[[str], Key], lang: str) ->
     lang : str
         Of what is said about them.
     """
-    asked, key = list(answers), lru_cache(maxsize=1)(key_of)
+    asked = list(answers)
+
+    @lru_cache(maxsize=1)
+    def parts(student: str) -> dict[str, KeyPart]:
+        return {item_of(one, part): part for one in key_of(student).questions for part in one.parts}
+
     by_student = sorted(range(len(asked)), key=lambda at: asked[at].student)
-    found = {at: _case(asked[at], key(asked[at].student), lang) for at in by_student}
+    found = {at: _case(asked[at], parts(asked[at].student)[asked[at].item], lang)
+             for at in by_student}  # fmt: skip
     return [found[at] for at in range(len(asked))]
 
 
-def _case(answer: Answer, key: Key, lang: str) -> Case:
-    parts = (
-        (item_of(question, part), part) for question in key.questions for part in question.parts
-    )
-    spec = load_spec(next(part for item, part in parts if item == answer.item).in_order())
+def _case(answer: Answer, part: KeyPart, lang: str) -> Case:
+    spec = load_spec(part.in_order(), proven=True)
     verdict = explained(spec, judge(spec, answer.typed, Options(lang)), lang)
     if not isinstance(spec, Text):
         return Case(answer, spec.show_in(lang), verdict.message)

@@ -160,7 +160,7 @@ def mark_sheet(key: Key, sheet: Sheet, book: Book) -> Marks:
 def _question(
     question: KeyQuestion, sheet: Sheet, book: Book, options: Options
 ) -> Iterator[PartMark]:
-    marker = Marker(question, options)
+    marker = Marker(question, options, proven=True)
     for part in question.parts:
         item, typed = item_of(question, part), sheet.answers.get(part.id, "")
         rulings = book.of(item, sheet.student)
@@ -168,23 +168,22 @@ def _question(
             blank = PartMark(part.id, item, typed, "blank", float(part.worth()), 0.0)
             yield _settled(blank, [one for one in rulings if one.what in {DROP, GIVE}])
             continue
-        ruled = _with_tolerance(part, rulings)
-        try:
-            found = marker.judge(ruled, typed)
-        except KeyFileError as error:
-            if ruled is part:
-                raise
-            raise ClassError(f"rulings: {item}: no tolerance holds there: {error}") from None
+        found = marker.judge(_with_tolerance(part, item, rulings), typed)
         yield _ruled(found, part, item, rulings)
 
 
-def _with_tolerance(part: KeyPart, rulings: Iterable[Ruling]) -> KeyPart:
+def _with_tolerance(part: KeyPart, item: str, rulings: Iterable[Ruling]) -> KeyPart:
     """The part with the tolerance that was ruled last."""
     stated = [one.tolerance() for one in rulings if one.what == TOLERANCE]
     if not stated:
         return part
     kept = {name: value for name, value in part.spec.items() if name not in {*RULES, "within"}}
-    return msgspec.structs.replace(part, spec={**kept, **stated[-1]})
+    ruled = msgspec.structs.replace(part, spec={**kept, **stated[-1]})
+    try:
+        load_spec(ruled.in_order())
+    except KeyFileError as error:
+        raise ClassError(f"rulings: {item}: no tolerance holds there: {error}") from None
+    return ruled
 
 
 def _ruled(found: PartResult, part: KeyPart, item: str, rulings: list[Ruling]) -> PartMark:
@@ -193,7 +192,9 @@ def _ruled(found: PartResult, part: KeyPart, item: str, rulings: list[Ruling]) -
     words = part.spec["kind"] == "text"
     group = ""
     if asked or rulings:
-        group = group_of(item, load_spec(part.in_order()).show(), found.typed, words=words)
+        group = group_of(
+            item, load_spec(part.in_order(), proven=True).show(), found.typed, words=words
+        )
     plain = PartMark(
         found.id,
         item,

@@ -27,8 +27,14 @@ NAMING = frozenset({"cells", "coordinate"})
 """Notes that only name what is wrong."""
 
 
-def load_spec(spec: Table) -> Kind:
+def load_spec(spec: Table, *, proven: bool = False) -> Kind:
     """Read and validate a spec table.
+
+    Parameters
+    ----------
+    spec : mapping
+    proven : bool
+        Whether it has been validated before.
 
     Raises
     ------
@@ -38,7 +44,7 @@ def load_spec(spec: Table) -> Kind:
     name = spec.get("kind")
     if not isinstance(name, str) or name not in KINDS:
         raise KeyFileError(f"spec.kind: unknown kind {name!r}; known: {', '.join(KINDS)}")
-    return decode(KINDS[name], spec)
+    return decode(KINDS[name], spec, proven=proven)
 
 
 @working_precision()

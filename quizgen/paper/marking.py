@@ -162,10 +162,12 @@ class Marker:
         The question's key.
     options : Options
         How to read, and the language of the messages.
+    proven : bool
+        Whether the key is known to be as it was written.
     """
 
-    def __init__(self, question: KeyQuestion, options: Options) -> None:
-        self.question = question
+    def __init__(self, question: KeyQuestion, options: Options, *, proven: bool = False) -> None:
+        self.question, self.proven = question, proven
         self.options = options
         self.earlier: dict[str, Any] = {}
 
@@ -180,7 +182,7 @@ class Marker:
 
     @working_precision()
     def _judged(self, part: KeyPart, typed: str) -> tuple[Kind, Verdict]:
-        spec = load_spec(part.in_order())
+        spec = load_spec(part.in_order(), proven=self.proven)
         options = msgspec.structs.replace(self.options, points=part.worth())
         verdict = _verdict(self.question, spec, typed, options, self.earlier)
         if self.question.chain is not None:
