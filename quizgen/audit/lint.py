@@ -1,8 +1,9 @@
 """Proof per template: over many seeds nothing degenerate, nothing that leaks, nothing missing.
 
 For each template: every language is complete; over ``seeds`` draws no trap scores or coincides with
-another (each draw is checked, then counted), the answers' range, the share of duplicates, of kept
-candidates, and the time per draw; over a few composed instances no placeholder is left, every
+another (each draw is checked, then counted), units fit formulas, figures can be drawn and give
+nothing away, the answers' range, the share of duplicates, of kept candidates, and the time per
+draw; over a few composed instances no placeholder is left, every
 number stands in every language, the printed answer typed back is correct and every trap is
 recognised.
 """
@@ -15,6 +16,8 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
+from quizgen.audit.dimensions import dimension_problems
+from quizgen.audit.pictures import figure_problems
 from quizgen.bank.draw import Draw, draw, reference
 from quizgen.bank.levels import EXAM
 from quizgen.bank.plan import plan_of
@@ -35,6 +38,8 @@ COMPOSED = 20
 """Instances that are put into words in every language."""
 MARKED = 50
 """Instances whose answers and mistakes are typed back in every language."""
+VARIED = 4
+"""Different questions whose answers cannot all be the same by chance."""
 LEVELLED = 1
 """Instances that are asked at every level, and typed back likewise."""
 
@@ -75,7 +80,7 @@ def lint_template(template: Template, seeds: int = 200, langs: tuple[str, ...] =
         Languages that it must be written in: those of its bank.
     """
     report = Report(template.id)
-    report.problems += _language_problems(template, langs)
+    report.problems += [*_language_problems(template, langs), *dimension_problems(template)]
     if report.problems:
         return report
     try:
@@ -87,6 +92,7 @@ def lint_template(template: Template, seeds: int = 200, langs: tuple[str, ...] =
             report.problems += marking_problems(one)
         for one in first[:LEVELLED]:
             report.problems += level_problems(one)
+        report.problems += [*figure_problems(first), *_constant(template, report)]
     except QuizgenError as error:
         report.problems.append(str(error))
     report.problems = list(dict.fromkeys(report.problems))
@@ -126,6 +132,15 @@ def _widen(report: Report, one: Draw) -> None:
             value = to_float(one.shown_values[name])
             low, high = report.ranges.get(name, (value, value))
             report.ranges[name] = (min(low, value), max(high, value))
+
+
+def _constant(template: Template, report: Report) -> Iterator[str]:
+    """Answers that do not vary although the questions do."""
+    for part in template.rules.part if report.distinct >= VARIED else ():
+        ranges = {name: report.ranges[name] for name in answer_names(part.answer)}
+        if ranges and all(low == high for low, high in ranges.values()):
+            said = ", ".join(f"{name} = {low:.6g}" for name, (low, _) in ranges.items())
+            yield f"the answer {said} is the same in all {report.seeds} draws"
 
 
 def _language_problems(template: Template, langs: tuple[str, ...]) -> list[str]:

@@ -13,6 +13,7 @@ from typing import TypeVar
 
 import msgspec
 
+from quizgen.bank.complaints import in_words
 from quizgen.errors import BankError, FormulaError
 from quizgen.locale import FIRST
 from quizgen.maths.units import System, system
@@ -95,7 +96,7 @@ def read_struct(path: Path, kind: type[S]) -> S:
     try:
         return converted(parse_toml(read_text(path, BankError), path, BankError), kind)
     except msgspec.ValidationError as error:
-        raise BankError(f"{path}: {error}") from error
+        raise BankError(f"{path}: {in_words(error, kind)}") from error
 
 
 def read_about(path: Path) -> About:

@@ -10,6 +10,7 @@ from typing import Literal, TypeVar
 
 import msgspec
 
+from quizgen.bank.complaints import in_words
 from quizgen.bank.folder import Bank
 from quizgen.errors import BankError
 from quizgen.outside import parse_toml, read_text
@@ -81,10 +82,8 @@ def _entry(row: dict[str, object], kind: type[E], where: str, langs: tuple[str, 
     try:
         entry = converted({**row, _FROM: where}, kind)
     except msgspec.ValidationError as error:
-        names = {field.encode_name for field in msgspec.structs.fields(kind)}
-        allowed = ", ".join(sorted(names - {_FROM}))
-        hint = f" (allowed: {allowed})" if "unknown field" in str(error) else ""
-        raise BankError(f"{where}: entry {row.get('id', '?')!r}: {error}{hint}") from error
+        place = f"{where}: entry {row.get('id', '?')!r}"
+        raise BankError(f"{place}: {in_words(error, kind)}") from error
     for name in filter(row.__contains__, passages(kind)):
         for lang in langs:
             if lang not in getattr(entry, name):

@@ -204,7 +204,7 @@ class Bank:
             raise _SolverError(f"solver: {name!r} is no name (allowed: {NAMES}, folders by '/')")
         file = self._solvers / f"{name}.py"
         if not file.exists() and self.root == builtin_root():
-            raise _SolverError(f"solver {file}: no such solver")
+            raise _SolverError(f"solver {name!r}: no such solver")
         if file.exists():
             self._must_be_trusted(file)
         return file.exists()

@@ -12,6 +12,7 @@ from typing import Any
 
 import msgspec
 
+from quizgen.bank.complaints import in_words
 from quizgen.bank.rules import DrawRule, KeepRule, Rules
 from quizgen.errors import FormulaError
 from quizgen.maths.constants import Scalar
@@ -182,7 +183,7 @@ def _answer(table: Mapping[str, object]) -> Problems:
     try:
         answer = converted(table, Answer)
     except msgspec.ValidationError as error:
-        yield "answer", str(error)
+        yield "answer", in_words(error, Answer)
         return
     listed: dict[str, Collection[str]] = {"options": answer.options, "pairs": answer.pairs,
               "steps": (*answer.steps, *answer.distractors), "gaps": answer.gaps,

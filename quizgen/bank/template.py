@@ -18,9 +18,10 @@ from flint import fmpq
 
 from quizgen.bank.about import About
 from quizgen.bank.compiled import Compiled
+from quizgen.bank.complaints import in_words
 from quizgen.bank.limits import problems
 from quizgen.bank.quantities import Quantities
-from quizgen.bank.rules import DrawRule, FigureRule, KeepRule, PartRule, Rules, minutes_of
+from quizgen.bank.rules import Rules, minutes_of
 from quizgen.bank.solvers import module_of
 from quizgen.errors import BankError, FormulaError
 from quizgen.maths.chain import Chain
@@ -164,23 +165,9 @@ def _read(path: Path, source: str) -> Rules:
         table = parse_toml(source, path, BankError, parse_float=str)
         rules = converted(table, Rules)
     except msgspec.ValidationError as error:
-        raise BankError(f"{path}: {error}{_allowed(str(error))}") from error
+        raise BankError(f"{path}: {in_words(error, Rules)}") from error
     _check_draws(path, rules)
     return rules
-
-
-def _allowed(message: str) -> str:
-    """Add the keys that would have been understood to msgspec's complaint."""
-    if "unknown field" not in message:
-        return ""
-    place = message.rsplit("`", 2)[-2] if "- at" in message else "$"
-    kind: type[msgspec.Struct] = Rules
-    for prefix, struct in (("$.draw", DrawRule), ("$.keep", KeepRule), ("$.figure", FigureRule),
-                           ("$.part", PartRule)):  # fmt: skip
-        if place.startswith(prefix):
-            kind = struct
-    fields = ", ".join(sorted(f.encode_name for f in msgspec.structs.fields(kind)))
-    return f" (allowed: {fields})"
 
 
 def _check_draws(path: Path, rules: Rules) -> None:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import re
+import json
 import sys
 import traceback
-from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Unpack
 
@@ -18,6 +17,7 @@ from quizgen.outside import visible
 
 if TYPE_CHECKING:
     from quizgen.audit.lint import Report
+    from quizgen.audit.located import Problem
     from quizgen.bank.folder import Bank
 
 HEAD = ("template", "draws", "distinct", "kept", "ms/draw", "problems", "answers")
@@ -27,21 +27,6 @@ NOTHING = ("0", "", "", "", "1", "")
 
 FEW = 20
 """Draws that are examined while an author waits."""
-
-_FILE = re.compile(r"(?:no )?([a-z]{2,3}\.md)\b(?!.* and )")
-
-ADVICE = {
-    r"^no \w+\.md": "write it, or leave the language out of languages in bank.toml",
-    r"section .* is missing": "write it",
-    "do not show the same values": "fill in the same {{ names }} in every language",
-    "differs by": "give the entries the same names in every language",
-    "never gives a usable wrong answer": "widen [draw], or leave it out with drop",
-    "a placeholder is left": "name a drawn or solved quantity",
-    r"part \w+: printed answer": "let the answer kind, its unit and rounding fit what is printed",
-    r"trap .* typed as": "widen the distance to the key: another rounding, or [keep]",
-    "^template .* no admissible draw": "widen [draw], or relax [keep] and where",
-}
-"""Pattern of a problem to what an author can do about it."""
 
 
 class Options(BankOptions):
@@ -53,6 +38,7 @@ class Options(BankOptions):
     teach: bool
     papers: int | None
     debug: bool
+    json: bool
 
 
 @click.command()
@@ -70,6 +56,7 @@ class Options(BankOptions):
     type=Whole(1, 10**5),
     help="Make so many papers of each blueprint, and name questions that tell another's answer.",
 )
+@click.option("--json", is_flag=True, help="Print problems as JSON, one a line, for editors.")
 @click.option("--debug", is_flag=True, help="Show where in Python an error came from.")
 @bank_options
 def lint(**options: Unpack[Options]) -> None:
@@ -85,22 +72,29 @@ def lint(**options: Unpack[Options]) -> None:
         sys.exit(_told(bank, options["papers"]))
     if options["teach"]:
         sys.exit(_taught(bank, names, options))
-    rows, broken = [], []
+    from quizgen.audit.located import bank_problems
+
+    rows, broken = [], list(bank_problems(bank))
     with Progress("lint", len(names)) as progress:
         for name in progress.over(names):
             row, problems = _examined(bank, name, options["seeds"], debug=options["debug"])
             rows.append((name, *row))
             broken += problems
-    print_table(HEAD, rows)
-    for problem in broken:
-        click.echo(visible(problem), err=True)
+    broken = list({str(problem): problem for problem in broken}.values())
+    if options["json"]:
+        for problem in broken:
+            click.echo(json.dumps(problem.as_json(), ensure_ascii=False))
+    else:
+        print_table(HEAD, rows)
+        for problem in broken:
+            click.echo(visible(str(problem)), err=True)
     if broken:
         sys.exit(1)
 
 
 def problems_of(bank: Bank, name: str) -> list[str]:
     """What is wrong with a template, over a few draws, as an author sees it while writing."""
-    return _examined(bank, name, FEW)[1]
+    return [str(problem) for problem in _examined(bank, name, FEW)[1]]
 
 
 def _taught(bank: Bank, names: tuple[str, ...], options: Options) -> int:
@@ -150,9 +144,10 @@ def _told(bank: Bank, count: int) -> int:
 
 def _examined(
     bank: Bank, name: str, seeds: int, *, debug: bool = False
-) -> tuple[tuple[str, ...], list[str]]:
+) -> tuple[tuple[str, ...], list[Problem]]:
     """Cells of a template's row, and its problems."""
     from quizgen.audit.lint import lint_template
+    from quizgen.audit.located import located
     from quizgen.bank.formulas import missing_formulas, unnamed_formulas
 
     try:
@@ -170,33 +165,19 @@ def _examined(
             raise KeyboardInterrupt from error
         if debug:
             traceback.print_exception(error)
-        return NOTHING, [_said(bank, name, error)]
-    return _cells(report), [_located(bank.paths[name], problem) for problem in report.problems]
+        return NOTHING, [located(bank, name, _said(bank, error))]
+    return _cells(report), [located(bank, name, problem) for problem in report.problems]
 
 
-def _said(bank: Bank, name: str, error: Exception) -> str:
+def _said(bank: Bank, error: Exception) -> str:
     """What stopped the examination: the place in the bank, else in quizgen, and the last line."""
-    folder = bank.paths.get(name, bank.root)
     if isinstance(error, QuizgenError):
-        said = str(error)
-        return said if str(bank.root) in said else f"{folder}: {said}"
+        return str(error)
     frames = list(traceback.walk_tb(error.__traceback__))
     own = [one for one in frames if one[0].f_code.co_filename.startswith(str(bank.root.resolve()))]
     frame, line = (own or frames)[-1]
     what = f"{type(error).__name__}: {error}"
-    return f"{folder}: {what} (in {frame.f_code.co_filename}:{line}; --debug shows the way there)"
-
-
-def _located(folder: Path, problem: str) -> str:
-    """A problem with its file and what to do about it."""
-    file = _FILE.match(problem)
-    place = folder / file[1] if file else folder
-    text = problem.removeprefix(f"{file[1]}: ") if file else problem
-    return "; ".join([f"{place}: {text}", *_advice(problem)])
-
-
-def _advice(problem: str) -> Iterator[str]:
-    yield from (advice for words, advice in ADVICE.items() if re.search(words, problem))
+    return f"{what} (in {frame.f_code.co_filename}:{line}; --debug shows the way there)"
 
 
 def _cells(report: Report) -> tuple[str, ...]:

@@ -46,7 +46,9 @@ def preview(name: str, **options: Unpack[Options]) -> None:
     template = open_bank(options).template(name)
     seed = REFERENCE if options["reference"] else options["seed"]
     page = options["html"]
-    paper = single(template, seed, options["lang"], level=options["level"])
+    paper = single(
+        template, seed, options["lang"], level=options["level"], figures=page is not None
+    )
     if page is None:
         click.echo(question_text(paper.items[0], solved=not options["quiz"]))
         return

@@ -78,9 +78,8 @@ def render(
     if lang not in languages():
         known = ", ".join(languages())
         raise BankError(f"figure {name!r}: no alt text in {lang!r}, only in {known}")
-    module = _module(name, own)
-    full = complete(name, module.PARAMETERS, values)
-    return _render(module, tuple(full.items()), quiz, lang)
+    full = completed(name, values, own)
+    return _render(_module(name, own), tuple(full.items()), quiz, lang)
 
 
 def in_words(
@@ -92,8 +91,14 @@ def in_words(
     own: ModuleType | None = None,
 ) -> str:
     """What a figure shows, in words, without drawing it; parameters and errors as of ``render``."""
-    module = _module(name, own)
-    return _words(module, complete(name, module.PARAMETERS, values), lang, quiz=quiz)
+    return _words(_module(name, own), completed(name, values, own), lang, quiz=quiz)
+
+
+def completed(
+    name: str, values: Mapping[str, float], own: ModuleType | None = None
+) -> dict[str, float]:
+    """All parameters of a figure, those left out at their defaults; errors as of ``render``."""
+    return complete(name, parameters(name, own), values)
 
 
 def _module(name: str, own: ModuleType | None) -> FigureModule:
@@ -123,4 +128,14 @@ def _drawn(module: FigureModule, items: tuple[tuple[str, float], ...], quiz: boo
     return canvas
 
 
-__all__ = ["Board", "Drawing", "Figure", "Line", "Parameter", "in_words", "parameters", "render"]
+__all__ = [
+    "Board",
+    "Drawing",
+    "Figure",
+    "Line",
+    "Parameter",
+    "completed",
+    "in_words",
+    "parameters",
+    "render",
+]

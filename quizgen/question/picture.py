@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import nullcontext
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from quizgen.bank.draw import Draw
 from quizgen.bank.rules import Scalar
 from quizgen.bank.solvers import authored
-from quizgen.figures import Figure, in_words, render
+from quizgen.figures import Figure, completed, in_words, render
 from quizgen.maths.numbers import to_float
 
 Shown = TypeVar("Shown")
@@ -30,7 +30,8 @@ def _shown(show: Callable[..., Shown], drawn: Draw, lang: str, *, quiz: bool) ->
     rule, own = drawn.template.rules.figure, drawn.template.figure
     if rule is None or (quiz and not rule.quiz):
         return None
-    values = {name: _parameter(drawn, source) for name, source in rule.values.items()}
+    given: Mapping[str, Any] = {name: _parameter(drawn, s) for name, s in rule.values.items()}
+    values = completed(rule.name, given, own)
     with authored(Path(str(own.__file__))) if own else nullcontext():
         return show(rule.name, values, quiz=quiz, lang=lang, own=own)
 

@@ -8,6 +8,7 @@ from typing import Any, TypeAlias, TypeVar
 
 import msgspec
 
+from quizgen.bank.complaints import in_words
 from quizgen.bank.draw import Draw
 from quizgen.bank.plan import shuffled
 from quizgen.bank.traps import answer_names
@@ -62,7 +63,7 @@ def specification(shape: type[S], drawn: Draw, index: int, **given: object) -> S
         with spec.known_units().in_use():
             spec.validate()
     except (msgspec.ValidationError, FormulaError, ValueError) as error:
-        raise complaint(drawn, index, str(error)) from error
+        raise complaint(drawn, index, in_words(error, shape)) from error
     return spec
 
 

@@ -10,6 +10,7 @@ from quizgen.bank import prose
 from quizgen.locale import word
 from quizgen.paper.paper import Item
 from quizgen.question.compose import Key
+from quizgen.question.picture import described
 from quizgen.question.shown import Maths
 from quizgen.question.solution import PartSolution
 
@@ -75,7 +76,8 @@ def question_text(item: Item, *, solved: bool = True) -> str:
     question, key = item.questions[0], item.keys[0]
     head = f"{question.template}: {question.title}  [{key.identity}]" if solved else question.title
     lines = [head, *blocks(question.stem)]
-    lines += [f"   [{question.figure.alt}]"] if question.figure else []
+    told = described(key.draw, question.lang, quiz=True)
+    lines += [f"   [{told}]"] if told else []
     for part, worked in zip(question.parts, key.solution.parts, strict=True):
         lines += ["", f"({part.label})" if part.label else "", *blocks(part.body)]
         if part.field.drawing:

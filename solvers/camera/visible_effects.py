@@ -37,7 +37,7 @@ with evaluate(False):
             Step(n_c, c / p),
             Step(a, R * p / f),
             Step(n_k, Abs(k_1) * a**2 * R),
-            Step(u, f * v / (z * p)),
+            Step(u, f * v / (z * p), "px/s"),
             Step(n_s, u * t_r * H),
             Step(q, 255 * sigma / F),
             Step(e_c, G * n_c),

@@ -44,9 +44,21 @@ class ReadError(FormulaError):
         self.code = code
         self.found = found
         self.expected = tuple(expected)
-        wanted = f", expected {' '.join(self.expected)}" if self.expected else ""
+        wanted = f", expected {_in_words(self.expected)}" if self.expected else ""
         what = f" {found!r}" if found else ""
         super().__init__(f"column {column}: {code.replace('-', ' ')}{what}{wanted}", column)
+
+
+def _in_words(expected: Iterable[str]) -> str:
+    """Kinds of tokens as people call them; what a formula can begin with is one thing."""
+    kinds = set(expected)
+    if "NUMBER" in kinds:
+        return "a number, a name or a bracket"
+    words = {"RPAR": "')'", "RBAR": "'|'", "COMMA": "','", "$END": "the end"}
+    signs = ["an operator"] if kinds & {"PLUS", "OPERATOR"} else []
+    return " or ".join([*signs, *sorted(words[kind] for kind in kinds & words.keys())]) or " ".join(
+        sorted(kinds)
+    )
 
 
 class Piece(msgspec.Struct, frozen=True):

@@ -1,0 +1,75 @@
+"""Figures: whether they can be drawn from what a template gives, and whether a quiz's gives away.
+
+A figure gives an answer away if its number stands in the labels or the words of the figure in every
+draw in which the question does not state that number itself.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+
+from quizgen.bank.draw import Draw, digits
+from quizgen.bank.traps import answer_names
+from quizgen.errors import QuizgenError
+from quizgen.question.picture import described, pictured
+
+DRAWN = 6
+"""Draws whose figure is drawn, in the quiz and in the solution."""
+FEWEST = 3
+"""Different answers that are needed to tell a secret from a coincidence."""
+
+_NUMBER = re.compile(r"\d[\d\u2009\u202f\u00a0]*(?:[.,]\d+)?")
+_SPACES = re.compile(r"[\u2009\u202f\u00a0]")
+
+
+def figure_problems(draws: Sequence[Draw]) -> Iterator[str]:
+    """What is wrong with the figure of a template, by some of its draws."""
+    template = draws[0].template
+    rule = template.rules.figure
+    if rule is None:
+        return
+    shown = [(one, set[str]()) for one in draws[:DRAWN]]
+    for one, numbers in shown:
+        for lang in template.languages:
+            for quiz in (True, False):
+                try:
+                    said = _seen(one, lang, quiz=quiz, drawn=lang == template.languages[0])
+                except QuizgenError as error:
+                    yield str(error)
+                    return
+                numbers.update(_numbers(said) if quiz else ())
+    if rule.quiz:
+        yield from _given_away(shown)
+
+
+def _seen(one: Draw, lang: str, *, quiz: bool, drawn: bool) -> str:
+    """All that a figure says: its words and, if it is one of the bank's own, its labels."""
+    said = [described(one, lang, quiz=quiz) or ""]
+    if drawn and one.template.figure:
+        figure = pictured(one, lang, quiz=quiz)
+        said += [label.text for label in figure.canvas.labels] if figure else []
+    return " ; ".join(said)
+
+
+def _numbers(text: str) -> Iterator[str]:
+    for found in _NUMBER.findall(text):
+        yield f"{float(_SPACES.sub('', found).replace(',', '.')):.4g}"
+
+
+def _given_away(shown: Sequence[tuple[Draw, set[str]]]) -> Iterator[str]:
+    for place, part in enumerate(shown[0][0].template.rules.part, 1):
+        for name in answer_names(part.answer):
+            secret = [(digits(one.shown_values[name]), numbers) for one, numbers in shown
+                      if digits(one.shown_values[name]) not in _stated(one)]  # fmt: skip
+            different = {answer for answer, _ in secret}
+            if len(different) >= FEWEST and all(answer in seen for answer, seen in secret):
+                example = secret[0][0]
+                yield (
+                    f"figure: shows {name} = {example} in the question, where part {place} asks it"
+                )
+
+
+def _stated(one: Draw) -> set[str]:
+    """Numbers that the question states."""
+    return {digits(value) for value in one.shown.values()}

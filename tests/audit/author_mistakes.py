@@ -1,0 +1,63 @@
+"""Mistakes of authors: one change to a sound bank each, and what lint says of it.
+
+``mistakes.toml`` is tested, and is the page ``docs/mistakes.md``: ``uv run python
+tests/audit/author_mistakes.py`` renews the page.
+"""
+
+from __future__ import annotations
+
+import sys
+import tomllib
+from pathlib import Path
+
+HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE.parent / "bank"))
+
+from mechanics import FILES, write  # noqa: E402
+
+from quizgen.bank.scaffold import new_template  # noqa: E402
+
+ROWS = tomllib.loads((HERE / "mistakes.toml").read_text("utf-8"))["mistake"]
+PAGE = HERE.parents[1] / "docs" / "mistakes.md"
+HEAD = """# Mistakes of authors
+
+What `quizgen lint` says, by mistake; `FILE:LINE` stands before each message. This page is made from `tests/audit/mistakes.toml`, where
+each mistake is made and its message compared.
+
+| mistake | in | lint says |
+|---|---|---|
+"""
+
+
+def sound() -> dict[str, str]:
+    """The files of the bank before any mistake: a computation, and one question of each other kind."""
+    found = dict(FILES)
+    for kind in ("choice", "claims", "match", "order", "gap"):
+        made = new_template("forces", f"a-{kind}", kind, ("en",))
+        found |= {name: data.decode() for name, data in made.items()}
+    return found
+
+
+def spoilt(root: Path, row: dict[str, str]) -> Path:
+    """The bank with one mistake."""
+    files = sound()
+    assert row["find"] in files[row["file"]], row["what"]
+    text = files[row["file"]].replace(row["find"], row["write"])
+    return write(root, {**files, row["file"]: text})
+
+
+def page() -> str:
+    """The documentation."""
+    lines = [
+        f"| {row['what']} | `{row['says'].split(': ')[0]}` | {_cell(row['says'])} |" for row in ROWS
+    ]
+    return HEAD + "\n".join(lines) + "\n"
+
+
+def _cell(says: str) -> str:
+    text = says.split(": ", 1)[1].replace("|", "\\|")
+    return f"`` {text} ``"
+
+
+if __name__ == "__main__":
+    PAGE.write_text(page(), "utf-8")

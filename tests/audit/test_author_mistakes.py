@@ -1,0 +1,53 @@
+"""Each mistake of an author gets one message, with the place and what mends it."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+from author_mistakes import PAGE, ROWS, page, sound, spoilt, write
+
+from quizgen.cli.lint import lint
+
+
+def run(root: Path, *more: str):
+    shared = ("--bank", str(root), "--trust", "--seeds", "20")
+    return CliRunner().invoke(lint, [*shared, *more], catch_exceptions=False)
+
+
+def test_without_a_mistake_nothing_is_said(tmp_path):
+    done = run(write(tmp_path, sound()))
+    assert (done.exit_code, done.stderr) == (0, "")
+
+
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: row["what"])
+def test_a_mistake_gets_one_located_message_that_names_the_mend(tmp_path, row):
+    template = row["file"].split("/")
+    only = ("--only", template[2] if template[0] == "templates" and template[3:] else "push")
+    done = run(spoilt(tmp_path, row), *only)
+    assert done.stderr.replace(f"{tmp_path}/", "").splitlines() == [row["says"]]
+    assert done.exit_code == 1
+
+
+def test_there_are_enough_of_them():
+    assert len(ROWS) >= 54
+    assert len({row["what"] for row in ROWS}) == len(ROWS)
+
+
+def test_the_page_is_up_to_date():
+    assert PAGE.read_text("utf-8") == page()
+
+
+def test_editors_get_the_place_as_json(tmp_path):
+    row = next(row for row in ROWS if row["what"] == "A unit that nobody has defined")
+    (found,) = map(json.loads, run(spoilt(tmp_path, row), "--json").stdout.splitlines())
+    assert found["file"] == str(tmp_path / row["file"])
+    assert (found["line"], found["template"]) == (7, "push")
+    assert found["what"] == "draw.m: unknown unit 'kgg'"
+    assert found["mend"].startswith("use a listed one")
