@@ -55,6 +55,9 @@ from quizgen.question.compose import Part
 from quizgen.render.layouts import environment
 from quizgen.responses import keys
 
+_HERE = Markup("\N{OBJECT REPLACEMENT CHARACTER}")
+"""Where a field will stand."""
+
 Asking = tuple[Part, tuple[Ask, ...]]
 
 
@@ -95,8 +98,10 @@ class Entry:
     @property
     def text(self) -> Markup:
         """What it says, and behind it what tells its responses from those to others."""
-        asking = _with_fields(self) if self.kind == "cloze" else _bodies(self)
-        return stem(self.item, _source) + asking + signed(self.item, self.suffix)
+        above, below = stem(self.item, _source), signed(self.item, self.suffix)
+        if self.kind == "cloze":
+            return _no_field(above) + _with_fields(self) + below
+        return above + _bodies(self) + below
 
     @property
     def labels(self) -> list[str]:
@@ -204,10 +209,15 @@ def _with_fields(entry: Entry) -> Markup:
     scale = lcm(*(share.denominator for share in shares))
     text = Markup("")
     for (part, found), share in zip(entry.parts, shares, strict=True):
-        text += body(part, found, lang, _source)
+        text += _no_field(body(part, found, lang, _source))
         for ask in found:
             text += _embedded(ask, int(share * scale), lang)
     return text
+
+
+def _no_field(text: Markup) -> Markup:
+    """A text around fields, in which no brace begins one."""
+    return Markup(text.replace("{", "&#123;"))  # noqa: S704 - the same page
 
 
 def _fields(found: Sequence[Ask], lang: str) -> int:
@@ -225,7 +235,8 @@ def _embedded(ask: Ask, _weight: int, _lang: str) -> Markup:
 @_embedded.register
 def _embedded_number(ask: Numeric, weight: int, lang: str) -> Markup:
     rows = [(f"{a.typed}:{a.tolerance}", a.percent, a.said) for a in answers(ask, lang)]
-    return beside(ask, _field(weight, "NUMERICAL", rows), lang)
+    around = _no_field(beside(ask, _HERE, lang))
+    return Markup(around.replace(_HERE, _field(weight, "NUMERICAL", rows)))  # noqa: S704 - escaped
 
 
 @_embedded.register
@@ -257,9 +268,13 @@ def _embedded_truth(ask: Truth, weight: int, lang: str) -> Markup:
 def _embedded_pairs(ask: Pairs | Order, weight: int, lang: str) -> Markup:
     """A drop-down of the targets' marks for each stem, since it can hold no formulas."""
     pairs = as_pairs(ask, lang)
-    listed = [marked(mark, words, lang) for mark, words in pairs.targets if words != (Words(mark),)]
+    listed = [
+        _no_field(marked(mark, words, lang))
+        for mark, words in pairs.targets
+        if words != (Words(mark),)
+    ]
     rows = [
-        marked(mark, words, lang) + " " + _drop_down(pairs, mark, weight, lang)
+        _no_field(marked(mark, words, lang)) + " " + _drop_down(pairs, mark, weight, lang)
         for mark, words in pairs.stems
     ]
     return Markup("").join(

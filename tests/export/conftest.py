@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import shutil
 from collections import defaultdict
+from itertools import cycle
 
 import pytest
 
+from quizgen.bank.folder import Bank
 from quizgen.export.items import Item, of_templates
 from quizgen.question.compose import compose
 
@@ -26,6 +29,38 @@ def items(bank) -> list[Item]:
     names = dict.fromkeys([*some(bank, slice(2)), *single])
     english = of_templates(bank, list(names), 1, 1, ["en"])
     return [*english, *of_templates(bank, some(bank, slice(-1, None)), 2, 1, ["bn"])]
+
+
+AWKWARD = (
+    "[blank1] [[1]]", "{1:NUMERICAL:=3}", "]]> ]]]]>", "~%100%no#fb", "a=b ~ c # d } e {", "\"quoted\" 'it'",
+    "`{1:SHORTANSWER:=x}~#=%`", "&amp; &#35; & <!-- -->", "[abcd-2345]", "a -> b -> c; d",
+    "// [id:x] ::n:: %0%", "৩,১৪ and 3,14; -1234,5", "x* * y", "{=right ~wrong}",
+)  # fmt: skip
+"""Texts that mean something to a reader of one format or another."""
+WORDS = ("a{b}c", "x~y", "p#q", "r=s", '"v"', "w'x", "%100%z", "ক,খ")
+"""The same for words that are typed."""
+
+
+@pytest.fixture(scope="session")
+def awkward(bank, tmp_path_factory) -> list[Item]:
+    """Questions of an own bank, whose stories, options, reasons and words hold them."""
+    root, texts, words = tmp_path_factory.mktemp("awkward"), cycle(AWKWARD), cycle(WORDS)
+    for name in ("rods-cones-and-peaks", "imread-missing-file", "mixing-kind-and-primaries"):
+        folder = root / "templates" / bank.rules(name).topic / name
+        shutil.copytree(bank.paths[name], folder)
+        for file in folder.glob("*.md"):
+            section, lines = "", []
+            for line in file.read_text("utf-8").splitlines():
+                section = line.removeprefix("## ") if line.startswith("## ") else section
+                named = line.startswith("- ") and "____" not in line
+                story = not section and line.endswith((".", "।"))
+                long = story or (named and section in {"options", "reasons"})
+                short = named and section == "gaps"
+                more = f" {next(texts)}" if long else f" | {next(words)}" if short else ""
+                lines.append(line + more)
+            file.write_text("\n".join(lines), "utf-8")
+    own = Bank(root)
+    return list(of_templates(own, list(own.paths), 0, 2, ["en", "bn"]))
 
 
 @pytest.fixture(scope="session")

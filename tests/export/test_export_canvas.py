@@ -195,6 +195,17 @@ def test_braces_brackets_and_bangla_survive(reference):
     assert f"{first[0]}. {awkward}" in map(plain, labels(question))
 
 
+def test_a_blank_is_where_we_set_one_and_nowhere_else(awkward):
+    """Whatever the words of an own bank are."""
+    found = read(awkward)
+    blanks = {one.id: len(one.asks) for item in awkward for one in queries(item)
+              if len(one.asks) > 1}  # fmt: skip
+    assert len(blanks) > 2
+    for name, count in blanks.items():
+        text = found[name].findtext(f".//{Q}mattext")
+        assert re.findall(r"\[(\w+)\]", text) == [f"blank{i}" for i in range(1, count + 1)]
+
+
 def test_the_same_questions_are_the_same_bytes(items):
     data = write(items[:3])
     assert data == write(items[:3])

@@ -83,3 +83,7 @@ def test_a_choice_has_its_letters_and_one_right_option(reference):
     assert (bare(answer).count("="), bare(answer).count("~")) == (1, 5)
     assert re.findall(r"[~=]([A-F])\.", answer) == list("ABCDEF")
     assert "<pre><code>import cv2\n" in plain(text)
+
+
+def test_an_own_bank_may_hold_signs_of_the_grammar(awkward):
+    test_every_part_is_a_question_with_its_solution(awkward, read(awkward))

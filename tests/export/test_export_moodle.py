@@ -170,6 +170,18 @@ def test_braces_tildes_quotes_and_stars_survive(items):
     assert read_back.alternatives[0].typed == read_back.alternatives[0].said == awkward
 
 
+def test_fields_are_where_a_text_says_so_and_nowhere_else(awkward):
+    """Whatever the words of an own bank are."""
+    found = read(awkward)
+    test_fields_of_a_text_are_what_is_asked(awkward, found)
+    test_weights_are_the_marks_of_the_parts(awkward, found)
+    texts = [
+        one.findtext("questiontext/text") for one in found.values() if one.get("type") == "cloze"
+    ]
+    assert sum("&#123;1:NUMERICAL:" in text for text in texts) > 0
+    assert [text for text in texts if "{" in re.sub(r"\{\d+:[A-Z_]+:[^{}]*\}", "", text)] == []
+
+
 def test_nothing_is_left_of_our_own_pages(questions):
     """Words hidden by our style would be seen twice."""
     for one in questions.values():
