@@ -15,15 +15,20 @@ from quizgen.export.qti.assessment import assessment
 from quizgen.export.qti.dialect import QTI3, QTI21, Dialect, element, file
 from quizgen.export.qti.item import item_file, name_of
 from quizgen.files import zipped
+from quizgen.locale import FIRST
+
+LOM = "http://ltsc.ieee.org/xsd/LOM"
+"""Learning object metadata (IEEE 1484.12.1), by which item banks search."""
 
 
 class Resource(NamedTuple):
-    """A file of a package, its type as the manifest names it, and the files it needs."""
+    """A file of a package, its type as the manifest names it, the files it needs, its metadata."""
 
     kind: str
     path: str
     data: bytes
     needs: tuple[str, ...] = ()
+    told: Markup = Markup("")
 
 
 def write_qti21(items: Iterable[Item]) -> bytes:
@@ -54,7 +59,8 @@ def _resources(items: Iterable[Item], dialect: Dialect) -> Iterator[Resource]:
         for path, item in paths.items():
             shown = pictures.shown(item)
             data = item_file(item, dialect)
-            yield Resource(f"imsqti_item_xml{dialect.version}", path, data, (*shown,))
+            kind = f"imsqti_item_xml{dialect.version}"
+            yield Resource(kind, path, data, (*shown,), _told(item))
             figures |= shown
     yield from (Resource("webcontent", path, data) for path, data in figures.items())
 
@@ -75,7 +81,17 @@ def _manifest(resources: list[Resource], dialect: Dialect) -> bytes:
 def _listed(one: Resource) -> Markup:
     named = {"identifier": _named(one.path), "type": one.kind, "href": one.path}
     needs = [element("dependency", {"identifierref": _named(path)}) for path in one.needs]
-    return element("resource", named, element("file", {"href": one.path}), *needs)
+    return element("resource", named, one.told, element("file", {"href": one.path}), *needs)
+
+
+def _told(item: Item) -> Markup:
+    """Title, language and tags of a question, as learning object metadata."""
+    title = element("string", {"language": item.lang}, item.called())
+    keywords = [
+        element("keyword", {}, element("string", {"language": FIRST}, tag)) for tag in item.tags
+    ]
+    general = (element("title", {}, title), element("language", {}, item.lang), *keywords)
+    return element("metadata", {}, element("lom", {"xmlns": LOM}, element("general", {}, *general)))
 
 
 def _named(path: str) -> str:
