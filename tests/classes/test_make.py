@@ -9,8 +9,10 @@ from itertools import pairwise
 
 import pikepdf
 import pytest
+from made import run
 from small import begun, bytes_of, with_papers
 
+from quizgen.classes import make
 from quizgen.classes.folder import ClassFolder
 from quizgen.classes.printing import print_file
 from quizgen.classes.roster import Student
@@ -207,3 +209,42 @@ def test_for_the_printer_every_paper_begins_on_a_right_hand_page(copied):
                 assert first == paper.pages[0].Contents.read_bytes()
                 at += len(paper.pages) + len(paper.pages) % 2
         assert len(whole.pages) == at
+
+
+FAMILY = """
+[title]
+en = "One of three"
+[[slot]]
+templates = ["value-range-and-type", "stored-values-and-bytes", "coordinate-conventions"]
+"""
+
+
+def test_other_templates_of_the_same_kind_are_worth_and_take_as_much(tmp_path):
+    """Of eight students some have one template and some another, and a rerun keeps to that."""
+    (tmp_path / "one.toml").write_text(FAMILY, "utf-8")
+    with (tmp_path / "roster.csv").open("w", encoding="utf-8") as stream:
+        stream.writelines(["id\n", *(f"{number}\n" for number in range(8))])
+    wished = ("--blueprint", tmp_path / "one.toml", "--out", tmp_path / "class", "--jobs", 1)
+    with pytest.MonkeyPatch.context() as same:
+        same.setattr(make, "new_secret", lambda: "5" * 32)
+        assert run("class", "make", tmp_path / "roster.csv", *wished, "--vary") == 0
+    folder = ClassFolder(tmp_path / "class")
+    asked = [one["key"]["questions"][0] for one in keys(folder).values()]
+    assert {one["template"] for one in asked} == {
+        "value-range-and-type", "stored-values-and-bytes", "coordinate-conventions",
+    }  # fmt: skip
+    assert len({(one["points"], one["topic"], one["tier"]) for one in asked}) == 1
+    before = bytes_of(folder.path)
+    (folder.path / "papers/3.pdf").unlink()
+    for again in ((*wished, "--vary"), wished):
+        assert run("class", "make", tmp_path / "roster.csv", *again) == 0
+    assert bytes_of(folder.path) == before
+
+
+def test_a_class_without_other_templates_does_not_get_them_later(tmp_path, capsys):
+    (tmp_path / "one.toml").write_text(FAMILY, "utf-8")
+    (tmp_path / "roster.csv").write_text("id\n1\n", "utf-8")
+    wished = ("--blueprint", tmp_path / "one.toml", "--out", tmp_path / "class", "--jobs", 1)
+    assert run("class", "make", tmp_path / "roster.csv", *wished) == 0
+    assert run("class", "make", tmp_path / "roster.csv", *wished, "--vary") == 2
+    assert "was made without --vary" in capsys.readouterr().err
