@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import getpass
-from collections.abc import Iterable
+from collections.abc import Sequence
 from pathlib import Path
 from urllib.parse import urlencode
 
@@ -30,7 +30,7 @@ from quizgen.classes.run import mark_class
 from quizgen.errors import ClassError, FormulaError
 from quizgen.web.forms import every, one, posted
 from quizgen.web.site import Site
-from quizgen.web.views import lang_of, page, to
+from quizgen.web.views import lang_of, page, said, to
 
 AT_ONCE = 10
 """Groups on a page."""
@@ -104,22 +104,26 @@ async def decide(request: Request) -> Response:
         )
         for group in every(form, "group")
     ]
+    who, worth = one(form, "who"), one(form, "worth")
+    wrong = _wrong(made, worth)
+    if wrong:
+        told = said(lang_of(request), f"class.{wrong}", worth=worth)
+        return to(_address(who, second=second, wrong=told))
+    await run_in_threadpool(append_rulings, folder, made)
+    return to(_address(who, second=second))
+
+
+def _wrong(made: Sequence[Ruling], worth: str) -> str:
+    """The name of a sentence: nothing is ticked, or these are no points that can be had."""
+    if not made:
+        return "unticked"
     try:
-        await run_in_threadpool(_write, folder, made, one(form, "worth"))
-    except (ClassError, FormulaError) as error:
-        return to(_address(one(form, "who"), second=second, wrong=str(error)))
-    return to(_address(one(form, "who"), second=second))
-
-
-def _write(folder: Path, made: Iterable[Ruling], worth: str) -> None:
-    """Refuse more points than there are, and groups without points."""
-    rulings = list(made)
-    for ruling in rulings:
-        ruling.check()
-        if ruling.points is None:
-            raise ClassError("points?")
-        within(ruling, worth)
-    append_rulings(folder, rulings)
+        for ruling in made:
+            ruling.check()
+            within(ruling, worth)
+    except (ClassError, FormulaError):
+        return "range"
+    return "" if all(ruling.value for ruling in made) else "range"
 
 
 def _address(who: str, *, second: bool, **more: str) -> str:

@@ -96,9 +96,12 @@ def test_one_decision_settles_a_group_and_marking_counts_it(asked, folder):
         "group": first,
         "comment": "good",
     }
-    for points, kept in (("1.3", "quarters"), ("2", "2 points of 1"), ("", "points?")):
+    for points in ("1.3", "2", "", "-1", "half"):
         page = client.post("/class/decide", data={**form, "points": points}).text
-        assert kept in page
+        assert "Not written down: Points are given in quarters, from 0 to 1." in page
+    page = client.post("/class/decide", data={**form, "group": [], "points": "1"}).text
+    assert "Not written down: Tick at least one answer." in page
+    assert not (folder / "rulings.csv").exists()
     page = client.post("/class/decide", data={**form, "points": "0,75"}).text
     assert len(groups(page)) == 1
     assert (
@@ -109,6 +112,15 @@ def test_one_decision_settles_a_group_and_marking_counts_it(asked, folder):
     with (folder / "results" / "grades.csv").open(encoding="utf-8-sig", newline="") as stream:
         marks = {row["id"]: row[ITEM] for row in csv.DictReader(stream)}
     assert marks == {"1": "0.75", "2": "0.75", "3": ""}
+
+
+def test_why_nothing_was_written_down_is_said_in_the_language_of_the_page(asked):
+    client, token = asked
+    first = groups(client.get("/class").text)[0]
+    client.post("/settings", data={"token": token, "lang": "bn", "back": "/class"})
+    form = {"token": token, "item": ITEM, "worth": "1", "group": first, "points": "2"}
+    page = client.post("/class/decide", data=form).text
+    assert "লেখা হয়নি: নম্বর 0 থেকে 1-এর মধ্যে দিতে হবে" in page
 
 
 def test_a_second_marker_does_not_see_the_first_and_changes_no_mark(asked, folder):
