@@ -88,8 +88,7 @@ def deflate(data: NDArray[np.uint8]) -> bytes:
 
     starts = np.flatnonzero(np.diff(data, prepend=data[0] ^ 1))
     counts = np.diff(starts, append=len(data))
-    runs = zip(data[starts].tolist(), counts.tolist(), strict=True)
-    bits = "110" + "".join(_run(byte, count) for byte, count in runs) + _symbol(256)
+    bits = f"110{''.join(map(_run, data[starts].tolist(), counts.tolist()))}{_symbol(256)}"
     packed = int(bits[::-1], 2).to_bytes((len(bits) + 7) // 8, "little")
     return b"\x78\x01" + packed + pack(">I", adler32(data.tobytes()))
 

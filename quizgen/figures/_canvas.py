@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from base64 import b64encode
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -91,31 +91,25 @@ class Canvas:
 
     def flipped(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Points as SVG counts them, in hundredths."""
-        return np.round((0.0, self.height) + np.round(points, 2) * (1.0, -1.0), 2) + 0.0
+        return _flipped(points, self.height)
 
     @cached_property
     def inside(self) -> str:
         """Elements without ids, the same on every machine; each part is a group ``data-part``."""
         pictures = [self._image(pixels, box) for pixels, box in self.pictures]
-        strokes = [*self.strokes, *self._outlines()]
-        return f"<g>{''.join([self._paper(), *pictures, *map(self._path, strokes)])}</g>"
+        parts = [self._paper(), *pictures, *map(self._path, self.strokes), self._lettering()]
+        return f"<g>{''.join(parts)}</g>"
 
-    def _outlines(self) -> list[Stroke]:
+    def _lettering(self) -> str:
         """All labels as one part."""
         if not self.labels:
-            return []
-        shapes = [outline(label.text) for label in self.labels]
-        points = [
-            shape.points * label.size + label.at
-            for shape, label in zip(shapes, self.labels, strict=True)
-        ]
-        codes = np.concatenate([shape.codes for shape in shapes])
-        return [Stroke("labels", Style(), np.concatenate(points), codes)]
+            return ""
+        return _part("labels", " ".join([_label(label, self.height) for label in self.labels]))
 
     def _path(self, stroke: Stroke) -> str:
         closed = stroke.style.width > 0
         data = _commands(self.flipped(stroke.points), stroke.codes, closed=closed)
-        return f'<g data-part="{stroke.part}"><path d="{data}"{stroke.style.attribute()}/></g>'
+        return _part(stroke.part, data, stroke.style.attribute())
 
     def _paper(self) -> str:
         if self.background is None:
@@ -132,6 +126,22 @@ class Canvas:
             f' x="{left:.2f}" y="{self.height - low - high:.2f}" width="{wide:.2f}"'
             f' height="{high:.2f}" preserveAspectRatio="none"/>'
         )
+
+
+def _part(name: str, data: str, style: str = "") -> str:
+    return f'<g data-part="{name}"><path d="{data}"{style}/></g>'
+
+
+def _flipped(points: NDArray[np.float64], height: float) -> NDArray[np.float64]:
+    return np.round((0.0, height) + np.round(points, 2) * (1.0, -1.0), 2) + 0.0
+
+
+@lru_cache(maxsize=2048)
+def _label(label: Label, height: float) -> str:
+    """Commands that draw a label: most stand in the same place in the next figure of the kind."""
+    shape = outline(label.text)
+    points = shape.points * label.size + label.at
+    return _commands(_flipped(points, height), shape.codes, closed=False)
 
 
 def _commands(points: NDArray[np.float64], codes: NDArray[np.uint8], *, closed: bool) -> str:
