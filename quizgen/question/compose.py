@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any
 
 from markupsafe import Markup
@@ -243,6 +244,7 @@ def _worded(
     return question, key
 
 
+@lru_cache(maxsize=512)
 def identity(drawn: Draw, level: str = EXAM) -> str:
     """Name of the variant: two questions are the same if and only if this is the same."""
     numbers = [f"{name}={key_text(value)}" for name, value in sorted(drawn.shown.items())]

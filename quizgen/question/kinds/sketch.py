@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import lru_cache
 from typing import Any, TypeAlias
 
 import msgspec
@@ -17,7 +18,7 @@ from quizgen.marking.reading.strokes import written
 from quizgen.maths.constants import Scalar
 from quizgen.maths.notation import parse
 from quizgen.maths.numbers import to_float
-from quizgen.maths.systems import compile_expr, floats
+from quizgen.maths.systems import Compiled, compile_expr, floats
 from quizgen.question.contract import Built, Control
 from quizgen.question.shown import Shown, said
 from quizgen.question.specs import answer_of, mistaken, notes, specification, why
@@ -136,9 +137,14 @@ class _Place:
         return [_rounded(x(t), y(t)) for t in steps]
 
     def _compiled(self, formula: Scalar) -> Callable[[float], float]:
-        tree = parse(str(formula), symbols=(*self._values, "t"))
-        compiled = compile_expr(tree, floats())
+        compiled = _formula(str(formula), (*self._values, "t"))
         return lambda t: float(compiled({**self._values, "t": t}))
+
+
+@lru_cache(maxsize=512)
+def _formula(text: str, symbols: tuple[str, ...]) -> Compiled:
+    """A formula of a template over its symbols, the same for all of its draws."""
+    return compile_expr(parse(text, symbols=symbols), floats())
 
 
 def _typed(lines: Mapping[str, list[Point]]) -> dict[str, str]:
