@@ -45,8 +45,8 @@ from quizgen.render.typ import forget
 
 CHUNK = 8
 """Papers of a job: what a killed worker costs."""
-PRETENDED = 4
-"""Documents after each paper: a third of a worker's memory was what papers before it had left."""
+PRETENDED = 1
+"""Documents after each paper: a tenth of a worker's memory is what papers before it left."""
 CLASS = "class"
 """Stands for the seed where a code would show one."""
 

@@ -20,6 +20,7 @@ from quizgen.render import fonts
 
 _KNOWN = frozenset(map(chr, (*range(0x20, 0x7F), *range(0xA1, 0x180), *range(0x985, 0x9E4))))
 """Latin and Bangla, in which most names are written."""
+_LITERAL: Final = json.JSONEncoder(ensure_ascii=False)
 STANDARD: Final = "ua-1"
 MAIN: Final = "main.typ"
 MOMENT = datetime(2000, 1, 1, tzinfo=UTC)
@@ -28,7 +29,7 @@ MOMENT = datetime(2000, 1, 1, tzinfo=UTC)
 
 def string(text: str) -> str:
     """A Typst string literal: nothing in it is ever read as markup."""
-    return json.dumps(text, ensure_ascii=False).replace("\\/", "/")
+    return _LITERAL.encode(text)
 
 
 @singledispatch
