@@ -34,6 +34,7 @@ COMMANDS = {
     "serve": ("quizgen.cli.serve", "Practise and sit the exam in a browser."),
     "templates": ("quizgen.cli.templates", "List the templates of the bank."),
     "preview": ("quizgen.cli.preview", "Show one question with its solution."),
+    "banks": ("quizgen.cli.banks", "List the banks there are."),
     "new": ("quizgen.cli.new", "Begin a bank or a question of one's own."),
     "lint": ("quizgen.cli.lint", "Prove templates sound over many seeds."),
     "schema": ("quizgen.cli.schema", "Print what editors check bank files by."),

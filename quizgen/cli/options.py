@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Collection
 from pathlib import Path
 from typing import TYPE_CHECKING, ParamSpec, TypedDict, TypeVar
@@ -9,7 +10,9 @@ from typing import TYPE_CHECKING, ParamSpec, TypedDict, TypeVar
 import click
 
 from quizgen.bank.levels import CHOICES, EXAM
+from quizgen.cli.terminal import many
 from quizgen.locale import FIRST, languages
+from quizgen.outside import visible
 from quizgen.paper.code import LARGEST_SEED
 
 if TYPE_CHECKING:
@@ -39,9 +42,9 @@ class BankOptions(TypedDict):
 
 def bank_options(command: Callable[P, T]) -> Callable[P, T]:
     """Add ``--bank`` and ``--trust``."""
-    trust = click.option("--trust", is_flag=True, help="Run the Python solvers of --bank.")
+    trust = click.option("--trust", is_flag=True, help="Run the Python of --bank this time.")
     bank = click.option(
-        "--bank", type=click.Path(path_type=Path), help="Another bank of templates."
+        "--bank", type=click.Path(path_type=Path), help="Another bank: its folder or name."
     )
     return bank(trust(command))
 
@@ -50,7 +53,39 @@ def open_bank(options: BankOptions) -> Bank:
     """The bank that the options name."""
     from quizgen.bank.folder import Bank, builtin
 
-    return Bank(options["bank"], trusted=options["trust"]) if options["bank"] else builtin()
+    root = bank_root(options)
+    return Bank(root, trusted=is_trusted(root, options)) if root else builtin()
+
+
+def bank_root(options: BankOptions) -> Path | None:
+    """The folder of the bank that the options name; None for the built-in one."""
+    if options["bank"] is None:
+        return None
+    from quizgen.bank.found import root_of
+
+    return root_of(options["bank"])
+
+
+def is_trusted(root: Path | None, options: BankOptions) -> bool:
+    """Whether a bank's Python may run: by ``--trust``, as remembered, or by asking whoever types.
+
+    Where nobody can be asked it is said at once that it does not run.
+    """
+    if root is None or options["trust"]:
+        return options["trust"]
+    from quizgen.bank.found import is_remembered, python_of, remember
+
+    files = python_of(root)
+    if not files or is_remembered(root):
+        return bool(files)
+    what = f"{root} brings {many(len(files), 'file')} of Python, such as {files[0].name}"
+    if not (sys.stdin.isatty() and sys.stderr.isatty()):
+        click.echo(f"quizgen: {visible(what)}; it does not run without --trust", err=True)
+        return False
+    if not click.confirm(f"{what}. Run it, now and until it changes?", default=False, err=True):
+        return False
+    remember(root)
+    return True
 
 
 def language_option(command: Callable[P, T]) -> Callable[P, T]:

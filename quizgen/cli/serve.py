@@ -8,7 +8,14 @@ from typing import Unpack
 import click
 
 from quizgen.cli.lint import problems_of
-from quizgen.cli.options import BankOptions, Whole, bank_options, database_option
+from quizgen.cli.options import (
+    BankOptions,
+    Whole,
+    bank_options,
+    bank_root,
+    database_option,
+    is_trusted,
+)
 
 
 class Options(BankOptions):
@@ -67,10 +74,11 @@ def serve(**options: Unpack[Options]) -> None:
     """Practise and sit the exam in a browser: alone, or with everybody in the network."""
     from quizgen.web.settings import Settings
 
+    root = bank_root(options)
     settings = Settings(
         options["database"],
-        options["bank"].resolve() if options["bank"] else None,
-        trusted=options["trust"],
+        root.resolve() if root else None,
+        trusted=is_trusted(root, options),
         host=options["host"],
         names=tuple(name.lower() for name in options["names"]),
         behind_proxy=options["behind_proxy"],

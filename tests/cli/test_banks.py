@@ -1,0 +1,121 @@
+"""Whose Python may run: asked once, remembered until it changes; banks that packages bring."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "bank"))
+
+from mechanics import FILES, write
+
+from quizgen.bank import found
+from quizgen.cli import options
+from quizgen.cli.main import group
+
+SOLVER = "solvers/forces/newton.py"
+
+
+@pytest.fixture
+def root(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "home"))
+    return write(tmp_path / "mechanics")
+
+
+def run(*arguments, typed: str | None = None):
+    return CliRunner().invoke(group, [*map(str, arguments)], input=typed)
+
+
+class _Terminal:
+    """A stream that people sit at."""
+
+    def __init__(self, stream):
+        self.stream = stream
+
+    def __getattr__(self, name):
+        return getattr(self.stream, name)
+
+    def isatty(self):
+        return True
+
+
+@pytest.fixture
+def asked(monkeypatch):
+    """Somebody who answers what they are asked."""
+    answers, questions = [], []
+
+    def confirm(question, **_kwargs):
+        questions.append(question)
+        return answers.pop(0)
+
+    monkeypatch.setattr(options.click, "confirm", confirm)
+    monkeypatch.setattr(
+        options,
+        "sys",
+        type("S", (), {"stdin": _Terminal(sys.stdin), "stderr": _Terminal(sys.stderr)}),
+    )
+    return answers, questions
+
+
+def test_what_does_not_run_is_said_at_once(root):
+    done = run("preview", "push", "--bank", root)
+    assert done.exception is not None
+    assert done.stderr.startswith(
+        f"quizgen: {root} brings 2 files of Python, such as block.py; it does not run without --trust\n"
+    )
+    assert run("templates", "--bank", root).exit_code == 0
+
+
+def test_who_allows_it_is_asked_once_until_it_changes(root, asked):
+    answers, questions = asked
+    answers += [False, True]
+    assert run("preview", "push", "--bank", root).exit_code != 0
+    assert run("preview", "push", "--bank", root).exit_code == 0
+    assert run("preview", "push", "--bank", root).exit_code == 0
+    assert len(questions) == 2
+    (root / SOLVER).write_text(FILES[SOLVER] + "\n# changed\n", "utf-8")
+    answers.append(False)
+    assert run("preview", "push", "--bank", root).exit_code != 0
+    assert len(questions) == 3
+
+
+def test_to_trust_for_once_is_not_remembered(root):
+    assert run("preview", "push", "--bank", root, "--trust").exit_code == 0
+    assert not found.is_remembered(root)
+
+
+@pytest.fixture
+def package(root, tmp_path, monkeypatch):
+    """The bank as an installed package brings it."""
+    site = tmp_path / "site"
+    shutil.copytree(root, site / "bank_of_mechanics")
+    (site / "bank_of_mechanics" / "__init__.py").write_text("raise RuntimeError('imported')\n")
+    info = site / "mechanics-1.2.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: mechanics\nVersion: 1.2\n")
+    (info / "entry_points.txt").write_text("[quizgen.banks]\nmechanics = bank_of_mechanics\n")
+    monkeypatch.syspath_prepend(site)
+    found.installed.cache_clear()
+    yield site / "bank_of_mechanics"
+    found.installed.cache_clear()
+
+
+def test_a_package_brings_a_bank_by_its_name(package, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path / "site")
+    done = run("preview", "push", "--bank", "mechanics", "--trust")
+    assert done.exit_code == 0
+    assert "A push" in done.output
+
+
+def test_banks_are_listed_with_what_they_are(package):
+    rows = [re.split(" {2,}", line) for line in run("banks").output.splitlines()]
+    (own,) = [row for row in rows if row[0] == "mechanics"]
+    assert own[1:] == ["1.2", "en", "1", "needs --trust", "CC BY 4.0", str(package)]
+    found.remember(package)
+    assert "  runs  " in run("banks").output.splitlines()[-1]
+    assert any(row[0] == "image-acquisition" for row in rows)
