@@ -6,7 +6,7 @@ Layers are kept apart only where something needs it: different blur or different
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import groupby
 
@@ -182,15 +182,49 @@ def _place(thing: Thing, view: View) -> tuple[float, float]:
     return view.centre[0] + thing.x.value, view.centre[1] + thing.y.value
 
 
-def _own_axes(thing: Thing, view: View) -> tuple[Plane, Plane]:
+_ROWS = 64
+"""Rows drawn at once, so that what lies in between stays small."""
+
+
+def _extent(thing: Thing) -> float:
+    """Distance from a thing's centre beyond which it covers nothing, soft edge included, px."""
+    if thing.shape in ("grid", "full") or (thing.shape == "blades" and thing.count == 1):
+        return math.inf
+    far = reach(thing) + thing.stroke.value
+    if thing.shape == "ellipse":  # the edge of a thin one is softer along its length
+        far *= 1.0 + 1.0 / min(thing.width.value, thing.height.value)
+    return far
+
+
+def _within(middle: float, far: float, length: int) -> tuple[int, int]:
+    """First and last (exclusive) pixel of a line that may lie so far from a place."""
+    if math.isinf(far):
+        return 0, length
+    return (
+        min(max(math.floor(middle - far), 0), length),
+        min(max(math.ceil(middle + far) + 1, 0), length),
+    )
+
+
+def _parts(thing: Thing, view: View) -> Iterator[tuple[slice, slice]]:
+    """Bands of the picture that a thing can cover."""
+    (column, row), far = _place(thing, view), _extent(thing)
+    left, right = _within(column, far, view.width)
+    top, bottom = _within(row, far, view.height)
+    for start in range(top, bottom, _ROWS) if left < right else ():
+        yield slice(start, min(start + _ROWS, bottom)), slice(left, right)
+
+
+def _own_axes(thing: Thing, view: View, part: tuple[slice, slice]) -> tuple[Plane, Plane]:
     column, row = _place(thing, view)
-    x, y = np.meshgrid(np.arange(view.width) - column, np.arange(view.height) - row)
+    x = (np.arange(part[1].start, part[1].stop) - column)[None, :]
+    y = (np.arange(part[0].start, part[0].stop) - row)[:, None]
     cosine, sine = math.cos(thing.angle), math.sin(thing.angle)
     return cosine * x + sine * y, cosine * y - sine * x
 
 
-def _draw_thing(thing: Thing, view: View) -> tuple[Image, Image]:
-    x, y = _own_axes(thing, view)
+def _draw_part(thing: Thing, view: View, part: tuple[slice, slice]) -> tuple[Image, Image]:
+    x, y = _own_axes(thing, view, part)
     cover = np.clip(0.5 - SHAPES[thing.shape](thing, x, y), 0.0, 1.0)[..., None]
     texture = TEXTURES[thing.texture]
     colour = np.asarray(thing.colour)
@@ -244,20 +278,24 @@ def _key(thing: Thing, view: View) -> tuple[float | None, Motion]:
     return (thing.depth if view.camera[F_NUMBER] is not None else None), motion(thing, view)
 
 
-def _background(view: View) -> Layer:
+def _background(view: View, *, kept: bool) -> Layer:
+    """What stands behind everything; a picture that is not kept will be drawn upon."""
     scene = view.scene
     if scene.image is not None:
-        return Layer(scene.image, depth=scene.depth)
+        return Layer(scene.image if kept else scene.image.copy(), depth=scene.depth)
     flat = np.empty((scene.height, scene.width, 3), np.float32)
     flat[:] = scene.background
     return Layer(flat, depth=scene.background_depth)
 
 
-def _add(layer: Layer, thing: Thing, view: View) -> Layer:
-    colour, cover = _draw_thing(thing, view)
-    keep = np.float32(1.0) - cover
-    total = None if layer.cover is None else cover + keep * layer.cover
-    return Layer(colour + keep * layer.colour, total, layer.depth, layer.motion)
+def _add(layer: Layer, thing: Thing, view: View) -> None:
+    """Draw upon a layer."""
+    for part in _parts(thing, view):
+        colour, cover = _draw_part(thing, view, part)
+        keep = np.float32(1.0) - cover
+        if layer.cover is not None:
+            layer.cover[part] = cover + keep * layer.cover[part]
+        layer.colour[part] = colour + keep * layer.colour[part]
 
 
 def draw(view: View) -> Stack:
@@ -279,9 +317,9 @@ def draw(view: View) -> Stack:
 
 
 def _draw_sheet(sheet: Sheet, view: View) -> Layer:
-    layer = _background(view) if sheet.opaque else _empty(view, sheet)
+    layer = _background(view, kept=not sheet.things) if sheet.opaque else _empty(view, sheet)
     for thing in sheet.things:
-        layer = _add(layer, thing, view)
+        _add(layer, thing, view)
     return layer
 
 

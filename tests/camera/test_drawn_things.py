@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from quizgen.camera import Camera, Scene, Thing, View
+from quizgen.camera import Camera, Length, Scene, Thing, View
+from quizgen.camera import draw as drawing
 from quizgen.camera.draw import draw
 
 CORNERS = ((-9.0, -6.0), (8.0, -3.0), (3.0, 7.0))
@@ -28,3 +29,35 @@ def test_a_corner_given_twice_changes_nothing(corners):
     assert np.isfinite(closed).all()
     if len(corners) != 5 or corners[0] == corners[-1]:
         assert np.array_equal(closed, drawn(Thing("polygon", points=CORNERS)))
+
+
+SHAPES = {
+    "box": {"width": Length(17.0), "height": Length(5.0)},
+    "disc": {"radius": Length(6.3)},
+    "ellipse": {"width": Length(30.0), "height": Length(0.2)},
+    "grid": {"cell": Length(9.0), "stroke": Length(1.5)},
+    "blades": {"radius": Length(11.0), "stroke": Length(4.0)},
+    "polygon": {"points": CORNERS},
+    "full": {},
+}
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("count", [1, 2, 5])
+@pytest.mark.parametrize("place", [(0.0, 0.0), (7.3, -4.6), (-45.0, 20.0), (1e9, -1e9)])
+def test_nothing_is_drawn_outside_of_where_it_is_looked_for(monkeypatch, shape, count, place):
+    """In its box alone and on the whole frame: not a bit differs, also of what is seen in part."""
+    where = {"x": Length(place[0]), "y": Length(place[1])}
+    for angle in (0.0, 0.4, 2.1):
+        thing = Thing(shape, **where, **SHAPES[shape], count=count, angle=angle, texture="stripes")
+        near = drawn(thing, height=150)
+        with monkeypatch.context() as everywhere:
+            everywhere.setattr(drawing, "_extent", lambda _: np.inf)
+            assert np.array_equal(near, drawn(thing, height=150))
+
+
+def test_drawing_upon_a_photograph_leaves_it_alone():
+    image = np.full((30, 40, 3), 0.5, np.float32)
+    view = View(Scene(40, 30, (Thing("disc", radius=Length(5.0)),), image=image), Camera())
+    assert draw(view)[0].colour[15, 20, 0] == 1
+    assert (image == 0.5).all()
