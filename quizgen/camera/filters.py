@@ -85,6 +85,7 @@ def convolve(image: Image, kernel: NDArray[np.float64]) -> Image:
         Odd-sized, non-negative.
     """
     cv2 = opencv()
+    kernel = _folded(_folded(kernel, image.shape[0]).T, image.shape[1]).T
     if kernel.size == 1:
         return image
     if cv2 is not None and goes_by_slabs(kernel):
@@ -94,6 +95,17 @@ def convolve(image: Image, kernel: NDArray[np.float64]) -> Image:
     if np.count_nonzero(kernel) <= _SHIFT_TAPS:
         return _convolve_by_shifts(image, kernel)
     return _convolve_by_fourier(image, kernel)
+
+
+def _folded(kernel: NDArray[np.float64], length: int) -> NDArray[np.float64]:
+    """A kernel no higher than a picture can show: rows beyond its edge all read the edge."""
+    beyond = kernel.shape[0] // 2 - (length - 1)
+    if beyond <= 0:
+        return kernel
+    inner = kernel[beyond:-beyond].copy()
+    inner[0] += kernel[:beyond].sum(axis=0)
+    inner[-1] += kernel[-beyond:].sum(axis=0)
+    return inner
 
 
 def _like(result: Image, image: Image) -> Image:

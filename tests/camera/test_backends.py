@@ -55,6 +55,31 @@ def test_convolution_is_a_weighted_sum(kernel, backend):
         )
 
 
+@pytest.mark.parametrize("size", [(5, 7), (3, 90), (40, 2), (1, 6)])
+@pytest.mark.parametrize("kernel", [disc(61.0), line(50.0, 3.0), line(0.0, 30.0)])
+def test_a_blur_wider_than_the_picture_reads_its_edges(backend, size, kernel):
+    """Against the plain sum over a picture continued as far as the kernel goes."""
+    image = picture(*size)
+    rows, columns = (side // 2 for side in kernel.shape)
+    wide = np.pad(image.astype(float), ((rows, rows), (columns, columns), (0, 0)), mode="edge")
+    blurred = filters.convolve(image, kernel)
+    assert blurred.shape == image.shape
+    for y, x in ((0, 0), (size[0] - 1, size[1] // 2), (size[0] // 2, size[1] - 1)):
+        part = wide[y : y + 2 * rows + 1, x : x + 2 * columns + 1]
+        expected = (kernel[..., None] * part).sum((0, 1))
+        assert blurred[y, x] == pytest.approx(expected, abs=filters.AGREEMENT)
+
+
+def test_work_is_limited_to_the_picture(monkeypatch):
+    seen = []
+    monkeypatch.setattr(
+        cv2, "filter2D", lambda image, _, kernel, **__: seen.append(kernel) or image
+    )
+    filters.convolve(picture(4, 5), disc(700.0))
+    assert seen[0].shape == (7, 9)
+    assert seen[0].sum() == pytest.approx(1.0)
+
+
 @pytest.mark.parametrize("kernel", [disc(12.0), line(20.0, 10.0), line(9.0, 40.0)])
 def test_slabs_and_bands_leave_no_seams(kernel):
     """Several bands of rows and slabs of the kernel against OpenCV's own transform."""
