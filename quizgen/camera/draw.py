@@ -108,19 +108,36 @@ def _blades(thing: Thing, x: Plane, y: Plane) -> Plane:
 
 
 def _polygon(thing: Thing, x: Plane, y: Plane) -> Plane:
+    """Distances beyond the soft edge are not computed: only near a side does its own one count."""
     distance, inside = np.full(x.shape, np.inf), np.zeros(x.shape, bool)
+    rows, columns = _ends(y, 1), _ends(x, 0)
     for (ax, ay), (bx, by) in zip(thing.points, (*thing.points[1:], thing.points[0]), strict=True):
         squared = (bx - ax) ** 2 + (by - ay) ** 2
         if not squared:
             continue  # a corner given twice, such as the first one to close the outline
-        along = ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / squared
-        along = np.clip(along, 0.0, 1.0)
-        away = np.hypot(x - ax - along * (bx - ax), y - ay - along * (by - ay))
-        distance = np.minimum(distance, away)
+        level = _near(rows, ay, by)
+        if not level.any():
+            continue
+        part = np.ix_(level, _near(columns, ax, bx))
+        across, down = x[part] - ax, y[part] - ay
+        along = np.clip((across * (bx - ax) + down * (by - ay)) / squared, 0.0, 1.0)
+        away = np.hypot(across - along * (bx - ax), down - along * (by - ay))
+        distance[part] = np.minimum(distance[part], away)
         if ay != by:
-            crossing = (ay > y) != (by > y)
-            inside ^= crossing & (x < (bx - ax) * (y - ay) / (by - ay) + ax)
+            crossing = (ay > y[level]) != (by > y[level])
+            inside[level] ^= crossing & (x[level] < (bx - ax) * (y[level] - ay) / (by - ay) + ax)
     return np.where(inside, -distance, distance)
+
+
+def _ends(plane: Plane, axis: int) -> tuple[Plane, Plane]:
+    """Smallest and largest value of every row or column."""
+    return plane.min(axis=axis), plane.max(axis=axis)
+
+
+def _near(ends: tuple[Plane, Plane], start: float, stop: float) -> NDArray[np.bool_]:
+    """Rows or columns within a pixel of a side."""
+    low, high = ends
+    return np.asarray((high >= min(start, stop) - 1.0) & (low <= max(start, stop) + 1.0))
 
 
 def _full(thing: Thing, x: Plane, y: Plane) -> Plane:  # noqa: ARG001 - every shape takes the same
