@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import unicodedata
 from collections.abc import Iterable, Mapping
 from datetime import UTC, datetime
@@ -191,6 +192,7 @@ def forget(documents: int) -> None:
     documents : int
         How many to pretend.
     """
+    _stay()
     for _ in range(documents):
         _scratch().compile(b"", format="pdf")
 
@@ -232,6 +234,7 @@ def compiled(sources: Mapping[str, bytes]) -> bytes:
     """
     import typst
 
+    _stay()
     world: Any = dict(sources)  # the stub knows one file only
     try:
         data, warnings = typst.compile_with_warnings(
@@ -242,3 +245,18 @@ def compiled(sources: Mapping[str, bytes]) -> bytes:
     if warnings:
         raise RenderError(f"PDF: {warnings[0]}")
     return bytes(data)
+
+
+def _stay() -> None:
+    """Refuse what would wait for ever: the threads of Typst do not come along in a fork."""
+    if _home() != os.getpid():
+        raise RenderError(
+            "PDF: this process was forked from one that had made a PDF, and Typst does not survive "
+            'that: start processes by multiprocessing.get_context("spawn") or "forkserver"'
+        )
+
+
+@cache
+def _home() -> int:
+    """The process that typeset first."""
+    return os.getpid()

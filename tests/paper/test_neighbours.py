@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import multiprocessing
 import subprocess
 import sys
 from pathlib import Path
@@ -9,6 +10,7 @@ from pathlib import Path
 import pytest
 
 TOGETHER = str(Path(__file__).with_name("together.py"))
+BEGUN = str(Path(__file__).with_name("begun.py"))
 USUAL, HASTY = "0.005", "1e-5"
 """Seconds after which threads take turns: as Python has it, and so that they meet everywhere."""
 
@@ -44,3 +46,21 @@ def test_typesetting_in_threads_is_what_it_is_in_one():
 def test_cold_starts_do_not_crash():
     alone = made(1, 6, USUAL, "html")
     assert [made(6, 6, HASTY, "html") for _ in range(20)] == [alone] * 20
+
+
+@pytest.mark.parametrize(
+    ("method", "outputs", "said"),
+    [
+        ("fork", ["html"], "same"),
+        ("fork", ["pdf"], 'multiprocessing.get_context("spawn") or "forkserver"'),
+        ("forkserver", ["html", "pdf"], "same"),
+        ("spawn", ["html", "pdf"], "same"),
+    ],
+)
+def test_processes_begun_after_a_pdf_make_the_same_or_say_how(method, outputs, said):
+    if method not in multiprocessing.get_all_start_methods():
+        pytest.skip(f"no {method} here")
+    done = subprocess.run([sys.executable, BEGUN, method, *outputs], capture_output=True,
+                          text=True, check=True, timeout=120)  # fmt: skip
+    assert done.stdout.rstrip().endswith(said)
+    assert done.stdout.count("\n") == 1
