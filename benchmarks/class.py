@@ -31,13 +31,13 @@ import msgspec
 
 from quizgen.bank.folder import builtin
 from quizgen.classes import make as made_by
-from quizgen.classes.executors import Here, workers
 from quizgen.classes.folder import ANSWERS, ClassFolder, Settings, line_of
 from quizgen.classes.keys import Keys
 from quizgen.classes.make import CHUNK, make, new_settings
 from quizgen.classes.overview import analyse
 from quizgen.classes.roster import Student
 from quizgen.classes.run import mark_class
+from quizgen.executors import Here, workers
 from quizgen.marking.mark import show
 from quizgen.paper.blueprint import load_blueprint
 from quizgen.paper.key import Key

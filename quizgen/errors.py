@@ -13,6 +13,7 @@
     |-- RenderError      an output could not be made or written
     |-- StoreError       the database of the browser's server, or its port, cannot be opened
     |-- KeyFileError     a key or an answer file cannot be read
+    |-- WorkerError      processes that did the work died, one after the other
     |-- ClassError       a class's roster or folder is wrong, or would be spoiled
     `-- ChoiceError      an argument is none of the values allowed (names them)
 
@@ -81,6 +82,10 @@ class StoreError(QuizgenError):
 
 class KeyFileError(QuizgenError):
     """A key or an answer file cannot be read."""
+
+
+class WorkerError(QuizgenError):
+    """Processes that did the work died."""
 
 
 class ClassError(QuizgenError):

@@ -20,6 +20,7 @@ LAYERS = {
     "files": "errors outside",
     "kept": "",
     "shapes": "",
+    "executors": "errors",
     "png": "",
     "locale": "errors shapes",
     "maths": "errors shapes outside",
@@ -34,14 +35,14 @@ LAYERS = {
     "practice": "errors shapes outside files locale maths bank marking question paper",
     "responses": "errors shapes outside files locale maths marking question paper practice",
     "render": "errors outside files locale typeset bank question paper",
-    "cards": "errors shapes outside files locale maths typeset bank figures question paper render",
+    "cards": "errors executors shapes outside files locale maths typeset bank figures question paper render",
     "export": "errors files locale maths typeset bank figures marking question paper responses render",
     "tradeoff": "errors outside files locale maths arrays typeset bank figures render",
-    "classes": "errors shapes outside files locale maths bank marking question paper responses render",
-    "web": "errors shapes outside files png locale maths typeset bank camera figures marking question paper practice render "
+    "classes": "errors executors shapes outside files locale maths bank marking question paper responses render",
+    "web": "errors executors shapes outside files png locale maths typeset bank camera figures marking question paper practice render "
     "cards tradeoff classes",
     "audit": "errors outside files locale maths bank figures marking question paper render",
-    "cli": "errors outside files png locale maths bank camera figures marking question paper practice render cards "
+    "cli": "errors executors outside files png locale maths bank camera figures marking question paper practice render cards "
     "responses export tradeoff classes audit web",
 }
 """Package to the packages below it that it may use. Solvers use ``maths.model`` alone."""

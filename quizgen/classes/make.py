@@ -19,7 +19,6 @@ from typing import NamedTuple
 from quizgen.bank.draw import Draw
 from quizgen.bank.folder import Bank, builtin
 from quizgen.bank.plan import pick
-from quizgen.classes.executors import run
 from quizgen.classes.folder import (
     FORMS,
     PAPERS,
@@ -32,6 +31,7 @@ from quizgen.classes.folder import (
 from quizgen.classes.roster import Student, neighbours
 from quizgen.classes.secret import code_of, new_secret, seal_of, seed_of
 from quizgen.errors import ClassError
+from quizgen.executors import run
 from quizgen.files import PRIVATE, write_all
 from quizgen.paper.blueprint import Blueprint
 from quizgen.paper.choose import choose, families, levels

@@ -10,13 +10,13 @@ from pathlib import Path
 
 from quizgen.classes.collect import Collected
 from quizgen.classes.decide import cases, grouped, read_queue, waiting, write_queue
-from quizgen.classes.executors import in_order
 from quizgen.classes.folder import ClassFolder
 from quizgen.classes.history import History, Outcome
 from quizgen.classes.keys import Keys, key_at
 from quizgen.classes.mark import Marks, Sheet, mark_sheet
 from quizgen.classes.rulings import FILE, Book, Ruling, append_rulings, read_rulings
 from quizgen.errors import ClassError, KeyFileError
+from quizgen.executors import in_order
 from quizgen.locale import FIRST
 from quizgen.outside import located
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from quizgen.cli.options import Whole, checked, split
+from quizgen.cli.options import MOST_JOBS, Whole, checked, split
 from quizgen.cli.terminal import many, one_line, tell
 
 if TYPE_CHECKING:
@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from quizgen.classes.mark import PartMark
     from quizgen.classes.run import Run
 
-MOST_JOBS = 256
 SHOWN = 20
 """Lines of a list that the terminal shows; the files have all."""
 REPORTS = ("html", "pdf")
@@ -36,9 +35,9 @@ def mark(folder: Path, files: tuple[Path, ...], jobs: int, scheduler: str) -> No
     and writes what is still to be decided into decisions.csv.
     """
     from quizgen.classes.collect import keep
-    from quizgen.classes.executors import workers
     from quizgen.classes.folder import ClassFolder
     from quizgen.classes.run import mark_class
+    from quizgen.executors import workers
 
     found = ClassFolder(folder)
     found.settings  # noqa: B018 - no answers are copied into a folder that is none of a class

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import os
 from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Unpack
 
 import click
 
-from quizgen.cli.class_marks import COMMANDS, MOST_JOBS
-from quizgen.cli.options import BankOptions, Whole, bank_options, open_bank, split
+from quizgen.cli.class_marks import COMMANDS
+from quizgen.cli.options import BankOptions, bank_options, jobs_option, open_bank, paying, split
 from quizgen.cli.terminal import Progress, many, one_line, tell
 from quizgen.errors import ClassError
 from quizgen.locale import FIRST, choices
@@ -24,8 +23,8 @@ if TYPE_CHECKING:
     from quizgen.paper.blueprint import Blueprint
 
 USUAL = "mock"
-FEW = 16
-"""Papers that are made in this process."""
+A_PAPER = 0.5
+"""Seconds that one takes, about."""
 
 
 @click.group("class")
@@ -56,7 +55,7 @@ class Options(BankOptions):
               help=f"Language of who has none in the roster. [default: {FIRST}]")  # fmt: skip
 @click.option("--vary", is_flag=True, help="Other templates of the same kind, too.")
 @click.option("--one-file", is_flag=True, help="Write print.pdf, too: all papers, for the printer.")
-@click.option("--jobs", type=Whole(1, MOST_JOBS), help="Processes. [default: as many as cores]")
+@jobs_option
 @click.option("--scheduler", default="", help="Dask scheduler that makes them: tcp://HOST:8786.")
 @bank_options
 def make(**options: Unpack[Options]) -> None:
@@ -65,17 +64,17 @@ def make(**options: Unpack[Options]) -> None:
     All papers have the same questions with other numbers. A second run makes only what is missing
     or whose row has changed.
     """
-    from quizgen.classes.executors import workers
     from quizgen.classes.folder import ClassFolder
     from quizgen.classes.make import make as make_papers
     from quizgen.classes.printing import print_file
     from quizgen.classes.roster import read_roster
+    from quizgen.executors import workers
 
     unread: list[str] = []
     students = read_roster(options["roster"], _columns(options["columns"]), unread.append)
     folder = ClassFolder(options["out"])
     blueprint = _blueprint(folder, students, options)
-    count = options["jobs"] or (1 if len(students) <= FEW else os.cpu_count() or 1)
+    count = paying(options["jobs"], len(students) * A_PAPER)
     with (
         Progress("paper", len(students)) as progress,
         workers(count, options["scheduler"]) as (executor, ahead),

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import secrets
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Collection, Iterator
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Unpack
 
@@ -19,13 +20,16 @@ from quizgen.cli.options import (
     Whole,
     bank_options,
     checked,
+    jobs_option,
     open_bank,
+    paying,
     split,
 )
 from quizgen.cli.terminal import Progress, many
 from quizgen.errors import ChoiceError, CodeError, RenderError
 from quizgen.locale import FIRST, choices
 from quizgen.outside import visible
+from quizgen.paper.code import LARGEST_SEED
 from quizgen.paper.form import FORMS
 
 if TYPE_CHECKING:
@@ -39,6 +43,8 @@ HOME = Path("exam")
 SUFFIXES = (".toml", ".csv", ".json")
 NAMES = tuple(f"answers{suffix}" for suffix in SUFFIXES)
 """Forms in a paper's folder."""
+A_PAPER = 0.5
+"""Seconds that one of many takes, about."""
 TO_SPARE = 12
 """Minutes that may be left over because no question is short enough."""
 USUAL = "mock"
@@ -57,6 +63,8 @@ class Options(BankOptions):
     level: str | None
     formats: str
     form: str
+    count: int
+    jobs: int | None
     out: Path | None
     reference: bool
 
@@ -83,31 +91,84 @@ class Options(BankOptions):
 )  # fmt: skip
 @click.option("--form", type=click.Choice(FORMS, case_sensitive=False), default=FORMS[0],
               show_default=True, help="Blank form: for an editor or a spreadsheet.")  # fmt: skip
+@click.option("--count", type=Whole(1, 9999), default=1, show_default=True,
+              help="Papers of consecutive seeds, each in a folder named by its code.")  # fmt: skip
+@jobs_option
 @click.option("--out", type=click.Path(path_type=Path),
               help=f"Folder to write to. [default: {HOME}/CODE]")  # fmt: skip
 @click.option("--reference", is_flag=True, help="The questions with the numbers of the notes.")
 @bank_options
 def exam(**options: Unpack[Options]) -> None:
     """Make a mock exam with worked solutions, answer key and a blank answer form."""
-    from quizgen.files import write_all
-    from quizgen.paper.form import form_bytes
-    from quizgen.paper.key import key_bytes
-
     formats = [checked("--format", name, render.RENDERERS) for name in split(options["formats"])]
+    if options["count"] > 1:
+        _many(options, formats)
+        return
     with Progress("exam") as tell:
         paper = _paper(options, tell)
-        folder = options["out"] or HOME / paper.code
-        form = folder / f"answers.{options['form']}"
-        kept = _filled_in(form, paper)
-        contents = dict(_rendered(paper, formats, tell))
-    if not kept:
-        contents[form.name] = form_bytes(paper, options["form"])
-    contents[KEY] = key_bytes(paper)
-    write_all(folder, contents)
+        form = (options["out"] or HOME / paper.code) / f"answers.{options['form']}"
+        kept = _filled_in(form, paper.code)
+        contents = _contents(paper, formats, form.name, tell)
+    _write(form, contents, kept=kept)
     _report(form, paper, contents, options, kept=kept)
 
 
-def _filled_in(form: Path, paper: Paper) -> bool:
+def _many(options: Options, formats: list[str]) -> None:
+    """Make papers of consecutive seeds; each is written whole as soon as it is made."""
+    from quizgen.executors import in_order, workers
+
+    if options["code"] or options["reference"]:
+        raise ChoiceError("--count makes papers of many seeds; leave --code and --reference out")
+    bank, count = open_bank(options), options["count"]
+    name = f"answers.{options['form']}"
+    make = partial(_made, bank, _levelled(options, bank), options["lang"] or FIRST, formats, name)
+    first = _first_seed(options)
+    if first + count - 1 > LARGEST_SEED:
+        raise ChoiceError(f"--count: the last of {count} seeds would be beyond {LARGEST_SEED}")
+    processes = paying(options["jobs"], count * A_PAPER)
+    codes: list[str] = []
+    with Progress("exam", count) as tell, workers(processes) as (executor, ahead):
+        for code, contents in in_order(executor, make, range(first, first + count), ahead):
+            form = (options["out"] or HOME) / code / name
+            _write(form, contents, kept=_filled_in(form, code))
+            codes.append(code)
+            tell(code)
+    click.echo(f"{many(count, 'paper')} in {options['out'] or HOME}: {codes[0]} to {codes[-1]}")
+    check = command("check", form.parent / KEY, form)
+    click.echo(f"Next: fill in {form}, then: {check}")
+
+
+def _made(
+    bank: Bank, blueprint: Blueprint, lang: str, formats: list[str], form: str, seed: int
+) -> tuple[str, dict[str, bytes]]:
+    """Code and files of one paper of many."""
+    from quizgen.paper.paper import build, silent
+
+    paper = build(bank, blueprint, seed, lang)
+    return paper.code, _contents(paper, formats, form, silent)
+
+
+def _contents(
+    paper: Paper, formats: list[str], form: str, tell: Callable[[str], None]
+) -> dict[str, bytes]:
+    """All files of a paper, the key last."""
+    from quizgen.paper.form import form_bytes
+    from quizgen.paper.key import key_bytes
+
+    pages = dict(_rendered(paper, formats, tell))
+    return {**pages, form: form_bytes(paper, Path(form).suffix[1:]), KEY: key_bytes(paper)}
+
+
+def _write(form: Path, contents: dict[str, bytes], *, kept: bool) -> None:
+    """Write a paper's files; a form that has been written in stays as it is."""
+    from quizgen.files import write_all
+
+    if kept:
+        del contents[form.name]
+    write_all(form.parent, contents)
+
+
+def _filled_in(form: Path, paper: str) -> bool:
     """Whether there is a form already, with answers to this very paper.
 
     Raises
@@ -122,11 +183,11 @@ def _filled_in(form: Path, paper: Paper) -> bool:
     for path in sorted(p for p in form.parent.glob("*") if p.suffix.lower() in SUFFIXES):
         code = code_of_answers(path)
         unclear = path.name in NAMES and not code and holds_answers(path)
-        if unclear or code not in {"", paper.code}:
+        if unclear or code not in {"", paper}:
             what = f"holds answers to {visible(code)}" if code else "may hold answers"
             raise RenderError(f"{path} {what}; nothing was written. Name another folder with --out")
     code = code_of_key(form.parent / KEY)
-    if code not in {"", paper.code}:
+    if code not in {"", paper}:
         raise RenderError(
             f"{form.parent / KEY} is the key of {visible(code)}, whose answers may still come; "
             "nothing was written. Name another folder with --out"
@@ -135,8 +196,6 @@ def _filled_in(form: Path, paper: Paper) -> bool:
 
 
 def _paper(options: Options, tell: Progress) -> Paper:
-    import msgspec
-
     from quizgen.paper.paper import build, rebuild, reference_paper
 
     bank = open_bank(options)
@@ -149,13 +208,20 @@ def _paper(options: Options, tell: Progress) -> Paper:
             raise CodeError("--code already fixes the questions; leave --topic and --minutes out")
         given = _blueprint(options, bank) if options["blueprint"] else None
         return rebuild(bank, options["code"], given, progress=tell)
-    level = options["level"] or EXAM
-    blueprint = msgspec.structs.replace(_blueprint(options, bank), level=level)
-    lang = options["lang"] or FIRST
+    blueprint, lang = _levelled(options, bank), options["lang"] or FIRST
     if options["reference"]:
         return reference_paper(bank, blueprint, lang, progress=tell)
-    seed = secrets.randbelow(10**6) if options["seed"] is None else options["seed"]
-    return build(bank, blueprint, seed, lang, progress=tell)
+    return build(bank, blueprint, _first_seed(options), lang, progress=tell)
+
+
+def _first_seed(options: Options) -> int:
+    return secrets.randbelow(10**6) if options["seed"] is None else options["seed"]
+
+
+def _levelled(options: Options, bank: Bank) -> Blueprint:
+    import msgspec
+
+    return msgspec.structs.replace(_blueprint(options, bank), level=options["level"] or EXAM)
 
 
 def _blueprint(options: Options, bank: Bank) -> Blueprint:
@@ -171,7 +237,9 @@ def _blueprint(options: Options, bank: Bank) -> Blueprint:
     return of_topic(bank, topic or EVERYTHING, minutes or 0)
 
 
-def _rendered(paper: Paper, formats: list[str], tell: Progress) -> Iterator[tuple[str, bytes]]:
+def _rendered(
+    paper: Paper, formats: list[str], tell: Callable[[str], None]
+) -> Iterator[tuple[str, bytes]]:
     for output in formats:
         for kind in render.KINDS:
             name = f"{kind}.{output}"

@@ -5,26 +5,31 @@ from __future__ import annotations
 import json
 import sys
 import traceback
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Unpack
 
 import click
 
-from quizgen.cli.options import BankOptions, Whole, bank_options, open_bank
+from quizgen.cli.options import BankOptions, Whole, bank_options, jobs_option, open_bank, paying
 from quizgen.cli.terminal import Progress, interrupted, print_table
 from quizgen.errors import QuizgenError
+from quizgen.executors import in_order, workers
 from quizgen.outside import visible
 
 if TYPE_CHECKING:
     from quizgen.audit.lint import Report
     from quizgen.audit.located import Problem
     from quizgen.bank.folder import Bank
+    from quizgen.paper.blueprint import Blueprint
 
 HEAD = ("template", "draws", "distinct", "kept", "ms/draw", "problems", "answers")
 TEACH_HEAD = ("template", "part", "level", "finding")
 NOTHING = ("0", "", "", "", "1", "")
 """Cells of a template that could not be examined."""
 
+A_DRAW, A_PAPER = 0.004, 0.1
+"""Seconds that one takes to be examined, about."""
 FEW = 20
 """Draws that are examined while an author waits."""
 
@@ -39,6 +44,7 @@ class Options(BankOptions):
     papers: int | None
     debug: bool
     json: bool
+    jobs: int | None
 
 
 @click.command()
@@ -58,6 +64,7 @@ class Options(BankOptions):
 )
 @click.option("--json", is_flag=True, help="Print problems as JSON, one a line, for editors.")
 @click.option("--debug", is_flag=True, help="Show where in Python an error came from.")
+@jobs_option
 @bank_options
 def lint(**options: Unpack[Options]) -> None:
     """Prove templates sound over many seeds; exit code 1 if a problem is found.
@@ -69,17 +76,10 @@ def lint(**options: Unpack[Options]) -> None:
         bank.folder_of(name)
     names = options["only"] or tuple(bank.paths)
     if options["papers"]:
-        sys.exit(_told(bank, options["papers"]))
+        sys.exit(_told(bank, options["papers"], options["jobs"]))
     if options["teach"]:
         sys.exit(_taught(bank, names, options))
-    from quizgen.audit.located import bank_problems
-
-    rows, broken = [], list(bank_problems(bank))
-    with Progress("lint", len(names)) as progress:
-        for name in progress.over(names):
-            row, problems = _examined(bank, name, options["seeds"], debug=options["debug"])
-            rows.append((name, *row))
-            broken += problems
+    rows, broken = _proved(bank, names, options)
     broken = list({str(problem): problem for problem in broken}.values())
     if options["json"]:
         for problem in broken:
@@ -92,6 +92,25 @@ def lint(**options: Unpack[Options]) -> None:
         sys.exit(1)
 
 
+def _proved(
+    bank: Bank, names: tuple[str, ...], options: Options
+) -> tuple[list[tuple[str, ...]], list[Problem]]:
+    """Rows of the table of templates, and all problems."""
+    from quizgen.audit.located import bank_problems
+
+    rows, broken = [], list(bank_problems(bank))
+    examine = partial(_examined, bank, seeds=options["seeds"], debug=options["debug"])
+    with (
+        Progress("lint", len(names)) as progress,
+        workers(_count(options, names)) as (executor, ahead),
+    ):
+        results = in_order(executor, examine, progress.over(names), ahead)
+        for name, (row, problems) in zip(names, results, strict=True):
+            rows.append((name, *row))
+            broken += problems
+    return rows, broken
+
+
 def problems_of(bank: Bank, name: str) -> list[str]:
     """What is wrong with a template, over a few draws, as an author sees it while writing."""
     return [str(problem) for problem in _examined(bank, name, FEW)[1]]
@@ -99,17 +118,14 @@ def problems_of(bank: Bank, name: str) -> list[str]:
 
 def _taught(bank: Bank, names: tuple[str, ...], options: Options) -> int:
     """Print what stands between questions and teaching; 1 if there are errors."""
-    from quizgen.audit.teach import examine
-
     rows: list[tuple[str, ...]] = []
-    with Progress("lint", len(names)) as progress:
-        for name in progress.over(names):
-            try:
-                found = examine(bank.template(name), options["seeds"])
-            except QuizgenError as error:
-                rows.append((name, "", "error", str(error)))
-                continue
-            rows += [(one.template, one.label, one.level, one.what) for one in found]
+    with (
+        Progress("lint", len(names)) as progress,
+        workers(_count(options, names)) as (executor, ahead),
+    ):
+        findings = partial(_findings, bank, options["seeds"])
+        for found in in_order(executor, findings, progress.over(names), ahead):
+            rows += found
     if rows:
         print_table(TEACH_HEAD, rows)
     errors = {row[0] for row in rows if row[2] == "error"}
@@ -117,22 +133,31 @@ def _taught(bank: Bank, names: tuple[str, ...], options: Options) -> int:
     return int(bool(errors))
 
 
-def _told(bank: Bank, count: int) -> int:
+def _findings(bank: Bank, seeds: int, name: str) -> list[tuple[str, ...]]:
+    """Rows of a template's table: what stands between it and teaching."""
+    from quizgen.audit.teach import examine
+
+    try:
+        found = examine(bank.template(name), seeds)
+    except QuizgenError as error:
+        return [(name, "", "error", str(error))]
+    return [(one.template, one.label, one.level, one.what) for one in found]
+
+
+def _told(bank: Bank, count: int, jobs: int | None) -> int:
     """Print which questions of a paper tell what another one asks; 1 if any does."""
-    from quizgen.audit.leaks import leaks
     from quizgen.paper.blueprint import load_blueprint
-    from quizgen.paper.paper import build
 
     found: dict[str, list[int]] = {}
-    for name in bank.blueprints:
-        blueprint = load_blueprint(name, bank)
-        with Progress(f"lint {name}", count) as progress:
-            for seed in range(count):
-                progress(str(seed))
-                for one in leaks(build(bank, blueprint, seed, "both", figures=False)):
-                    asks = " ".join(filter(None, (one.asker, one.label)))
-                    said = f"{one.teller}: tells the answer of {asks}: {one.what}"
-                    found.setdefault(said, []).append(seed)
+    processes = paying(jobs, count * len(bank.blueprints) * A_PAPER)
+    with workers(processes) as (executor, ahead):
+        for name in bank.blueprints:
+            tells = partial(_tells, bank, load_blueprint(name, bank))
+            with Progress(f"lint {name}", count) as progress:
+                asked = map(int, progress.over(map(str, range(count))))
+                for seed, saying in enumerate(in_order(executor, tells, asked, ahead)):
+                    for said in saying:
+                        found.setdefault(said, []).append(seed)
     for said, seeds in found.items():
         rate = f"({len(seeds)} of {count} papers, first seed {seeds[0]})"
         click.echo(visible(f"{said} {rate}"), err=True)
@@ -140,6 +165,23 @@ def _told(bank: Bank, count: int) -> int:
     told = f"{len(found)} answers told" if found else "none tells an answer of its own"
     click.echo(f"{papers} papers of {', '.join(bank.blueprints) or 'no blueprint'}: {told}")
     return int(bool(found))
+
+
+def _tells(bank: Bank, blueprint: Blueprint, seed: int) -> list[str]:
+    """Which questions of a paper tell what another one asks."""
+    from quizgen.audit.leaks import leaks
+    from quizgen.paper.paper import build
+
+    return [
+        f"{one.teller}: tells the answer of {' '.join(filter(None, (one.asker, one.label)))}: "
+        f"{one.what}"
+        for one in leaks(build(bank, blueprint, seed, "both", figures=False))
+    ]
+
+
+def _count(options: Options, names: tuple[str, ...]) -> int:
+    """How many processes examine templates."""
+    return paying(options["jobs"], len(names) * options["seeds"] * A_DRAW)
 
 
 def _examined(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Callable, Collection
 from pathlib import Path
@@ -28,6 +29,9 @@ class Whole(click.IntRange):
     name = "whole number"
 
 
+MOST_JOBS = 256
+WORTH = 4.0
+"""Seconds of work that are worth another process: it takes one or two to begin."""
 LEVEL_HELP = "As in an exam, step by step, turned round, or by the seed."
 SEED = Whole(0, LARGEST_SEED)
 """Seeds of papers, decks and previews."""
@@ -119,6 +123,25 @@ def level_option(command: Callable[P, T]) -> Callable[P, T]:
     return click.option(
         "--level", type=kind, default=EXAM, show_default=True, help=LEVEL_HELP
     )(command)  # fmt: skip
+
+
+def jobs_option(command: Callable[P, T]) -> Callable[P, T]:
+    """Add ``--jobs``."""
+    return click.option(
+        "--jobs", type=Whole(1, MOST_JOBS), help="Processes. [default: as many as pay]"
+    )(command)
+
+
+def paying(asked: int | None, seconds: float) -> int:
+    """How many processes to begin: those asked for, else no more than the work is worth.
+
+    Parameters
+    ----------
+    asked : int or None
+    seconds : float
+        What the work takes one process, about.
+    """
+    return asked or max(1, min(os.cpu_count() or 1, int(seconds / WORTH)))
 
 
 def checked(option: str, name: str, allowed: Collection[str]) -> str:

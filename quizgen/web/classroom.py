@@ -14,7 +14,6 @@ from starlette.responses import Response
 from starlette.routing import Route
 
 from quizgen.classes.decide import Agreement, Case, agreement, cases, grouped, waiting, within
-from quizgen.classes.executors import Here
 from quizgen.classes.folder import ClassFolder
 from quizgen.classes.history import History
 from quizgen.classes.keys import Keys
@@ -28,6 +27,7 @@ from quizgen.classes.rulings import (
 )
 from quizgen.classes.run import mark_class
 from quizgen.errors import ClassError, FormulaError
+from quizgen.executors import Here
 from quizgen.web.forms import every, one, posted
 from quizgen.web.site import Site
 from quizgen.web.views import lang_of, page, said, to

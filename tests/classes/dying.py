@@ -7,7 +7,7 @@ import signal
 from functools import partial
 from pathlib import Path
 
-from quizgen.classes.executors import Processes
+from quizgen.executors import Processes
 
 
 def once_dead(mark: Path, work, *arguments):

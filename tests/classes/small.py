@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from quizgen.bank.folder import builtin
-from quizgen.classes.executors import Here
 from quizgen.classes.folder import ClassFolder
 from quizgen.classes.make import make, new_settings
 from quizgen.classes.roster import Student
+from quizgen.executors import Here
 from quizgen.paper.blueprint import Blueprint, load_blueprint
 from quizgen.paper.paper import silent
 

@@ -9,10 +9,10 @@ from dying import Mortal, always_dead
 from small import begun, bytes_of, with_papers
 
 from quizgen.classes import make
-from quizgen.classes.executors import Here, Processes, run, workers
 from quizgen.classes.folder import ClassFolder
 from quizgen.classes.roster import Student
-from quizgen.errors import ChoiceError, ClassError
+from quizgen.errors import ChoiceError, WorkerError
+from quizgen.executors import Here, Processes, run, workers
 
 STUDENTS = [Student(f"{n}") for n in range(4)]
 
@@ -70,7 +70,7 @@ def test_a_worker_that_is_killed_changes_no_byte(tmp_path, monkeypatch):
 def test_papers_that_kill_every_worker_are_given_up_with_a_sentence():
     executor = Processes(1)
     try:
-        with pytest.raises(ClassError, match="3 processes died"):
+        with pytest.raises(WorkerError, match="3 processes died"):
             executor.submit(always_dead).result()
     finally:
         executor.shutdown()

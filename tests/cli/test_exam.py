@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import json
+import os
 import re
+import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -286,3 +289,71 @@ def test_an_interrupted_run_leaves_nothing(tmp_path, module, function):
     assert done.stderr.splitlines()[-1] == "quizgen: interrupted"
     assert "Traceback" not in done.stderr
     assert not [path for path in tmp_path.rglob("*") if path.is_file()]
+
+
+def written(folder):
+    return {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+
+
+def test_many_papers_are_the_same_whatever_the_number_of_processes(tmp_path):
+    few = ("--blueprint", "trial", "--seed", "4", "--count", "3", "--format", "html")
+    for jobs in ("1", "2"):
+        assert run("exam", *few, "--jobs", jobs, "--out", jobs, cwd=tmp_path).returncode == 0
+    assert written(tmp_path / "1") == written(tmp_path / "2")
+    folders = sorted(path.name for path in (tmp_path / "1").iterdir())
+    assert [name.split("-")[:3] for name in folders] == [["trial", seed, "en"] for seed in "456"]
+    assert {name.split("/")[1] for name in written(tmp_path / "1")} == FILES - {
+        "exam.pdf", "solutions.pdf",
+    }  # fmt: skip
+    run("exam", "--code", folders[1], "--format", "html", "--out", "alone", cwd=tmp_path)
+    alone = {f"{folders[1]}/{name}": data for name, data in written(tmp_path / "alone").items()}
+    assert alone.items() <= written(tmp_path / "1").items()
+
+
+def test_of_many_papers_filled_in_forms_stay(tmp_path):
+    many = ("exam", "--topic", "eye", "--minutes", "5", "--seed", "4", "--count", "2", "--format",
+            "html", "--jobs", "1", "--out", "papers")  # fmt: skip
+    run(*many, cwd=tmp_path)
+    form = min((tmp_path / "papers").rglob("answers.toml"))
+    form.write_text(form.read_text().replace('"1" = ""', '"1" = "mine"').replace(
+        '"1a" = ""', '"1a" = "mine"'))  # fmt: skip
+    before = form.read_text()
+    assert "mine" in before
+    again = run(*many, cwd=tmp_path)
+    assert (again.returncode, form.read_text()) == (0, before)
+
+
+@pytest.mark.parametrize("words", [("--code", "mock-1-en-000000"), ("--reference",),
+                                   ("--seed", "1000000000")])  # fmt: skip
+def test_what_many_papers_cannot_have_in_common_is_refused(tmp_path, words):
+    done = run("exam", "--count", "2", *words, cwd=tmp_path)
+    assert done.returncode == 2
+    assert "--count" in done.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+HEEDS = """
+import signal
+signal.signal(signal.SIGINT, signal.default_int_handler)  # in the background it is ignored
+from quizgen.cli.main import main
+main()
+"""
+
+
+@pytest.mark.slow
+def test_interrupted_while_it_makes_many_papers_leaves_whole_ones(tmp_path):
+    """Of each paper all files, or none: no half of one and nothing besides."""
+    process = subprocess.Popen(
+        [sys.executable, "-c", HEEDS, "exam", "--blueprint", "trial", "--seed", "1", "--count", "60",
+         "--format", "html", "--jobs", "2", "--out", "papers"],
+        cwd=tmp_path, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True,
+    )  # fmt: skip
+    deadline = time.monotonic() + 60
+    while len(list((tmp_path / "papers").glob("trial*"))) < 3 and time.monotonic() < deadline:
+        time.sleep(0.05)
+    os.killpg(process.pid, signal.SIGINT)
+    assert process.wait(60) == 130
+    papers = [path for path in (tmp_path / "papers").iterdir() if not path.name.startswith(".")]
+    assert 3 <= len(papers) < 60
+    for paper in papers:
+        assert {path.name for path in paper.iterdir()} == FILES - {"exam.pdf", "solutions.pdf"}

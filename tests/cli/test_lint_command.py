@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from inside import run
+
+from quizgen.bank.folder import builtin
 
 RULES = (
     'topic = "x"\ntier = "A"\nsolver = "{name}"\n[draw]\na = {{ pick = [1, 2, 3] }}\n'
@@ -110,3 +115,22 @@ def test_a_problem_says_where_and_what_to_do(tmp_path):
         f"{folder / 'bn.md'}: no bn.md; write it, or leave the language out of languages in "
         "bank.toml\n"
     )
+
+
+@pytest.mark.parametrize("what", [("--seeds", "2", "--teach"), ("--seeds", "2")])
+def test_any_number_of_processes_finds_the_same(tmp_path, what):
+    """But for the time that a draw took."""
+    names = ("point-to-image-plane", "thin-lens-image-distance", "no-teaching")
+    folder = tmp_path / "templates" / "here"
+    for name in names[:2]:
+        shutil.copytree(builtin().folder_of(name), folder / name)
+    shutil.copytree(folder / names[0], folder / names[2])
+    (folder / names[2] / "bn.md").write_text("# x\n## steps\n- f: no step\n")
+    shutil.copy(builtin().folder / "bank.toml", tmp_path / "templates")
+    found = []
+    for jobs in ("1", "3"):
+        done = run("lint", str(tmp_path), *what, "--jobs", jobs, cwd=tmp_path)
+        told = re.sub(r" +\d+\.\d\d +", " ", done.stdout)
+        found.append((done.returncode, told, done.stderr))
+    assert found[0] == found[1]
+    assert found[0][0] == 1

@@ -1,4 +1,4 @@
-"""Where papers are made: here, in processes, or on a cluster, by one interface.
+"""Where work is done: here, in processes, or on a cluster, by one interface.
 
 All of them are executors of ``concurrent.futures``: a function and a job go in, a value comes out.
 A worker that is killed costs the job that it was at, which another one does again.
@@ -24,7 +24,7 @@ from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from typing import ParamSpec, TypeVar
 
-from quizgen.errors import ChoiceError, ClassError
+from quizgen.errors import ChoiceError, WorkerError
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -69,7 +69,7 @@ class Processes(ThreadPoolExecutor):
                 return self._process().submit(fn, *args, **kwargs).result()
             except BrokenProcessPool:
                 self._own.process = None
-        raise ClassError(f"{TRIES} processes died of the same papers (is there memory enough?)")
+        raise WorkerError(f"{TRIES} processes died of the same work (is there memory enough?)")
 
     def _process(self) -> ProcessPoolExecutor:
         """The process of this thread, begun anew if it has died."""
