@@ -22,10 +22,11 @@ from quizgen.classes.rulings import read_rulings
 from quizgen.classes.scale import Scale, read_scale
 from quizgen.errors import ClassError
 from quizgen.files import PRIVATE, write_all
-from quizgen.locale import FIRST
+from quizgen.locale import FIRST, line_heights, table
 from quizgen.marking.options import Options
 from quizgen.paper.key import Key
 from quizgen.paper.marking import Marker
+from quizgen.render.fonts import bangla_faces
 
 FILE = "analysis.html"
 SURE = 0.05
@@ -33,8 +34,8 @@ SURE = 0.05
 MOST_MISTAKES, MOST_PLOTS = 3, 6
 
 
-def analyse(folder: ClassFolder) -> tuple[Analysis, Path]:
-    """Analyse a class and write the page.
+def analyse(folder: ClassFolder, lang: str = FIRST) -> tuple[Analysis, Path]:
+    """Analyse a class and write the page in a language.
 
     Raises
     ------
@@ -51,8 +52,11 @@ def analyse(folder: ClassFolder) -> tuple[Analysis, Path]:
         .get_template("analysis.html.j2")
         .render(
             name=folder.settings.name,
+            lang=lang,
+            words=table(lang, "classes")["analysis"],
+            bangla_fonts=bangla_faces([lang], folder.settings.name),
             found=found,
-            style=style(),
+            style=Markup(line_heights(":lang({})")) + style(),
             svg=_plots(found, scale),
             mean=statistics.fmean(found.totals),
             spread=statistics.stdev(found.totals) if found.students > 1 else 0.0,
@@ -62,7 +66,7 @@ def analyse(folder: ClassFolder) -> tuple[Analysis, Path]:
             number=_number,
             chance=_chance,
             most=MOST_MISTAKES,
-            told=lambda mistake: told(mistake, keys.key),
+            told=lambda mistake: told(mistake, keys.key, lang),
         )
     )
     return found, write_all(folder.path / FOLDER, {FILE: page.encode()}, PRIVATE)[0]
@@ -88,7 +92,7 @@ def _plots(found: Analysis, scale: Scale) -> dict[str, object]:
     return {
         "distribution": Markup(plots.distribution(found.totals, found.points, passing)),
         "scatter": Markup(plots.items(rows)) if rows else "",
-        "effects": [Markup(plots.effect(one)) for one in found.effects[:shown]],
+        "effects": [(one, Markup(plots.effect(one))) for one in found.effects[:shown]],
     }
 
 
@@ -100,12 +104,12 @@ def _chance(value: float) -> str:
     return "< 0.001" if value < 0.001 else f"{value:.3f}"
 
 
-def told(mistake: Mistake, key_of: Callable[[str], Key]) -> str:
+def told(mistake: Mistake, key_of: Callable[[str], Key], lang: str) -> str:
     """What the checker says of a mistake, by the example of somebody who made it."""
     example = mistake.example
     for question in key_of(example.student).questions:
         for part in question.parts:
             if part.id == example.part:
-                found = Marker(question, Options(FIRST)).mark(part, example.typed)
+                found = Marker(question, Options(lang)).mark(part, example.typed)
                 return found.verdict.message or mistake.note
     return mistake.note

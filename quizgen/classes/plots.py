@@ -1,4 +1,7 @@
-"""Plots of the analysis as SVG, in the letters and lines of the papers' figures."""
+"""Plots of the analysis as SVG, in the letters and lines of the papers' figures.
+
+They hold numbers; what these are is said below them, in any language and script.
+"""
 
 from __future__ import annotations
 
@@ -34,7 +37,7 @@ _HEAD = re.compile(r"^.*?(?=<svg)|<metadata>.*?</metadata>", re.DOTALL)
 
 
 @contextmanager
-def _axes(title: str, made: list[str], height: float = 6.0) -> Iterator[Axes]:
+def _axes(made: list[str], height: float = 6.0) -> Iterator[Axes]:
     """Axes to plot on; the SVG is put into ``made`` afterwards, the same on any day."""
     from matplotlib import rc_context
     from matplotlib.figure import Figure
@@ -42,7 +45,6 @@ def _axes(title: str, made: list[str], height: float = 6.0) -> Iterator[Axes]:
     with rc_context(LOOK):
         figure = Figure(figsize=(13 * _CM, height * _CM), layout="constrained")
         axes = figure.add_subplot()
-        axes.set_title(title, fontsize=10.5)
         yield axes
         out = io.StringIO()
         figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None})
@@ -57,11 +59,9 @@ def distribution(totals: Sequence[float], points: float, passing: float) -> str:
     edges = np.linspace(
         0, max(points, 1), min(MOST_BARS, max(5, int(np.sqrt(len(totals)) * 2))) + 1
     )
-    with _axes("Points", made) as axes:
+    with _axes(made) as axes:
         axes.hist(totals, bins=edges.tolist(), color="#d2d2d2", edgecolor=INK)
         axes.axvline(passing, color=RED, linewidth=1.4)
-        axes.set_xlabel(f"points of {points:g}")
-        axes.set_ylabel("students")
         axes.yaxis.set_major_locator(MaxNLocator(integer=True))
     return made[0]
 
@@ -69,7 +69,7 @@ def distribution(totals: Sequence[float], points: float, passing: float) -> str:
 def items(rows: Sequence[tuple[str, float, float]]) -> str:
     """Difficulty against discrimination, an item a point with its number in the table."""
     made: list[str] = []
-    with _axes("Items", made, 8.0) as axes:
+    with _axes(made, 8.0) as axes:
         axes.axhline(0.0, color=GREY)
         axes.axhline(0.2, color=GREY, linestyle=(0, (4, 2.5)))
         for name, difficulty, discrimination in rows:
@@ -78,8 +78,6 @@ def items(rows: Sequence[tuple[str, float, float]]) -> str:
             axes.annotate(name, (difficulty, discrimination), xytext=(3, 3),
                           textcoords="offset points", fontsize=8)  # fmt: skip
         axes.set_xlim(0, 1.03)
-        axes.set_xlabel("difficulty: mean share of the points (1 is easy)")
-        axes.set_ylabel("corrected item-total correlation")
     return made[0]
 
 
@@ -87,7 +85,7 @@ def effect(found: Effect) -> str:
     """Mean share of the points by value, with 95 % of its error."""
     made: list[str] = []
     places = np.arange(len(found.levels))
-    with _axes(f"{found.template}: {found.quantity}", made, 5.0) as axes:
+    with _axes(made, 5.0) as axes:
         axes.errorbar(
             places,
             [level.share for level in found.levels],
@@ -98,5 +96,4 @@ def effect(found: Effect) -> str:
         axes.set_xticks(places, names, fontsize=8)
         axes.set_xlim(-0.5, len(places) - 0.5)
         axes.set_ylim(-0.03, 1.03)
-        axes.set_ylabel("share of points")
     return made[0]

@@ -10,6 +10,7 @@ import click
 
 from quizgen.cli.options import MOST_JOBS, Whole, checked, split
 from quizgen.cli.terminal import many, one_line, tell
+from quizgen.locale import FIRST, languages
 
 if TYPE_CHECKING:
     from quizgen.classes.history import Change
@@ -167,12 +168,13 @@ def grade(folder: Path, reports: str, *, anonymous: bool) -> None:
 
 @click.command()
 @_folder
-def analyse(folder: Path) -> None:
+@click.option("--lang", type=click.Choice(languages()), default=FIRST, help="Of the page.")
+def analyse(folder: Path, lang: str) -> None:
     """Write the item analysis of the class in FOLDER: results/analysis.html."""
     from quizgen.classes.folder import ClassFolder
     from quizgen.classes.overview import analyse as write
 
-    found, path = write(ClassFolder(folder))
+    found, path = write(ClassFolder(folder), lang)
     tell(f"{many(found.students, 'student')}, {many(len(found.items), 'item')}")
     if found.alpha is not None and found.interval is not None:
         low, high = found.interval

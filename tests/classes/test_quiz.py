@@ -55,6 +55,18 @@ def test_a_quiz_is_decided_regraded_and_analysed_like_a_class(taken, capsys):
     assert (taken / "results/reports/0042.html").exists()
 
 
+@pytest.mark.parametrize(
+    ("lang", "said"),
+    [("en", "Options never chosen"), ("bn", "যে অপশন কেউ বাছেনি"), ("de", "Nie gewählte Antworten")],
+)
+def test_the_analysis_speaks_the_language_that_is_asked_for(taken, lang, said):
+    assert run("class", "analyse", taken, "--lang", lang) == 0
+    page = (taken / "results/analysis.html").read_text("utf-8")
+    assert f'<html lang="{lang}">' in page
+    assert f"<th>{said}</th>" in page
+    assert ("@font-face" in page) == (lang == "bn")
+
+
 def test_a_later_report_adds_people_and_changes_nobodys_answers(tmp_path, capsys):
     lines = (HERE / "responses.csv").read_text("utf-8-sig").splitlines(keepends=True)
     first, later = tmp_path / "first.csv", tmp_path / "later.csv"
