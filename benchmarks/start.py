@@ -1,7 +1,9 @@
 """How long the first answer takes: ``uv run python benchmarks/start.py``.
 
 CPU seconds of a fresh process, the best of five, beside what it may take; exit code 1 if one is
-over. Twenty questions of five parts each are marked, all right, and all wrong with a diagnosis.
+over. Twenty questions of five parts each are marked, all right, and all wrong with a diagnosis. A
+paper may take a share of what importing SymPy and matplotlib takes, measured in turn with it, on a
+machine that is as slow then.
 """
 
 from __future__ import annotations
@@ -11,7 +13,7 @@ import resource
 import subprocess
 import sys
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 SPECS = {
@@ -57,18 +59,31 @@ def form(typed: Mapping[str, str]) -> dict[str, object]:
     return {"answers": {f"{n}{label}": text for n in numbers for label, text in typed.items()}}
 
 
+def once(*words: str) -> float:
+    """CPU seconds of Python in a fresh process, and of all that it begins."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    subprocess.run(
+        [sys.executable, *words], check=True, stdout=subprocess.DEVNULL, stdin=subprocess.DEVNULL
+    )
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
 def seconds(*arguments: str) -> float:
-    """CPU seconds of a command in a fresh process."""
-    best = float("inf")
-    for _ in range(ROUNDS):
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        subprocess.run(
-            [sys.executable, "-m", "quizgen", *arguments], check=True, stdout=subprocess.DEVNULL
-        )
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        used = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-        best = min(best, used)
-    return best
+    """CPU seconds of a command."""
+    return min(once("-m", "quizgen", *arguments) for _ in range(ROUNDS))
+
+
+def shares(place: str) -> Iterator[tuple[str, float, float]]:
+    """What a paper takes of importing SymPy and matplotlib, and what it may take."""
+    page = ("-m", "quizgen", "exam", "--seed", "5", "--format", "html", "--out", f"{place}/page")
+    whole = ("-m", "quizgen", "exam", "--seed", "5", "--out", f"{place}/whole")
+    rounds = [
+        (once("-c", "import sympy, matplotlib"), once(*page), once(*whole)) for _ in range(ROUNDS)
+    ]
+    imports, html, both = map(min, zip(*rounds, strict=True))
+    yield "exam, HTML", html / imports, 0.8
+    yield "exam, all six files", both / imports, 1.15
 
 
 def main() -> None:
@@ -80,14 +95,21 @@ def main() -> None:
             Path(paths[name]).write_text(json.dumps(table), encoding="utf-8")
         budgets = {
             "quizgen --help": (0.15, ("--help",)),
-            "check, 20 questions right": (0.4, ("check", paths["key"], paths["right"])),
+            "check, 20 questions right": (0.2, ("check", paths["key"], paths["right"])),
             "check, 20 questions wrong": (0.4, ("check", paths["key"], paths["wrong"])),
+            "practice, first question": (
+                0.6,
+                ("practice", "--topic", "noise", "--database", f"sqlite:///{place}/learnt.sqlite3"),
+            ),
         }
         over = False
         for name, (budget, arguments) in budgets.items():
             used = seconds(*arguments)
             over = over or used > budget
             print(f"{name:<28} {used:.3f} CPU s of {budget:.2f}{'  OVER' * (used > budget)}")
+        for name, share, most in shares(place):
+            over = over or share > most
+            print(f"{name:<28} {share:.2f} x imports of {most:.2f}{'  OVER' * (share > most)}")
     sys.exit(over)
 
 
