@@ -6,8 +6,9 @@ All four outputs print the same layout, so none can disagree with another on wha
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from fractions import Fraction
+
+from msgspec.structs import replace
 
 from quizgen.errors import RenderError
 from quizgen.maths.operators import Operator, Typed, typed_as

@@ -1,28 +1,29 @@
 """Layout nodes: what a formula looks like, before it is LaTeX, MathML, Typst or speech.
 
 Every node has a ``level``, the strength with which it holds together; a weaker node inside a
-stronger place gets brackets. Nodes carry no language: words such as *otherwise* are keys.
+stronger place gets brackets. Nodes carry no language: words such as *otherwise* are keys. They are
+structs because every command loads them: a dataclass takes ten times as long to define.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from typing import ClassVar
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 WORDS, RELATION, SUM, MODULO, NEGATIVE, PRODUCT, FRACTION, QUANTITY, POWER, ATOM = range(10)
 """Levels, weakest first."""
 
 
-@dataclass(frozen=True, slots=True)
-class Number:
+class Number(Struct, frozen=True):
     """Digits without a sign, for example ``2.5`` or ``200 000``."""
 
     text: str
     level: ClassVar[int] = ATOM
 
 
-@dataclass(frozen=True, slots=True)
-class Ident:
+class Ident(Struct, frozen=True):
     """A one-letter quantity, in italics (capital Greek upright); ``bold`` for vectors."""
 
     text: str
@@ -30,32 +31,28 @@ class Ident:
     level: ClassVar[int] = ATOM
 
 
-@dataclass(frozen=True, slots=True)
-class Word:
+class Word(Struct, frozen=True):
     """An upright name of several letters: ``SNR``, the ``max`` in a subscript, ``erfc``."""
 
     text: str
     level: ClassVar[int] = ATOM
 
 
-@dataclass(frozen=True, slots=True)
-class Text:
+class Text(Struct, frozen=True):
     """A word of the reader's language, by key: ``if otherwise and or not``."""
 
     key: str
     level: ClassVar[int] = WORDS
 
 
-@dataclass(frozen=True, slots=True)
-class Unit:
+class Unit(Struct, frozen=True):
     """A unit as written in the closed list, for example ``um/px``."""
 
     text: str
     level: ClassVar[int] = ATOM
 
 
-@dataclass(frozen=True, slots=True)
-class Op:
+class Op(Struct, frozen=True):
     """An operator, relation or separator by its character.
 
     ``neg`` is the sign, an empty name an unwritten product, a blank a small gap.
@@ -65,16 +62,14 @@ class Op:
     level: ClassVar[int] = ATOM
 
 
-@dataclass(frozen=True, slots=True)
-class Row:
+class Row(Struct, frozen=True):
     """Nodes side by side."""
 
     items: tuple[Node, ...]
     level: int = ATOM
 
 
-@dataclass(frozen=True, slots=True)
-class Quantity:
+class Quantity(Struct, frozen=True):
     """A number with its unit."""
 
     value: Node
@@ -86,8 +81,7 @@ class Quantity:
         return min(self.value.level, QUANTITY)
 
 
-@dataclass(frozen=True, slots=True)
-class Frac:
+class Frac(Struct, frozen=True):
     """A fraction, with a bar or (``inline``) with a slash."""
 
     top: Node
@@ -100,8 +94,7 @@ class Frac:
         return PRODUCT if self.inline else FRACTION
 
 
-@dataclass(frozen=True, slots=True)
-class Root:
+class Root(Struct, frozen=True):
     """A root; ``index`` is left out for the square root."""
 
     body: Node
@@ -109,8 +102,7 @@ class Root:
     level: ClassVar[int] = ATOM
 
 
-@dataclass(frozen=True, slots=True)
-class Scripts:
+class Scripts(Struct, frozen=True):
     """A base with primes, a subscript and a superscript."""
 
     base: Node
@@ -129,8 +121,7 @@ class Scripts:
         return replace(self, base=Op(""))
 
 
-@dataclass(frozen=True, slots=True)
-class Accent:
+class Accent(Struct, frozen=True):
     """A mark above: ``bar``, ``hat`` or ``tilde``."""
 
     kind: str
@@ -138,8 +129,7 @@ class Accent:
     level: ClassVar[int] = ATOM
 
 
-@dataclass(frozen=True, slots=True)
-class Fence:
+class Fence(Struct, frozen=True):
     """Brackets around a node: ``()``, ``[]``, ``{}``, ``||``, ``⌊⌋``, ``⌈⌉``, ``[)``, ``(]``."""
 
     kind: str
@@ -147,8 +137,7 @@ class Fence:
     level: ClassVar[int] = ATOM
 
 
-@dataclass(frozen=True, slots=True)
-class Func:
+class Func(Struct, frozen=True):
     """A named function (an upright word, maybe with scripts) of its arguments."""
 
     head: Node
@@ -156,8 +145,7 @@ class Func:
     level: ClassVar[int] = ATOM
 
 
-@dataclass(frozen=True, slots=True)
-class Big:
+class Big(Struct, frozen=True):
     """A sum, product or integral sign with its bounds."""
 
     sign: str
@@ -171,8 +159,7 @@ class Big:
         return Scripts(Op(""), self.lower, self.upper)
 
 
-@dataclass(frozen=True, slots=True)
-class Under:
+class Under(Struct, frozen=True):
     """A node with another one centred below it, as in limits."""
 
     base: Node
@@ -180,16 +167,14 @@ class Under:
     level: ClassVar[int] = ATOM
 
 
-@dataclass(frozen=True, slots=True)
-class Cases:
+class Cases(Struct, frozen=True):
     """Values with their conditions; the last condition ``None`` means otherwise."""
 
     rows: tuple[tuple[Node, Node | None], ...]
     level: ClassVar[int] = WORDS
 
 
-@dataclass(frozen=True, slots=True)
-class Matrix:
+class Matrix(Struct, frozen=True):
     """A matrix or, with one column, a vector."""
 
     rows: tuple[tuple[Node, ...], ...]
