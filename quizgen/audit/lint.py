@@ -34,10 +34,14 @@ from quizgen.question.kinds import build
 from quizgen.question.levels import LEVELS
 from quizgen.render.text import blocks
 
-COMPOSED = 20
+COMPOSED = 6
 """Instances that are put into words in every language."""
-MARKED = 50
+MARKED = 10
 """Instances whose answers and mistakes are typed back in every language."""
+AT_MOST = 50
+"""Instances among which those with a rare mistake are typed back besides."""
+RARE = 3
+"""Times that every mistake is typed back, as far as it is met."""
 VARIED = 4
 """Different questions whose answers cannot all be the same by chance."""
 LEVELLED = 1
@@ -86,9 +90,9 @@ def lint_template(template: Template, seeds: int = 200, langs: tuple[str, ...] =
     try:
         first = _examine_draws(template, seeds, report)
         known = [reference(template)] if template.rules.reference is not None else []
-        for place, one in enumerate((*first, *known)):
-            if not COMPOSED <= place < len(first):
-                report.problems += composed_problems(one)
+        for one in (*first[:COMPOSED], *known):
+            report.problems += composed_problems(one)
+        for one in (*_telling(first), *known):
             report.problems += marking_problems(one)
         for one in first[:LEVELLED]:
             report.problems += level_problems(one)
@@ -97,6 +101,16 @@ def lint_template(template: Template, seeds: int = 200, langs: tuple[str, ...] =
         report.problems.append(str(error))
     report.problems = list(dict.fromkeys(report.problems))
     return report
+
+
+def _telling(draws: list[Draw]) -> Iterator[Draw]:
+    """The first draws, and those further ones in which a mistake is met that is rare."""
+    met = Counter[tuple[int, str]]()
+    for place, one in enumerate(draws):
+        mistakes = [(part, trap) for part, traps in enumerate(one.traps) for trap in traps]
+        if place < MARKED or any(met[mistake] < RARE for mistake in mistakes):
+            met.update(mistakes)
+            yield one
 
 
 def _examine_draws(template: Template, seeds: int, report: Report) -> list[Draw]:
@@ -114,7 +128,7 @@ def _examine_draws(template: Template, seeds: int, report: Report) -> list[Draw]
         for traps in one.traps:
             report.traps.update(traps)
         _widen(report, one)
-        if seed < MARKED:
+        if seed < AT_MOST:
             first.append(one)
     report.distinct = len(seen)
     for part in plan_of(template).parts:

@@ -2,9 +2,9 @@
 
 ::
 
-    ["aperture/f_number_change"]
+    ["forces/newton"]
     fixed = ["f"]                  # given quantities that nobody can change alone
-    ["aperture/f_number_change".names]
+    ["forces/newton".names]
     D_1 = { en = "the old diameter of the aperture", bn = "..." }
 
 A name stands in the middle of a sentence, before its letter in brackets. Only questions made from

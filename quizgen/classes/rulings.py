@@ -1,6 +1,6 @@
 """What people decided: ``rulings.csv``, a line for each decision, only ever added to.
 
-Later lines count. ``item`` is a part of a template (``blur-and-light-factors/b``), which all papers
+Later lines count. ``item`` is a part of a template (``a-question/b``), which all papers
 of a class share whatever their numbers.
 
 ========== ============================== ==========================================

@@ -6,7 +6,7 @@
     en = "Mock exam"
     bn = "..."
     [[slot]]
-    tier = "A"            # and/or: topic = "optics", templates = ["rgb-to-hsv"]
+    tier = "A"            # and/or: topic = "optics", templates = ["a-question"]
     count = 5
     points = 2            # marks of each question, shared out over its parts (default: its own)
     level = "guided"      # exam, guided, transfer, mixed (default: the paper's)

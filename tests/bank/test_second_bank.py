@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from pathlib import Path
 
 import pytest
@@ -125,3 +126,33 @@ def test_the_engine_names_no_topic_and_no_title():
         elif path.suffix == ".toml":
             text = path.read_text(encoding="utf-8")
             assert not [name for name in named if f'"{name}"' in text], path
+
+
+def _chapter() -> set[str]:
+    """Names of the built-in bank's templates, present and former, and of its solvers."""
+    bank = builtin()
+    solvers = {path.relative_to(bank.root / "solvers").with_suffix("").as_posix()
+               for path in (bank.root / "solvers").rglob("[a-z]*.py")}  # fmt: skip
+    return {*bank.paths, *(bank.rules(name).formerly for name in bank.paths), *solvers} - {""}
+
+
+EXAMPLE = {"point-to-image-plane"}
+"""The question that the examples of the Python interface ask."""
+
+
+def test_the_engine_names_no_template_no_solver_and_no_figure():
+    """``figures`` holds what questions of any bank may show, as ``camera`` does what is photographed.
+
+    So their names are the engine's own words there and in the words of each language, and nowhere
+    else: whoever asks for a figure or prints one never knows which it is. Names of a single word
+    (``noise``) are words of any language, and are left to the test above.
+    """
+    from quizgen.figures._table import FIGURES
+
+    word = re.compile(r"[\w/-]+")
+    named = {name for name in {*_chapter(), *FIGURES} - EXAMPLE if re.search("[-_/]", name)}
+    for path in PACKAGE.rglob("*"):
+        if path.relative_to(PACKAGE).parts[0] in SUBJECT | {"builtin", "locale"}:
+            continue
+        if path.suffix in {".py", ".toml", ".j2", ".js"}:
+            assert not {*word.findall(path.read_text("utf-8"))} & named, path
