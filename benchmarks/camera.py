@@ -1,6 +1,7 @@
 """Eager against planned photographs, and every effect beside the copy bandwidth of the same run.
 
-``python benchmarks/camera.py [--quick] [--chains] [--calibrate]``; best of several runs, ms.
+``python benchmarks/camera.py [--quick] [--chains] [--calibrate] [--photos [N]]``; best of several
+runs, ms. ``--photos`` plans and runs N (60) ordinary photographs with ordinary cameras.
 """
 
 # ruff: noqa: SLF001 - caches are emptied between runs
@@ -15,12 +16,13 @@ from typing import Any
 
 import numpy as np
 
-from quizgen.camera import Camera, Scene, View, effects, filters, hsv
+from quizgen.arrays.gamma import srgb_decode
+from quizgen.camera import Camera, Scene, SceneError, View, effects, filters, hsv, simulate
 from quizgen.camera.draw import Layer
 from quizgen.camera.effects import distortion, lateral_colour, mosaic, vignetting
 from quizgen.camera.kernels import disc
 from quizgen.camera.plan import Plan, Prepared, everything, plan
-from quizgen.camera.simulate import run
+from quizgen.camera.simulate import is_broken, run
 
 SIZES = {"640x480": (640, 480), "12 MP": (4000, 3000)}
 
@@ -214,10 +216,92 @@ def ideal(repeats: int) -> None:
     print(f"\nideal camera, 640x480: {time:.4f} ms for planning and running")
 
 
+PHOTOS = ("astronaut", "camera", "cat", "coffee", "coins", "moon", "page", "text")
+"""Pictures that come with scikit-image."""
+
+
+def a_photo(source: np.random.Generator) -> Scene:
+    """A piece of a photograph, 640 x 480, in linear light."""
+    from skimage import data, transform
+
+    codes = np.atleast_3d(getattr(data, PHOTOS[source.integers(len(PHOTOS))])())[..., :3] / 255.0
+    left = int(source.integers(codes.shape[1] // 4))
+    piece = codes[:, left : left + codes.shape[1] * 3 // 4]
+    light = srgb_decode(np.clip(transform.resize(piece, (480, 640), anti_aliasing=True), 0, 1))
+    image = np.broadcast_to(light, (480, 640, 3)).astype(np.float32)
+    seed = int(source.integers(1 << 30))
+    return Scene(640, 480, image=image, depth=float(source.uniform(2, 20)), seed=seed)
+
+
+def a_camera(source: np.random.Generator, width: int) -> Camera:
+    """What people own: about ten effects, each of an ordinary size."""
+
+    def maybe(chance: float, low: float, high: float, otherwise: Any = 0.0) -> Any:
+        drawn = float(np.exp(source.uniform(np.log(low), np.log(high))))
+        return drawn if source.random() < chance else otherwise
+
+    sign = source.choice([-1.0, 1.0], 3)
+    return Camera(
+        float(source.uniform(0.024, 0.085)), 0.0236 / width,
+        f_number=maybe(0.8, 1.4, 22, None), focus_distance=float(source.uniform(2, 20)),
+        k1=float(sign[0]) * maybe(0.6, 0.001, 0.3), lateral_colour=maybe(0.4, 0.05, 1.0),
+        natural_vignetting=bool(source.random() < 0.5), mechanical_vignetting=maybe(0.3, 0.05, 0.5),
+        shutter=maybe(1.0, 0.001, 0.06), row_time=maybe(0.4, 1e-6, 3e-5),
+        velocity=(float(sign[1]) * maybe(0.5, 1, 200), 0.0),
+        exposure=float(sign[2]) * maybe(0.3, 0.1, 1.0), full_well=maybe(1.0, 5e3, 1e5),
+        read_noise=maybe(0.9, 1, 10), dark_current=maybe(0.5, 0.05, 5),
+        smear=maybe(0.1, 1e-4, 0.01),
+        bit_depth=int(source.integers(8, 15)), mosaic="RGGB" if source.random() < 0.3 else "",
+        white_balance=(maybe(0.4, 1, 2, 1.0), 1.0, maybe(0.4, 1, 2, 1.0)), gamma="srgb",
+    )  # fmt: skip
+
+
+def busy(work: Callable[[], Any]) -> tuple[float, Any]:
+    """Processor time of one run, s, and what it gives."""
+    forget_maps()
+    started = process_time()
+    found = work()
+    return process_time() - started, found
+
+
+def photos(count: int) -> None:
+    """What is skipped, what that saves with planning included, and whether promises are kept."""
+    budgets = (0.5, 2.0, 8.0)
+    shares, ratios = {b: [] for b in budgets}, {b: [] for b in budgets}
+    broken = refused = 0
+    for seed in range(count):
+        source = np.random.default_rng([seed, 12])
+        scene = a_photo(source)
+        camera = a_camera(source, scene.width)
+        try:
+            prepared = Prepared(scene, camera)
+            spent, whole = busy(lambda: run(prepared, everything(prepared)))  # noqa: B023
+        except SceneError:
+            refused += 1  # the picture folds over
+            continue
+        for budget in budgets:
+            taken, photo = busy(lambda: simulate(scene, camera, budget=budget))  # noqa: B023
+            left, ran = len(photo.plan.skipped), len(photo.plan.steps)
+            shares[budget].append(left / (left + ran))
+            ratios[budget].append(spent / taken)
+            broken += is_broken(photo, whole)
+    print(f"{count - refused} photographs ({refused} refused), {broken} broken promises")
+    for budget in budgets:
+        ratio = np.array(ratios[budget])
+        print(
+            f"  {budget:3g} DN: {np.mean(shares[budget]):6.1%} of the effects skipped, everything /"
+            f" planned x{np.exp(np.log(ratio).mean()):.2f} (CPU), slower in {(ratio < 0.98).sum()}"
+        )
+
+
 def main() -> None:
     filters.warm_up()
     if "--calibrate" in sys.argv:
         calibrate()
+        return
+    if "--photos" in sys.argv:
+        number = sys.argv[-1]
+        photos(int(number) if number.isdecimal() else 60)
         return
     repeats = 1 if "--quick" in sys.argv else 3
     ideal(20)

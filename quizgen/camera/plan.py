@@ -9,6 +9,7 @@ most time per grey level. Bounds follow the error through every later effect, so
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from time import perf_counter
@@ -132,11 +133,19 @@ class _Chain:
     def __init__(self, present: tuple[Effect, ...], view: View, facts: Facts) -> None:
         self.present, self.view, self.facts = present, view, facts
         self.before = _facts_along(present, view, facts)
-        self.lost = [_lost(effect, f, view) for effect, f in zip(present, self.before, strict=True)]
-        self.rough = [
-            {rung.name: rung.error(f, view).plus(_rounding(f)) for rung in effect.rungs}
-            for effect, f in zip(present, self.before, strict=True)
-        ]
+        self._made: dict[tuple[int, str], Error] = {}
+
+    def _off(self, index: int, made: str) -> Error:
+        """Error of a choice other than exact, worked out when first asked for."""
+        key = index, made
+        if key not in self._made:
+            effect, facts = self.present[index], self.before[index]
+            if made == SKIP:
+                self._made[key] = _lost(effect, facts, self.view)
+            else:
+                rung = next(rung for rung in effect.rungs if rung.name == made)
+                self._made[key] = rung.error(facts, self.view).plus(_rounding(facts))
+        return self._made[key]
 
     def error(self, choice: dict[int, str]) -> Error:
         """Difference to running everything exactly; choices not given are exact."""
@@ -144,12 +153,12 @@ class _Chain:
         for index, effect in enumerate(self.present):
             made = choice.get(index, EXACT)
             if made == SKIP:
-                lost = self.lost[index]
+                lost = self._off(index, SKIP)
                 error = error.plus(lost) if effect.random else error.along(lost)
                 continue
             error = self._carried(effect, index, error)
             if made != EXACT:
-                error = error.plus(self.rough[index][made])
+                error = error.plus(self._off(index, made))
         return error
 
     def _carried(self, effect: Effect, index: int, error: Error) -> Error:
@@ -218,19 +227,27 @@ def _spend(
     if chain.dn(choice) <= budget:
         return choice
     choice = dict.fromkeys(choice, EXACT)
+    possible = list(_affordable(chain, units, budget))
     while True:
         now, best = chain.dn(choice), (0.0, choice)
-        for unit in units:
-            for made in () if unit.fixed else unit.choices:
-                trial = {**choice, **dict.fromkeys(unit.members, made)}
-                saved = sum(costs[i][choice[i]] - costs[i][trial[i]] for i in unit.members)
-                error = chain.dn(trial) if saved > 0.0 else math.inf
-                if error <= budget:
-                    score = saved / (max(error - now, 0.0) + 1e-6)
-                    best = max(best, (score, trial), key=lambda pair: pair[0])
+        for unit, made in possible:
+            trial = {**choice, **dict.fromkeys(unit.members, made)}
+            saved = sum(costs[i][choice[i]] - costs[i][trial[i]] for i in unit.members)
+            error = chain.dn(trial) if saved > 0.0 else math.inf
+            if error <= budget:
+                score = saved / (max(error - now, 0.0) + 1e-6)
+                best = max(best, (score, trial), key=lambda pair: pair[0])
         if best[0] == 0.0:
             return choice
         choice = best[1]
+
+
+def _affordable(chain: _Chain, units: list[_Unit], budget: float) -> Iterator[tuple[_Unit, str]]:
+    """Choices that the budget allows on their own: with others beside them none gets cheaper."""
+    for unit in units:
+        for made in () if unit.fixed else unit.choices:
+            if made == EXACT or chain.dn(dict.fromkeys(unit.members, made)) <= budget:
+                yield unit, made
 
 
 def _total(costs: list[dict[str, float]], choice: dict[int, str]) -> float:
