@@ -62,7 +62,7 @@ def test_an_unknown_kind_of_file_is_named(paper):
 
 def test_marking_names_a_wrong_language_and_decimal_sign():
     assert mark_paper(KEY, {}).points == 0
-    with pytest.raises(ChoiceError, match=r"language: 'fr' \(allowed: en, bn\)"):
+    with pytest.raises(ChoiceError, match=r"language: 'fr' \(allowed: en, bn, de\)"):
         mark_paper(KEY, {}, "fr")
     with pytest.raises(ChoiceError, match=r"decimal: 'dot' \(allowed: auto, point, comma\)"):
         mark_paper(KEY, {}, decimal="dot")
