@@ -15,7 +15,8 @@ from quizgen.errors import ClassError, KeyFileError
 from quizgen.files import PRIVATE, write_all
 from quizgen.outside import located
 
-REPORTS = "reports"
+REPORTS, ANONYMOUS = "reports", "anonymous"
+"""Apart, for who hands out the one must not hand out the other."""
 CHUNK = 50
 """Reports that are written at once."""
 
@@ -31,7 +32,8 @@ def grade(
     formats : sequence of str
         ``html``, ``pdf``: of the reports.
     anonymous : bool
-        Reports bear the code instead of the name, also as the name of their file.
+        Reports bear the code instead of the name, also as the name of their file,
+        in a folder of their own.
 
     Raises
     ------
@@ -46,7 +48,7 @@ def grade(
     scale = read_scale(folder.path)
     lines = graded(folder.students(), folder.heads(), marked, scale)
     files = write_grades(folder.path, lines, scale)
-    keys, place = Keys(folder), folder.path / FOLDER / REPORTS
+    keys, place = Keys(folder), folder.path / FOLDER / (ANONYMOUS if anonymous else REPORTS)
     for chunk in _chunks([one for one in lines if one.marks] if formats else []):
         write_all(place, _reports(keys, chunk, formats, anonymous), PRIVATE)
     left = marked.keys() - {one.student.id for one in lines}

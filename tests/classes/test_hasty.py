@@ -69,6 +69,19 @@ def test_who_handed_in_and_is_no_longer_on_the_roster_is_named_with_the_grades(f
     assert "43 handed in, but is not on the roster: no grade" in capsys.readouterr().out
 
 
+def test_reports_without_names_do_not_stand_among_those_with_names(folder):
+    """Who hands out the folder of the anonymous ones gives nobody's name away."""
+    assert handed_in(folder, [("A007", "1")]) == 0
+    assert run("class", "grade", folder) == 0
+    assert run("class", "grade", folder, "--anonymous") == 0
+    code = keys(folder)["A007"]["code"]
+    found = sorted(path for path in (folder / "results").rglob("*.html"))
+    assert [path.stem for path in found] == [code, "A007"]
+    assert found[0].parent != found[1].parent
+    assert "Bond" not in found[0].read_text("utf-8")
+    assert "A007" not in found[0].read_text("utf-8")
+
+
 @pytest.mark.parametrize("spoilt", ['"value":"', '"points":"', '"unit":"'])
 def test_a_key_that_somebody_edited_gives_no_marks(folder, capsys, spoilt):
     path = folder / "keys.jsonl"
