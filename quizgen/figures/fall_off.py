@@ -5,6 +5,7 @@ Photograph and curve come from one camera, so what is read is what is seen.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from quizgen.figures._numbers import derived, given, spoken, statement
@@ -46,15 +47,20 @@ def photographed(values: Values) -> tuple[Scene, Camera]:
     return Scene(_WIDE, _HIGH, (), (0.9, 0.9, 0.9)), camera
 
 
-def share(values: Values, distance: float) -> float:
-    """Share of the light of the centre that arrives at a distance from it in mm."""
+def shares(values: Values, distances: Sequence[float]) -> list[float]:
+    """Shares of the light of the centre that arrive at distances from it in mm."""
     import numpy as np
 
     from quizgen.camera.effects.vignetting import fall_off
     from quizgen.camera.view import View
 
-    pixels = distance / values["extent"] * _WIDE / 2
-    return float(fall_off(np.array(pixels), View(*photographed(values))))
+    pixels = np.array(distances) / values["extent"] * _WIDE / 2
+    return fall_off(pixels, View(*photographed(values))).tolist()
+
+
+def share(values: Values, distance: float) -> float:
+    """The share at one distance."""
+    return shares(values, [distance])[0]
 
 
 def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
@@ -113,7 +119,8 @@ def _curve(pen: Pen, values: Values) -> None:
     from quizgen.figures._pen import BOLD
 
     places = [values["extent"] * step / _STEPS for step in range(_STEPS + 1)]
-    pen.line("curve", [(_x(values, r), _y(share(values, r))) for r in places], BOLD)
+    lights = zip(places, shares(values, places), strict=True)
+    pen.line("curve", [(_x(values, r), _y(light)) for r, light in lights], BOLD)
 
 
 def _mark(pen: Pen, values: Values, *, told: bool) -> None:
@@ -130,7 +137,8 @@ def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words, the curve at its quarters; in a quiz, not at the mark."""
     words = words_of("fall_off", lang)
     steps = [values["extent"] * step / 4 for step in range(5)]
-    read = "; ".join(f"{given(r)} mm: {share(values, r):.2f}" for r in steps)
+    lights = zip(steps, shares(values, steps), strict=True)
+    read = "; ".join(f"{given(r)} mm: {light:.2f}" for r, light in lights)
     told = words["figure"].format(read=read, mark=spoken(statement("r", values["r"], "mm")))
     if quiz:
         return told
