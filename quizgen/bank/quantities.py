@@ -3,9 +3,9 @@
 ::
 
     ["forces/newton"]
-    fixed = ["f"]                  # given quantities that nobody can change alone
+    fixed = ["a"]                  # given quantities that nobody can change alone
     ["forces/newton".names]
-    D_1 = { en = "the old diameter of the aperture", bn = "..." }
+    m = { en = "the mass of the block", bn = "..." }
 
 A name stands in the middle of a sentence, before its letter in brackets. Only questions made from
 the chain use it, not those of an exam.
