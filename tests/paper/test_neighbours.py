@@ -34,7 +34,7 @@ def test_threads_that_begin_together_make_what_one_makes():
 
 @pytest.mark.slow
 def test_sixteen_threads_make_what_one_makes():
-    assert made(16, 100, USUAL, "html") == made(1, 100, USUAL, "html")
+    assert made(16, 50, USUAL, "html") == made(1, 50, USUAL, "html")
 
 
 @pytest.mark.slow
@@ -44,8 +44,8 @@ def test_typesetting_in_threads_is_what_it_is_in_one():
 
 @pytest.mark.slow
 def test_cold_starts_do_not_crash():
-    alone = made(1, 6, USUAL, "html")
-    assert [made(6, 6, HASTY, "html") for _ in range(20)] == [alone] * 20
+    alone = made(1, 4, USUAL, "html")
+    assert [made(4, 4, HASTY, "html") for _ in range(20)] == [alone] * 20
 
 
 @pytest.mark.parametrize(
