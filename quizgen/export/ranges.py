@@ -26,8 +26,8 @@ SAME = 1e-9
 """What counts as exact, and as on the edge, relative to the number."""
 ROUNDED = 2
 """Places that a number is written with where the exact one was asked for and is longer."""
-DECIMALS = range(13)
-"""Places that somebody may round to."""
+DECIMALS = range(-7, 13)
+"""Places that somebody may round to, or go up or down by half a step of."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,7 +123,14 @@ def _apart(wanted: Iterable[Range]) -> Iterator[Range]:
 def _off_edge(value: float, width: float, factor: float) -> float:
     """A width near this one on whose edge no rounding of the value lies."""
     near = SAME * max(abs(value), 1)
-    gaps = [abs(round(value, count) - value) for count in DECIMALS]
+    gaps = [gap for count in DECIMALS for gap in _gaps(value, 10.0**-count)]
     while width > near and any(abs(gap - width) <= near for gap in gaps):
         width *= factor
     return width
+
+
+def _gaps(value: float, step: float) -> Iterator[float]:
+    """How far a value is from what it is rounded to, up or down, and from halves of a step."""
+    above = value % step
+    for halves in range(-1, 6):
+        yield abs(halves * step / 2 - above)

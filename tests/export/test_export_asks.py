@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from itertools import pairwise
 
 import pytest
@@ -73,12 +74,14 @@ def numbers(items):
 
 
 def on_an_edge(ask):
-    """Intervals on whose edge the value lies when it is rounded."""
+    """Intervals on whose edge the value lies when it is rounded, up or down, or to half a step."""
     for one in ask.ranges:
-        for count in range(13):
-            away = abs(round(one.value, count) - one.value)
-            if abs(away - one.width) <= 1e-9 * max(abs(one.value), 1) < one.width:
-                yield one
+        for step in (10.0**-count for count in range(-6, 13)):
+            below = math.floor(one.value / step) * step
+            for typed in (below, below + step / 2, below + step, below + 1.5 * step):
+                away = abs(typed - one.value)
+                if abs(away - one.width) <= 1e-9 * max(abs(one.value), 1) < one.width:
+                    yield one
 
 
 def overlaps(ask):
