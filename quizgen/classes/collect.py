@@ -67,7 +67,7 @@ class Collected:
         self.folder, self.keys = folder / ANSWERS, keys
         self.problems: list[str] = []
         self._seen: dict[str, tuple[bytes, str]] = {}
-        self._codes = {head.code: head.id for head, _ in keys.places.values()}
+        self._codes = {code: head.id for head, _ in keys.places.values() for code in head.codes}
         self._ids = {one.casefold(): one for one in keys.places}
 
     def __iter__(self) -> Iterator[Sheet]:
@@ -99,7 +99,8 @@ class Collected:
         about = form.student
         student = self._whose(form.code, str(about.matriculation))
         paper = self.keys.key(student).paper
-        if form.paper and form.paper != paper:
+        former = form.code.strip().upper() in self.keys.places[student][0].former
+        if form.paper and form.paper != paper and not former:
             raise KeyFileError(f"is for other questions than the paper of {safe(student)}")
         return Sheet(student, form.typed(), about.lang, about.decimal, path.name)
 

@@ -74,6 +74,8 @@ class Head(msgspec.Struct, frozen=True):
         Ids of neighbours that this paper gave way to.
     digest : str
         Of the key as it was written: who edits it by hand is told.
+    former : tuple of str
+        Codes that the paper had in another language: it may have been handed out.
     """
 
     id: str
@@ -82,6 +84,12 @@ class Head(msgspec.Struct, frozen=True):
     stamp: str
     beside: tuple[str, ...] = ()
     digest: str = ""
+    former: tuple[str, ...] = ()
+
+    @property
+    def codes(self) -> tuple[str, ...]:
+        """All codes under which it may come back."""
+        return (self.code, *self.former)
 
 
 class Record(msgspec.Struct, frozen=True):
@@ -168,12 +176,12 @@ class ClassFolder:
             If no paper has it, or the paper's key has been changed.
         """
         wanted, secret = code.strip().upper(), self.settings.secret
-        places = [place for head, place in self.places().values() if head.code == wanted]
+        places = [place for head, place in self.places().values() if wanted in head.codes]
         if not places:
             raise ClassError(f"{self.path}: no paper of this class has the code {wanted!r}")
         found = self._record(places[0])
         digest = digest_of_key(found.key, found.head.made)
-        if code_of(secret, found.head.id, digest) != wanted:
+        if code_of(secret, found.head.id, digest) != found.head.code:
             raise ClassError(f"{self.path / KEYS}: the key of {wanted} has been changed")
         return found
 

@@ -62,12 +62,15 @@ class Job:
     students : tuple of Student
     beside : mapping of str to tuple of str
         To whom each of them gives way, and those in turn.
+    former : mapping of str to tuple of str
+        Codes that each has had.
     """
 
     settings: Settings
     blueprint: Blueprint
     students: tuple[Student, ...]
     beside: Mapping[str, tuple[str, ...]]
+    former: Mapping[str, tuple[str, ...]]
 
 
 class Made(NamedTuple):
@@ -162,7 +165,8 @@ def make(
     todo = [one for one in students if not _is_made(folder, one, heads.get(one.id))]
     folder.write_roster(students)
     done: list[Made] = []
-    jobs = _jobs(folder.settings, blueprint, todo, _beside(students, heads))
+    former = {one: head.codes for one, head in heads.items()}
+    jobs = _jobs(folder.settings, blueprint, todo, _beside(students, heads), former)
     for results in run(executor, papers, jobs, ahead):
         _write(folder, results)
         for one in results:
@@ -189,10 +193,12 @@ def _jobs(
     blueprint: Blueprint,
     todo: Sequence[Student],
     beside: Mapping[str, tuple[str, ...]],
+    former: Mapping[str, tuple[str, ...]],
 ) -> Iterator[Job]:
     for at in range(0, len(todo), CHUNK):
         chunk = tuple(todo[at : at + CHUNK])
-        yield Job(settings, blueprint, chunk, _needed(chunk, beside))
+        had = {one.id: former.get(one.id, ()) for one in chunk}
+        yield Job(settings, blueprint, chunk, _needed(chunk, beside), had)
 
 
 def _write(folder: ClassFolder, results: Sequence[Made]) -> None:
@@ -285,7 +291,8 @@ def _made(job: Job, one: Student, drawing: _Drawing) -> Made:
     paper = _graded(job.settings, one, made)
     sheets = [render_paper(paper, kind, "pdf") for kind in KINDS]
     forget(PRETENDED)
-    head = Head(one.id, paper.code, made.code, _stamp(job.settings, one), beside)
+    former = tuple(sorted({*job.former[one.id]} - {paper.code}))
+    head = Head(one.id, paper.code, made.code, _stamp(job.settings, one), beside, former=former)
     return Made(
         one.id,
         dict(zip(_names(one), [*sheets, form_bytes(paper)], strict=True)),

@@ -82,6 +82,29 @@ def test_reports_without_names_do_not_stand_among_those_with_names(folder):
     assert "A007" not in found[0].read_text("utf-8")
 
 
+def test_who_gets_another_language_after_printing_may_hand_in_the_first_paper(folder, capsys):
+    """Both papers ask the same, so the key is the same but for its code."""
+    first = keys(folder)["A007"]
+    for lang in ("bn", "both"):
+        roster = folder / "roster.csv"
+        row = roster.read_text("utf-8-sig").splitlines()[1]
+        other = ",".join([*row.split(",")[:2], lang, *row.split(",")[3:]])
+        roster.write_text(roster.read_text("utf-8-sig").replace(row, other), "utf-8")
+        assert run("class", "make", roster, "--out", folder, "--jobs", 1) == 0
+    assert keys(folder)["A007"]["code"] != first["code"]
+    assert (
+        keys(folder)["A007"]["key"]["questions"][0]["parts"]
+        == first["key"]["questions"][0]["parts"]
+    )
+    path = folder.parent / "form.json"
+    form = {"code": first["code"], "paper": first["key"]["paper"], "answers": {"1a": "1"}}
+    path.write_text(json.dumps(form), "utf-8")
+    assert run("class", "code", folder, first["code"]) == 0
+    assert run("class", "mark", folder, path) == 0
+    assert "not marked" not in capsys.readouterr().out
+    assert marked(folder) == {"A007"}
+
+
 @pytest.mark.parametrize("spoilt", ['"value":"', '"points":"', '"unit":"'])
 def test_a_key_that_somebody_edited_gives_no_marks(folder, capsys, spoilt):
     path = folder / "keys.jsonl"
