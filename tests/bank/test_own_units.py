@@ -84,6 +84,12 @@ def test_units_of_the_bank_are_judged_and_asked_back_as_ours_are():
     assert mark(FORCE, "6 furlongs").verdict == "unreadable"
 
 
+def test_cells_of_a_table_know_them():
+    table = {"kind": "table", "values": {"a": "6", "b": "2"}, "units": {"a": "N", "b": "kg"},
+             "rel": "0.01", "define": list(LINES)}  # fmt: skip
+    assert mark(table, "6 N; 2000 g").verdict == "correct"
+
+
 def test_no_other_question_knows_them():
     other = {"kind": "quantity", "value": "6", "unit": "m", "rel": "0.01"}
     assert mark(FORCE, "6 N").verdict == "correct"

@@ -96,7 +96,7 @@ def cell(spec: Spec, name: str) -> Cell:
 def _shape(spec: Spec, name: str) -> tuple[type[Cell], dict[str, Any]]:
     """The kind of one cell and what its spec says."""
     own = spec.cells.get(name, {})
-    table: dict[str, Any] = {"kind": "number", "value": spec.values[name]}
+    table: dict[str, Any] = {"kind": "number", "value": spec.values[name], "define": spec.define}
     if not {*RULES} & own.keys():
         table |= {key: getattr(spec, key) for key in _INHERITED}
     if spec.units.get(name):
