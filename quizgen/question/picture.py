@@ -10,8 +10,10 @@ from typing import Any, TypeVar
 from quizgen.bank.draw import Draw
 from quizgen.bank.rules import Scalar
 from quizgen.bank.solvers import authored
+from quizgen.errors import BankError
 from quizgen.figures import Figure, completed, in_words, render
 from quizgen.maths.numbers import to_float
+from quizgen.outside import located
 
 Shown = TypeVar("Shown")
 
@@ -31,9 +33,10 @@ def _shown(show: Callable[..., Shown], drawn: Draw, lang: str, *, quiz: bool) ->
     if rule is None or (quiz and not rule.quiz):
         return None
     given: Mapping[str, Any] = {name: _parameter(drawn, s) for name, s in rule.values.items()}
-    values = completed(rule.name, given, own)
-    with authored(Path(str(own.__file__))) if own else nullcontext():
-        return show(rule.name, values, quiz=quiz, lang=lang, own=own)
+    with located(drawn.template.file, BankError):
+        values = completed(rule.name, given, own)
+        with authored(Path(str(own.__file__))) if own else nullcontext():
+            return show(rule.name, values, quiz=quiz, lang=lang, own=own)
 
 
 def _parameter(drawn: Draw, source: Scalar) -> float | str:
