@@ -21,7 +21,10 @@ COMMANDS: dict[str, tuple[list[str], ...]] = {
         [sys.executable, "benchmarks/web.py"],
     ),
     "pins": ([sys.executable, "tools/pin.py"],),
-    "fonts": ([sys.executable, "tools/pack_fonts.py"],),
+    "fonts": (
+        [sys.executable, "tools/pack_fonts.py"],
+        [sys.executable, "tools/pack_letters.py"],
+    ),
     "picture": ([sys.executable, "tools/picture.py"],),
     "scenes": ([sys.executable, "tools/scenes.py"],),
 }

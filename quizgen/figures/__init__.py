@@ -4,7 +4,7 @@ In: the name of a figure and a number for each of its parameters. Out: one ``<sv
 the same picture in words. Must never know: templates, questions, papers.
 
 Each module draws one figure and offers what ``_table.FigureModule`` says. Nothing here loads NumPy
-or matplotlib before the first figure is drawn.
+before the first figure is drawn, and matplotlib draws none: its fonts were packed once.
 """
 
 from __future__ import annotations

@@ -1,7 +1,8 @@
 """Labels as outlines: letters in italics, digits and units upright, primes and subscripts.
 
-Outlines are taken from the fonts that ship with matplotlib and kept, so a label costs a few
-additions; matplotlib's own text layout costs about 1 ms a label, its mathematics several.
+Outlines were taken once from the STIX fonts and lie packed beside this module, made by
+``tools/pack_letters.py`` under the licence of ``letters-licence.txt``: a label costs a few
+additions and is the same whatever is installed.
 
 The markup is tiny: ``p'_y = 6 {mm}``. A letter outside braces is italic, ``'`` is a prime,
 ``_`` lowers the next character (or a group in braces), braces set upright.
@@ -11,16 +12,16 @@ from __future__ import annotations
 
 import re
 from functools import cache, lru_cache
-from pathlib import Path as File
-from threading import Lock
+from pathlib import Path
 from typing import NamedTuple
 
-import matplotlib as mpl
 import numpy as np
-from matplotlib.ft2font import FT2Font, LoadFlags
+from msgspec import msgpack
 from numpy.typing import NDArray
 
-_EM = 100.0
+PACKED = Path(__file__).with_name("letters.msgpack")
+UNITS = 6400.0
+"""Steps of the packed outlines in the size of a letter."""
 SUBSCRIPT = 0.76
 """Size of a subscript; 7.6 pt beside 10 pt letters."""
 
@@ -35,27 +36,28 @@ class Outline(NamedTuple):
     width: float
 
 
-_FONT = Lock()
-"""A font holds the letter that it was asked for last."""
+class Packed(NamedTuple):
+    """A letter as it is packed: its width, and its points as 16-bit numbers with their codes."""
+
+    width: float
+    points: bytes
+    codes: bytes
 
 
 @cache
-def _font(italic: bool) -> FT2Font:
-    name = "STIXGeneralItalic.ttf" if italic else "STIXGeneral.ttf"
-    font = FT2Font(str(File(mpl.get_data_path()) / "fonts" / "ttf" / name))
-    font.set_size(_EM, 72)
-    return font
+def _packed() -> tuple[dict[str, Packed], dict[str, Packed]]:
+    """Upright and italic letters."""
+    letters = tuple[dict[str, Packed], dict[str, Packed]]
+    return msgpack.decode(PACKED.read_bytes(), type=letters)
 
 
 @cache
 def _glyph(character: str, italic: bool) -> Outline:
-    with _FONT:
-        font = _font(italic)
-        if not font.get_char_index(ord(character)):
-            raise LookupError(f"no glyph for {character!r}")
-        glyph = font.load_char(ord(character), flags=LoadFlags.NO_HINTING)
-        points, codes = font.get_path()
-    return Outline(points / _EM, codes.astype(np.uint8), glyph.linearHoriAdvance / 65536 / _EM)
+    found = _packed()[italic].get(character)
+    if found is None:
+        raise LookupError(f"no glyph for {character!r}")
+    points = np.frombuffer(found.points, "<i2").reshape(-1, 2) / UNITS
+    return Outline(points, np.frombuffer(found.codes, np.uint8), found.width)
 
 
 class Run(NamedTuple):

@@ -1,6 +1,6 @@
 """Every figure by name, and what a figure's module offers.
 
-The modules load neither NumPy nor matplotlib before they draw.
+The modules do not load NumPy before they draw.
 """
 
 from __future__ import annotations
