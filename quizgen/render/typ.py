@@ -247,6 +247,27 @@ def compiled(sources: Mapping[str, bytes]) -> bytes:
     return bytes(data)
 
 
+def png(svg: bytes, width: int) -> bytes:
+    """Draw an SVG on white, at 144 pixels to an inch.
+
+    Parameters
+    ----------
+    svg : bytes
+    width : int
+        Width of the picture in points.
+    """
+    import typst
+
+    _stay()
+    page = (
+        f"#set page(width: {width}pt, height: auto, margin: 4pt, fill: white)\n"
+        '#image("plot.svg", width: 100%)'
+    )
+    world: Any = {MAIN: page.encode(), "plot.svg": svg}  # the stub knows one file only
+    made: Any = typst.compile(world, format="png", ppi=144.0, font_paths=_fonts())
+    return bytes(made)
+
+
 def _stay() -> None:
     """Refuse what would wait for ever: the threads of Typst do not come along in a fork."""
     if _home() != os.getpid():

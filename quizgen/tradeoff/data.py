@@ -1,15 +1,25 @@
-"""The measurements as plain data and as a short table."""
+"""The measurements as plain data, as a table for spreadsheets and as a short text."""
 
 from __future__ import annotations
 
+import csv
+import io
 import math
 from dataclasses import asdict
 from typing import Any
 
 from quizgen.locale import table
-from quizgen.tradeoff.measure import Measured
+from quizgen.tradeoff.measure import Measured, Timing
+from quizgen.tradeoff.overview import cost, cost_text, digits_text, proven, road
 from quizgen.tradeoff.plot import time_text
-from quizgen.tradeoff.report import EXACT, Report
+from quizgen.tradeoff.report import FamilyReport, Report
+
+HEAD = (
+    "family", "number", "way", "median_ns", "low_ns", "high_ns",
+    "exam_digits", "exam_max_ulp", "exam_mean_bits", "exam_lost",
+    "hard_digits", "hard_max_ulp", "hard_mean_bits", "hard_lost",
+)  # fmt: skip
+"""Columns of ``tradeoff.csv``; digits of 17 mean all, an empty error means that the way fails."""
 
 
 def words(lang: str) -> dict[str, Any]:
@@ -19,59 +29,80 @@ def words(lang: str) -> dict[str, Any]:
 
 def as_data(report: Report, command: str) -> dict[str, Any]:
     """Everything measured, as plain data (infinite errors as null)."""
-    families = [
-        {
-            "name": family.name,
-            "formula": family.formula,
-            "tolerance": family.tolerance,
-            "rungs": [_finite(asdict(rung)) for rung in family.rungs],
-            "peers": [
-                {"name": name, "exam": _finite(asdict(exam)), "hard": _finite(asdict(hard))}
-                for name, exam, hard in family.peers
-            ],
-        }
-        for family in report.families
-    ]
-    knobs = {key: [asdict(curve) for curve in curves] for key, curves in report.knobs}
     return {
-        "format": "quizgen-tradeoff/1",
+        "format": "quizgen-tradeoff/2",
         "command": command,
         "machine": report.machine,
-        "measure": "forward error in doubles from the correctly rounded value; bits = log2(1 + n)",
-        "ladder_seconds": report.ladder_seconds,
-        "figure_seconds": report.figure_seconds,
-        "families": families,
-        "knobs": knobs,
+        "date": report.date,
+        "effort": asdict(report.effort),
+        "measure": "correct decimal digits of the worst result, 17 for all; forward error in "
+        "doubles from the correctly rounded value; bits = log2(1 + n); seconds as median and "
+        "quartiles",
+        "figure": asdict(report.figure),
+        "families": [_finite(asdict(family)) for family in report.families],
+        "knobs": {key: [asdict(curve) for curve in curves] for key, curves in report.knobs},
     }
 
 
 def _finite(data: object) -> object:
     if isinstance(data, dict):
         return {key: _finite(value) for key, value in data.items()}
+    if isinstance(data, tuple | list):
+        return [_finite(value) for value in data]
     return None if isinstance(data, float) and math.isinf(data) else data
 
 
+def as_csv(report: Report) -> str:
+    """One row per way of computing a formula."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(HEAD)
+    for number, family in enumerate(report.families, 1):
+        for rung in family.rungs:
+            writer.writerow([family.name, number, rung.key, *_times(rung.time), *_errors(rung)])
+    return text.getvalue()
+
+
+def _times(time: Timing) -> list[str]:
+    return [f"{1e9 * seconds:.4g}" for seconds in (time.median, time.low, time.high)]
+
+
+def _errors(rung: Measured) -> list[str]:
+    return [
+        "" if math.isinf(value) else f"{value:.4g}"
+        for found in (rung.exam, rung.hard)
+        for value in (found.digits, found.max_steps, found.mean_bits, found.lost)
+    ]
+
+
 def markdown(report: Report, command: str) -> str:
-    """A short table in English: the printed formula beside the stable and the proven ways."""
+    """A short table in English: what each step costs and brings on hard inputs, and the verdict."""
     text = words("en")
-    head = "| question | printed formula, float64 | stable form, float64 | exact or Arb |"
+    head = "| formula | printed to stable | stable to exact | verdict |"
     lines = [f"`{command}` on {report.machine}", "", head, "|---|---|---|---|"]
     for family in report.families:
-        rungs = {rung.key: rung for rung in family.rungs}
-        proven = min((r for k, r in rungs.items() if k in EXACT), key=lambda r: r.nanoseconds)
-        cells = [_cell(rung) for rung in (rungs["float64"], rungs["stable"], proven)]
-        lines.append(f"| {text['family'][family.name]['title']} | {' | '.join(cells)} |")
-    verdict = text["page"]["verdict"].format(
-        ladder=time_text(report.ladder_seconds * 1e9), figure=time_text(report.figure_seconds * 1e9)
-    )
-    note = "Time per value; largest error in doubles on exam inputs, on hard inputs."
-    return "\n".join([*lines, "", note, "", verdict, ""])
+        title = text["family"][family.name]["title"]
+        steps = " | ".join(steps_text(family, "hard", text))
+        lines.append(f"| {title} | {steps} | {verdict_text(family, report, text)} |")
+    return "\n".join([*lines, "", text["overview"]["measure"], ""])
 
 
-def _cell(rung: Measured) -> str:
-    errors = ", ".join(_plain(each.max_steps) for each in (rung.exam, rung.hard))
-    return f"{time_text(rung.nanoseconds)}; {errors}"
+def steps_text(family: FamilyReport, inputs: str, text: dict[str, Any]) -> tuple[str, str]:
+    """Both steps of a family in words."""
+    one = road(family, inputs)
+    steps = cost(one.printed, one.stable), cost(one.stable, one.proven)
+    first, second = (cost_text(step, text["overview"]) for step in steps)
+    return first, second
 
 
-def _plain(steps: float) -> str:
-    return f"{steps:.0f}" if steps < 10000 else f"{steps:.0e}".replace("e+", "e")
+def verdict_text(family: FamilyReport, report: Report, text: dict[str, Any]) -> str:
+    """What is graded, what it costs, and what pictures use."""
+    spent = proven(family).nanoseconds
+    share = 100 * spent / (1e9 * report.figure.median)
+    said: str = text["overview"]["verdict"].format(cost=time_text(spent), share=f"{share:.2g}")
+    return said
+
+
+def digits_said(count: float, lang: str) -> str:
+    """Correct digits for a table."""
+    return digits_text(count, words(lang)["overview"]["every"])

@@ -15,23 +15,16 @@ from functools import cached_property
 import numpy as np
 
 from quizgen.arrays import (
-    blur,
     depth_of_field,
     distortion,
     gamma,
     gaussian,
-    hsv,
-    normalise,
     poisson,
     projection,
-    snr,
-    stops,
-    thin_lens,
-    vignetting,
-    weak_perspective,
 )
 from quizgen.arrays.aliases import Result
 from quizgen.maths.tree import Call, Expr, Num, substitute
+from quizgen.tradeoff import plain
 from quizgen.tradeoff.rung import Column
 
 Random = np.random.Generator
@@ -53,7 +46,9 @@ class Family:
     source : str or tuple
         Formula text, or solver and quantity of its chain.
     stable : callable
-        The array function.
+        The array function, or one plain line of NumPy where that is as accurate.
+    printed : callable, optional
+        The formula as a textbook prints it, where a chain says it in another way.
     exam, hard : callable
         Inputs.
     tolerance : float
@@ -79,6 +74,12 @@ class Family:
     rational: bool = True
     decimal: bool = False
     whole_turn: float = 0.0
+    printed: Callable[..., Column] | None = None
+
+    @property
+    def one_line(self) -> bool:
+        """Whether one plain line is as accurate as a function could be."""
+        return self.stable.__module__ == plain.__name__
 
     @cached_property
     def formula(self) -> Expr | None:
@@ -242,11 +243,11 @@ FAMILIES = (
         _tail_exam, _tail_hard, given={"t_1": "k", "sigma": "1"}, rational=False,
     ),
     Family(
-        "thin-lens", ("f", "z"), ("optics/thin_lens", "z'"), thin_lens.image_distance,
+        "thin-lens", ("f", "z"), ("optics/thin_lens", "z'"), plain.image_distance,
         _lens_exam, _lens_hard,
     ),
     Family(
-        "blur-disc", ("f", "N_1", "s", "z"), ("optics/blur_disc", "c"), blur.blur_disc,
+        "blur-disc", ("f", "N_1", "s", "z"), ("optics/blur_disc", "c"), plain.blur_disc,
         _blur_exam, _blur_hard,
         given={"z'_s": "1/(1/f - 1/s)", "z'_p": "1/(1/f - 1/z)"},
     ),
@@ -256,7 +257,7 @@ FAMILIES = (
         depth_of_field.far_limit, _field_exam, _field_hard,
     ),
     Family(
-        "stops", ("a", "b"), "2*(log2(b) - log2(a))", stops.stops,
+        "stops", ("a", "b"), "2*(log2(b) - log2(a))", plain.stops,
         lambda rng, n: [_pick(rng, _STOPS[:4], n), _pick(rng, _STOPS[4:], n)],
         _stops_hard, rational=False,
     ),
@@ -265,12 +266,12 @@ FAMILIES = (
         _inverse_exam, _inverse_hard, rational=False,
     ),
     Family(
-        "hue", ("R", "G", "B"), ("colour/rgb_to_hsv", "H"), hsv.hue,
-        _colour_exam, _colour_hard, whole_turn=360.0,
+        "hue", ("R", "G", "B"), ("colour/rgb_to_hsv", "H"), plain.hue,
+        _colour_exam, _colour_hard, whole_turn=360.0, printed=plain.hue,
     ),
     Family(
         "normalisation", ("I", "I_min", "I_max", "N_min", "N_max"),
-        ("normalisation/linear_normalisation", "N_b"), normalise.normalise,
+        ("normalisation/linear_normalisation", "N_b"), plain.normalise,
         _range_exam, _range_hard,
     ),
     Family(
@@ -279,12 +280,12 @@ FAMILIES = (
     ),
     Family(
         "weak-perspective", ("z", "zbar"), "(1/z - 1/zbar)/(1/z)",
-        weak_perspective.scale_error,
+        plain.scale_error,
         lambda rng, n: [rng.integers(90, 99, n) / 10, rng.integers(100, 111, n) / 10],
         _depths_hard,
     ),
     Family(
-        "snr-loss", ("N", "s"), "1 - (N/sqrt(N + s^2))/sqrt(N)", snr.snr_loss,
+        "snr-loss", ("N", "s"), "1 - (N/sqrt(N + s^2))/sqrt(N)", plain.snr_loss,
         lambda rng, n: [100.0 * rng.integers(1, 50, n), rng.integers(2, 12, n) * 1.0],
         lambda rng, n: [10 ** rng.uniform(6, 18, n), rng.uniform(1, 10, n)],
         rational=False,
@@ -299,7 +300,7 @@ FAMILIES = (
         _gap_exam, _gap_hard, tolerance=0.02, rational=False,
     ),
     Family(
-        "vignetting", ("r", "f"), "1 - (1/(1 + (r/f)^2))^2", vignetting.falloff,
+        "vignetting", ("r", "f"), "1 - (1/(1 + (r/f)^2))^2", plain.falloff,
         lambda rng, n: [rng.integers(5, 22, n) * 1.0, _pick(rng, _FOCAL, n)],
         lambda rng, n: [10 ** rng.uniform(-7, -1, n), _pick(rng, _FOCAL, n)],
     ),

@@ -8,19 +8,20 @@ from functools import partial
 
 import numpy as np
 
-from quizgen.arrays import blur, distortion, gaussian, luminosity, poisson
+from quizgen.arrays import distortion, gaussian, luminosity, poisson
 from quizgen.arrays.double_double import Double
-from quizgen.tradeoff.measure import Effort, best_time
+from quizgen.tradeoff import plain
+from quizgen.tradeoff.measure import Effort, Timing, timed
 from quizgen.tradeoff.rung import Column
 from quizgen.tradeoff.special import fixed_point
 
 
 @dataclass(frozen=True)
 class Point:
-    """One setting: its label, seconds for a fixed piece of work, and the error it leaves."""
+    """One setting: its label, the time of a fixed piece of work, and the error it leaves."""
 
     label: str
-    seconds: float
+    time: Timing
     error: float
 
 
@@ -52,12 +53,12 @@ def _iterations(effort: Effort) -> Iterator[Curve]:
         for count in (1, 2, 5, 10, 20, 50, 100, 200):
             value = float(fixed_point(radii, k1, count)[0])
             work = partial(fixed_point, radii, k1, count)
-            seconds = best_time(work, effort.repeats)
-            points.append(Point(str(count), seconds, abs(value / right - 1)))
+            spent = timed(work, effort.repeats)
+            points.append(Point(str(count), spent, abs(value / right - 1)))
         closed = partial(distortion.inverse_radius, radii, k1)
-        seconds = best_time(closed, effort.repeats)
+        spent = timed(closed, effort.repeats)
         value = float(distortion.inverse_radius(radii, k1)[0])
-        yield Curve(f"{share:g}", (*points, Point("=", seconds, abs(value / right - 1))))
+        yield Curve(f"{share:g}", (*points, Point("=", spent, abs(value / right - 1))))
 
 
 def _kernel(effort: Effort) -> Iterator[Curve]:
@@ -72,8 +73,8 @@ def _kernel(effort: Effort) -> Iterator[Curve]:
         cut = np.minimum((for_edge - tail(t)) / inside, 1.0)
         reach = int(t * sigma)
         taps = np.exp(-(np.arange(-reach, reach + 1) ** 2) / (2 * sigma**2))
-        seconds = best_time(partial(np.convolve, row, taps, "same"), effort.repeats)
-        points.append(Point(f"{t:g}", seconds, float(255 * np.max(np.abs(cut - for_edge)))))
+        spent = timed(partial(np.convolve, row, taps, "same"), effort.repeats)
+        points.append(Point(f"{t:g}", spent, float(255 * np.max(np.abs(cut - for_edge)))))
     yield Curve("sigma = 8", tuple(points))
 
 
@@ -101,38 +102,44 @@ def _supersampling(effort: Effort) -> Iterator[Curve]:
 
     points = []
     for n in (1, 2, 4, 8, 16, 32):
-        seconds = best_time(partial(sampled, n), effort.repeats)
+        spent = timed(partial(sampled, n), effort.repeats)
         error = 255 * float(np.max(np.abs(sampled(n) - right)))
-        points.append(Point(f"{n}x{n}", seconds, error))
-    seconds = best_time(lambda: coverage(a, b, c), effort.repeats)
-    points.append(Point("=", seconds, 0.0))
+        points.append(Point(f"{n}x{n}", spent, error))
+    spent = timed(lambda: coverage(a, b, c), effort.repeats)
+    points.append(Point("=", spent, 0.0))
     yield Curve("n x n", tuple(points))
 
 
 def _layers(effort: Effort) -> Iterator[Curve]:
     """Depth slices for a blurred picture: largest error of the blur disc in pixels."""
-    f, N, s, pitch = 50.0, 1.8, 3000.0, 0.005
+    (f, N, s), pitch = np.array([50.0, 1.8, 3000.0]), 0.005
     depth = 1 / np.linspace(1 / 1000, 1 / 50000, 4001)
     picture = np.random.default_rng(1).random((256, 256))
 
     def signed(z: Column) -> Column:
-        return np.asarray(blur.blur_disc(f, N, s, z)) * np.sign(z - s) / pitch
+        disc: Column = plain.blur_disc(f, N, s, z) * np.sign(z - s) / pitch
+        return disc
+
+    def slices(count: int) -> None:
+        for _ in range(count):
+            one_pass()
 
     def one_pass() -> Column:
         total = np.cumsum(np.cumsum(picture, axis=0), axis=1)
         return total[15:, 15:] - total[:-15, 15:] - total[15:, :-15] + total[:-15, :-15]
 
-    once = best_time(one_pass, effort.repeats)
+    counts = (2, 4, 8, 16, 32, 64)
+    spent = {count: timed(partial(slices, count), effort.repeats) for count in counts}
     maps: dict[str, Callable[[Column], Column]] = {"1/z": np.reciprocal, "z": np.positive}
     for label, of in maps.items():
         points = []
-        for count in (2, 4, 8, 16, 32, 64):
+        for count in counts:
             position = of(depth)
             low, width = position.min(), np.ptp(position) / count
             index = np.minimum((position - low) // width, count - 1)
             middle = of(low + (index + 0.5) * width)
             error = float(np.max(np.abs(signed(middle) - signed(depth))))
-            points.append(Point(str(count), once * count, error))
+            points.append(Point(str(count), spent[count], error))
         yield Curve(label, tuple(points))
 
 
@@ -145,10 +152,10 @@ def _photons(effort: Effort) -> Iterator[Curve]:
     for N in (1.0, 10.0, 100.0, 1e3, 1e4, 1e6):
         k = np.unique(np.floor(np.maximum(N + np.sqrt(N) * np.linspace(-6, 6, 401), 0)))
         error = np.max(np.abs(np.asarray(lower(k, N)) - tail(-(k - N) / np.sqrt(N))))
-        seconds = best_time(partial(rng.poisson, N, 4096), effort.repeats)
-        exact.append(Point(f"N = {N:g}", seconds, 0.0))
-        seconds = best_time(partial(rng.normal, N, N**0.5, 4096), effort.repeats)
-        normal.append(Point(f"N = {N:g}", seconds, float(error)))
+        spent = timed(partial(rng.poisson, N, 4096), effort.repeats)
+        exact.append(Point(f"N = {N:g}", spent, 0.0))
+        spent = timed(partial(rng.normal, N, N**0.5, 4096), effort.repeats)
+        normal.append(Point(f"N = {N:g}", spent, float(error)))
     yield Curve("normal", tuple(normal))
     yield Curve("Poisson", tuple(exact))
 
@@ -168,10 +175,10 @@ def _wavelengths(effort: Effort) -> Iterator[Curve]:
                 line = np.exp(-(((at - centre) / sigma) ** 2) / 2) / (sigma * (2 * np.pi) ** 0.5)
                 return float(light.KM * step * np.sum(line * np.asarray(light.photopic(at))))
 
-            seconds = best_time(total, effort.repeats)
-            points.append(Point(f"{step:g} nm", seconds, abs(total() / right - 1)))
-        seconds = best_time(partial(light.line_flux, 1.0, centre, fwhm), effort.repeats)
-        yield Curve(f"{fwhm:g} nm", (*points, Point("=", seconds, 0.0)))
+            spent = timed(total, effort.repeats)
+            points.append(Point(f"{step:g} nm", spent, abs(total() / right - 1)))
+        spent = timed(partial(light.line_flux, 1.0, centre, fwhm), effort.repeats)
+        yield Curve(f"{fwhm:g} nm", (*points, Point("=", spent, 0.0)))
 
 
 KNOBS = (

@@ -45,8 +45,10 @@ def rungs(family: Family) -> list[Rung]:
 
 
 def _array(family: Family, formula: Expr, bits: int) -> Rung:
-    compiled = compile_expr(formula, arrays(bits))
     number = np.float32 if bits == 32 else np.float64
+    if family.printed is not None:
+        return Rung(f"float{bits}", "array", family.printed, lambda column: column.astype(number))
+    compiled = compile_expr(formula, arrays(bits))
 
     def run(*columns: Column) -> Column:
         return compiled(dict(zip(family.names, columns, strict=True)))

@@ -1,20 +1,24 @@
 """Time per value and distance from the truth.
 
-The distance is forward error in steps: how many doubles lie between the result and the correctly
-rounded value. Bits of error are Herbie's log2(steps + 1): 0 is correctly rounded, 64 is a NaN.
+For people the distance is correct decimal digits, 0 to 16, or all of them; in the details it is
+forward error in steps: how many doubles lie between the result and the correctly rounded value.
+Bits of error are Herbie's log2(steps + 1): 0 is correctly rounded, 64 is a NaN.
 """
 
 from __future__ import annotations
 
 import math
+import statistics
 import time
 import warnings
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, SupportsFloat
 
 import numpy as np
 
+from quizgen.arrays.kernel import BLOCK
+from quizgen.tradeoff.digits import digits
 from quizgen.tradeoff.families import Family
 from quizgen.tradeoff.ladder import rungs, truths
 from quizgen.tradeoff.rung import Column, Rung
@@ -37,7 +41,7 @@ class Effort:
 
 
 FULL = Effort(inputs=400, scalars=60, repeats=7)
-QUICK = Effort(inputs=60, scalars=8, repeats=2)
+QUICK = Effort(inputs=60, scalars=8, repeats=3)
 
 
 @dataclass(frozen=True)
@@ -50,6 +54,21 @@ class Accuracy:
     max_bits: float
     lost: float
     """Share of inputs with fewer than 24 correct bits."""
+    digits: float
+    """Correct decimal digits of the worst result; 17 if all of all results are."""
+
+
+@dataclass(frozen=True)
+class Timing:
+    """Seconds of several runs of the same: the median, and the quartiles around it."""
+
+    median: float
+    low: float
+    high: float
+
+    def per(self, count: float) -> Timing:
+        """The same for one of so many."""
+        return Timing(self.median / count, self.low / count, self.high / count)
 
 
 @dataclass(frozen=True)
@@ -58,9 +77,14 @@ class Measured:
 
     key: str
     kind: str
-    nanoseconds: float
+    time: Timing
     exam: Accuracy
     hard: Accuracy
+
+    @property
+    def nanoseconds(self) -> float:
+        """Median time per value."""
+        return 1e9 * self.time.median
 
 
 def steps(value: float, truth: float, turn: float = 0.0) -> float:
@@ -88,7 +112,8 @@ def accuracy(
     values: Iterable[SupportsFloat], right: Sequence[float], turn: float = 0.0
 ) -> Accuracy:
     """Summarise errors against correctly rounded values."""
-    errors = [steps(float(v), r, turn) for v, r in zip(values, right, strict=True)]
+    pairs = [(float(v), r) for v, r in zip(values, right, strict=True)]
+    errors = [steps(v, r, turn) for v, r in pairs]
     bits = [bits_of(error) for error in errors]
     return Accuracy(
         len(errors),
@@ -96,17 +121,26 @@ def accuracy(
         sum(bits) / len(bits),
         max(bits),
         sum(b > 53 - KEPT_BITS for b in bits) / len(bits),
+        min(digits(v, r, turn) for v, r in pairs),
     )
 
 
-def best_time(call: Callable[[], Any], repeats: int) -> float:
-    """Least seconds of several runs."""
-    best = math.inf
+def timed(call: Callable[[], Any], repeats: int) -> Timing:
+    """Time several runs."""
+    spent = []
     for _ in range(repeats):
         start = time.perf_counter()
         call()
-        best = min(best, time.perf_counter() - start)
-    return best
+        spent.append(time.perf_counter() - start)
+    return spread(spent)
+
+
+def spread(seconds: Sequence[float]) -> Timing:
+    """Median and quartiles of what was measured."""
+    if len(seconds) == 1:
+        return Timing(seconds[0], seconds[0], seconds[0])
+    low, middle, high = statistics.quantiles(seconds, n=4, method="inclusive")
+    return Timing(middle, low, high)
 
 
 class Bench:
@@ -122,45 +156,60 @@ class Bench:
             self.sets[name] = (columns, rows, truths(family, rows))
 
     def run(self) -> list[Measured]:
-        """Measure every rung."""
-        return [self.rung(rung) for rung in rungs(self.family)]
+        """Measure every rung; a formula that is stable as printed is timed once."""
+        found = [self.rung(rung) for rung in rungs(self.family)]
+        if self.family.printed is not self.family.stable:
+            return found
+        printed = next(rung.time for rung in found if rung.key == "float64")
+        return [replace(rung, time=printed) if rung.key == "stable" else rung for rung in found]
 
     def rung(self, rung: Rung) -> Measured:
         """Measure one rung."""
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")
-            measure = self._array if rung.kind == "array" else self._scalar
-            nanoseconds = measure(rung, "exam", timed=True)[1]
-            exam, hard = (measure(rung, name, timed=False)[0] for name in ("exam", "hard"))
-        return Measured(rung.key, rung.kind, nanoseconds, exam, hard)
+            array = rung.kind == "array"
+            spent = self._array_time(rung) if array else self._scalar_time(rung)
+            measure = self._array if array else self._scalar
+            exam, hard = (measure(rung, name) for name in ("exam", "hard"))
+        return Measured(rung.key, rung.kind, spent, exam, hard)
 
-    def _array(self, rung: Rung, name: str, *, timed: bool) -> tuple[Accuracy, float]:
+    def checks(self) -> Timing:
+        """Time per value of looking at every argument once, as the array functions do first."""
+        long = [np.resize(column, ARRAY) for column in self.sets["exam"][0]]
+
+        def look() -> None:
+            for start in range(0, ARRAY, BLOCK):
+                for column in long:
+                    part = column[start : start + BLOCK]
+                    part.min(), part.max()
+
+        return timed(look, self.effort.repeats).per(ARRAY)
+
+    def _array_time(self, rung: Rung) -> Timing:
+        inputs = [rung.prepare(_whole(column)) for column in self.sets["exam"][0]]
+        long = [np.resize(column, ARRAY) if column.ndim else column for column in inputs]
+        return timed(lambda: rung.run(*long), self.effort.repeats).per(ARRAY)
+
+    def _scalar_time(self, rung: Rung) -> Timing:
+        inputs = [rung.prepare(row) for row in self.sets["exam"][1][: self.effort.scalars]]
+        return timed(lambda: [rung.run(one) for one in inputs], 3).per(len(inputs))
+
+    def _array(self, rung: Rung, name: str) -> Accuracy:
         columns, _, right = self.sets[name]
         inputs = [rung.prepare(_whole(column)) for column in columns]
-        if timed:
-            long = [np.resize(column, ARRAY) if column.ndim else column for column in inputs]
-            seconds = best_time(lambda: rung.run(*long), self.effort.repeats)
-            return _NOTHING, seconds / ARRAY * 1e9
         finish = rung.finish if rung.finish is not float else np.asarray
-        return accuracy(finish(rung.run(*inputs)), right, self.family.whole_turn), 0.0
+        return accuracy(finish(rung.run(*inputs)), right, self.family.whole_turn)
 
-    def _scalar(self, rung: Rung, name: str, *, timed: bool) -> tuple[Accuracy, float]:
+    def _scalar(self, rung: Rung, name: str) -> Accuracy:
         _, rows, right = self.sets[name]
         count = self.effort.scalars
-        inputs = [rung.prepare(row) for row in rows[:count]]
-        if timed:
-            seconds = best_time(lambda: [rung.run(one) for one in inputs], 2)
-            return _NOTHING, seconds / len(inputs) * 1e9
-        values = [rung.finish(rung.run(one)) for one in inputs]
-        return accuracy(values, right[:count], self.family.whole_turn), 0.0
+        values = [rung.finish(rung.run(rung.prepare(row))) for row in rows[:count]]
+        return accuracy(values, right[:count], self.family.whole_turn)
 
 
 def _whole(column: Column) -> Column | np.floating[Any]:
     """One number where all are the same: a camera is the same for all its pixels."""
     return column[0] if (column == column[0]).all() else column
-
-
-_NOTHING = Accuracy(0, 0.0, 0.0, 0.0, 0.0)
 
 
 def pareto(points: Sequence[tuple[float, float]]) -> list[int]:

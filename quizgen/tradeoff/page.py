@@ -1,4 +1,4 @@
-"""The page: one self-contained HTML file in every language, without scripts."""
+"""The page: one self-contained HTML file in every language."""
 
 from __future__ import annotations
 
@@ -15,12 +15,21 @@ from quizgen.files import write_all
 from quizgen.locale import language, languages
 from quizgen.render.fonts import bangla_uri
 from quizgen.render.layouts import environment
-from quizgen.tradeoff.data import as_data, markdown, words
+from quizgen.render.typ import png
+from quizgen.tradeoff import overview
+from quizgen.tradeoff.data import (
+    as_csv,
+    as_data,
+    digits_said,
+    markdown,
+    steps_text,
+    verdict_text,
+    words,
+)
 from quizgen.tradeoff.knobs import Curve
-from quizgen.tradeoff.measure import Measured, pareto
+from quizgen.tradeoff.measure import Measured, Timing, pareto
 from quizgen.tradeoff.plot import (
-    HEIGHT,
-    PANEL,
+    Axes,
     Mark,
     accuracy_panel,
     document,
@@ -28,21 +37,25 @@ from quizgen.tradeoff.plot import (
     time_text,
     work_panel,
 )
-from quizgen.tradeoff.report import FamilyReport, Report
+from quizgen.tradeoff.report import FamilyReport, Peer, Report
 
 HALF_PIXEL = 0.5 / 255
-_ROUNDING = 2.0**-53
 
 
 def write(report: Report, folder: Path, command: str) -> list[Path]:
-    """Write the page, its data, a short table and one SVG per plot; return their paths."""
-    plots = {family.name: family_plot(family, "en") for family in report.families}
+    """Write the page, its data and tables, one SVG per plot and the overview as PNG as well."""
+    plots = {family.name: document(family_panels(family, "en"), family.name)
+             for family in report.families}  # fmt: skip
     plots |= {key: knob_plot(key, curves, "en") for key, curves in report.knobs}
+    plots["overview"] = document(overview_panels(report, "en"), words("en")["overview"]["title"])
     made = {f"{name}.svg": svg for name, svg in plots.items()}
     made["tradeoff.json"] = json.dumps(as_data(report, command), indent=1) + "\n"
+    made["tradeoff.csv"] = as_csv(report)
     made["tradeoff.md"] = markdown(report, command)
-    made["tradeoff.html"] = html(report, command)
-    return write_all(folder, {name: text.encode() for name, text in made.items()})
+    page = {"tradeoff.html": html(report, command).encode()}
+    pictures = {"overview.png": png(plots["overview"].encode(), 560)}
+    texts = {name: text.encode() for name, text in made.items()}
+    return write_all(folder, texts | pictures | page)
 
 
 def html(report: Report, command: str) -> str:
@@ -64,12 +77,19 @@ def fragment(report: Report, command: str, lang: str) -> str:
 @cache
 def _layouts() -> jinja2.Environment:
     layouts = environment("quizgen.tradeoff")
-    layouts.filters.update(time=time_text, count=count)
+    layouts.filters.update(time=time_text, count=count, spread=spread_text)
     layouts.globals.update(
         faces={weight: bangla_uri(name) for name, weight in (("Regular", 400), ("Bold", 700))},
         words=words,
         front=lambda rungs: _front(rungs, "hard"),
-        family_plot=family_plot,
+        alone=lambda panel, title: document([panel], title),
+        overview_panels=overview_panels,
+        sentence=sentence,
+        steps_text=steps_text,
+        verdict_text=verdict_text,
+        digits=digits_said,
+        slower=slower,
+        family_panels=family_panels,
         knob_plot=knob_plot,
     )
     return layouts
@@ -80,25 +100,56 @@ def _front(rungs: tuple[Measured, ...], which: str) -> set[int]:
     return set(pareto([(rung.nanoseconds, getattr(rung, which).max_bits) for rung in rungs]))
 
 
-def family_plot(family: FamilyReport, lang: str) -> str:
-    """Both panels of a family."""
+def slower(way: Measured | Peer, family: FamilyReport) -> str:
+    """How many times the printed formula in float64 a way takes."""
+    printed = next(rung for rung in family.rungs if rung.key == "float64")
+    return f"× {overview.factor_text(way.time.median / printed.time.median)}"
+
+
+def _axes(lang: str) -> Axes:
+    page = words(lang)["page"]
+    return Axes(page["x"], page["y"], words(lang)["overview"]["every"])
+
+
+def overview_panels(report: Report, lang: str) -> list[str]:
+    """All formulas: on exam inputs, on hard inputs."""
+    text = words(lang)
+    return [
+        overview.panel(report, which, text["page"][which], _axes(lang), text["overview"])
+        for which in overview.INPUTS
+    ]
+
+
+def sentence(report: Report, lang: str) -> str:
+    """The picture in words."""
+    text = words(lang)["overview"]
+    roads = [overview.road(family, "hard") for family in report.families]
+    median = overview.middle(roads)
+    slower = overview.cost(median.printed, median.stable).slower
+    said: str = text["sentence"].format(
+        count=len(roads),
+        before=overview.digits_text(median.printed.digits, text["every"]),
+        stable=overview.digits_text(median.stable.digits, text["every"]),
+        slower=overview.factor_text(slower),
+        times=overview.factor_text(median.proven.time / median.stable.time),
+        proven=time_text(median.proven.time),
+        share=f"{median.proven.time / report.figure.median / 1e7:.2g}",
+        figure=time_text(1e9 * report.figure.median),
+    )
+    return said
+
+
+def family_panels(family: FamilyReport, lang: str) -> list[str]:
+    """Both panels of a family: exam inputs, hard inputs."""
     page = words(lang)["page"]
     rules = (
-        (_bits(family.tolerance / 2), page["tolerance"]),
-        (_bits(HALF_PIXEL), page["pixel"]),
+        (-math.log10(HALF_PIXEL), page["pixel"]),
+        (-math.log10(family.tolerance / 2), page["tolerance"]),
     )
-    panels = "".join(
-        accuracy_panel(
-            i * PANEL, page[which], _marks(family.rungs, which), rules, (page["x"], page["y"])
-        )
-        for i, which in enumerate(("exam", "hard"))
-    )
-    return document(panels, 2 * PANEL, HEIGHT, words(lang)["family"][family.name]["title"])
-
-
-def _bits(relative: float) -> float:
-    """Bits of error that a relative error amounts to."""
-    return math.log2(relative / _ROUNDING)
+    return [
+        accuracy_panel(page[which], _marks(family.rungs, which), rules, _axes(lang))
+        for which in overview.INPUTS
+    ]
 
 
 def _marks(rungs: tuple[Measured, ...], which: str) -> list[Mark]:
@@ -107,7 +158,7 @@ def _marks(rungs: tuple[Measured, ...], which: str) -> list[Mark]:
         Mark(
             i + 1,
             rung.nanoseconds,
-            getattr(rung, which).max_bits,
+            getattr(rung, which).digits,
             rung.kind == "scalar",
             i in front,
         )
@@ -125,8 +176,14 @@ def count(steps: float) -> str | None:
     return Markup("{}·10<sup>{}</sup>").format(leading, int(exponent))
 
 
+def spread_text(spent: Timing) -> str:
+    """The quartiles around a median."""
+    return f"{time_text(1e9 * spent.low)} – {time_text(1e9 * spent.high)}"
+
+
 def knob_plot(key: str, curves: tuple[Curve, ...], lang: str) -> str:
     """Work-precision plot of one setting."""
     text = words(lang)["knob"][key]
-    lines = [(c.label, [(p.label, p.seconds, p.error) for p in c.points]) for c in curves]
-    return document(work_panel(lines, text["error"]), PANEL + 180, HEIGHT, text["title"])
+    lines = [(c.label, [(p.label, p.time.median, p.error) for p in c.points]) for c in curves]
+    panel = work_panel(lines, text["error"], words(lang)["table"]["work"])
+    return document([panel], text["title"])

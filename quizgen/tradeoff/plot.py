@@ -1,26 +1,32 @@
-"""Two kinds of plot as SVG text: accuracy against time, and work against precision.
+"""Plots as SVG text: correct digits against time, work against precision, digits against an input.
 
 Points carry numbers that the table repeats, so nothing rests on colour; colours are CSS classes
-with fallbacks, so the same SVG serves light and dark pages and stands alone.
+with fallbacks, so the same SVG serves light and dark pages and stands alone. Every panel is as wide
+as a phone.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from html import escape
 from importlib.resources import files
 
+from quizgen.tradeoff.digits import ALL_DIGITS
+from quizgen.tradeoff.labels import Box, Labels, Placed
+
 STYLE = """
-.tp text{font:11px system-ui,"Hind Siliguri","QuizBangla",sans-serif;fill:currentColor}
+.tp text{font:12px system-ui,"Hind Siliguri","QuizBangla",sans-serif;fill:currentColor}
 .tp .axis{stroke:currentColor;stroke-width:1;fill:none}
 .tp .grid{stroke:currentColor;stroke-width:.5;opacity:.18}
 .tp .rule{stroke:currentColor;stroke-width:1;stroke-dasharray:5 3;opacity:.7}
+.tp .tie{stroke:currentColor;stroke-width:.6;opacity:.6}
 .tp .front{stroke:#0b62c4;stroke-width:2;fill:none}
 .tp .on{fill:#0b62c4;stroke:#0b62c4}.tp .off{fill:none;stroke:currentColor;opacity:.65}
 .tp .second{stroke:#b3470a;fill:#b3470a}.tp .third{stroke:#3f7d20;fill:#3f7d20}
-.tp .line{fill:none;stroke-width:1.6}.tp .small{font-size:10px}.tp .head{font-weight:600}
+.tp .line{fill:none;stroke-width:1.6}.tp .small{font-size:11px}.tp .head{font-weight:600}
+.tp .thin{stroke-width:.8;opacity:.45;fill:none}.tp .arrow{stroke-width:2.6;fill:none}
 """
 
 
@@ -29,7 +35,10 @@ def style() -> str:
     return (files("quizgen.tradeoff") / "pages" / "measured.css").read_text("utf-8") + STYLE
 
 
-PANEL, HEIGHT, LEFT, TOP, BOTTOM = 430, 300, 52, 26, 44
+PANEL, HEIGHT, LEFT, TOP, BOTTOM = 420, 300, 40, 30, 46
+RIGHT = PANEL - 12
+BOUNDS = Box(LEFT + 1, TOP - 8, PANEL - 1, HEIGHT - BOTTOM - 1)
+"""Where labels of a panel may stand."""
 
 
 @dataclass(frozen=True)
@@ -62,8 +71,17 @@ class Scale:
         return self.start + share * (self.end - self.start)
 
 
-def document(body: str, width: int, height: int, title: str) -> str:
-    """Wrap elements in one SVG with its own style."""
+TIMES = Scale(0.3, 3e7, LEFT, RIGHT, log=True)
+DIGITS = Scale(0.0, ALL_DIGITS, HEIGHT - BOTTOM, TOP)
+
+
+def document(panels: Sequence[str], title: str, height: int = HEIGHT) -> str:
+    """One SVG with its own style: panels beside each other."""
+    width = PANEL * len(panels)
+    body = "".join(
+        f'<g transform="translate({i * PANEL},0)">{panel}</g>' if i else panel
+        for i, panel in enumerate(panels)
+    )
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" class="tp" role="img" '
         f'viewBox="0 0 {width} {height}" width="{width}" height="{height}">'
@@ -79,114 +97,179 @@ def time_text(nanoseconds: float) -> str:
     return f"{nanoseconds:.3g} ns"
 
 
-def _text(x: float, y: float, text: str, anchor: str = "middle", kind: str = "small") -> str:
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def power_text(value: float) -> str:
+    """A power of ten: written out from 0.01 to 1000, else as 10⁻⁵."""
+    if 1e-2 <= value <= 1e3:
+        return f"{value:g}"
+    return "10" + str(round(math.log10(value))).translate(_RAISED)
+
+
+def text(x: float, y: float, said: str, anchor: str = "middle", kind: str = "small") -> str:
+    """A text element."""
     at = f'x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}" class="{kind}"'
-    return f"<text {at}>{escape(text)}</text>"
+    return f"<text {at}>{escape(said)}</text>"
 
 
-def _line(x1: float, y1: float, x2: float, y2: float, kind: str) -> str:
+def line(x1: float, y1: float, x2: float, y2: float, kind: str) -> str:
+    """A line element."""
     return f'<line x1="{x1:.1f}" y1="{y1:.1f}" x2="{x2:.1f}" y2="{y2:.1f}" class="{kind}"/>'
 
 
-def _decades(scale: Scale) -> list[float]:
+def path(points: Iterable[tuple[float, float]], kind: str) -> str:
+    """A line through points."""
+    return f'<polyline points="{joined(points)}" class="{kind}"/>'
+
+
+def joined(points: Iterable[tuple[float, float]]) -> str:
+    """Points as an element takes them."""
+    return " ".join(f"{px:.1f},{py:.1f}" for px, py in points)
+
+
+def label(placed: Placed | None, kind: str = "small") -> str:
+    """A label where it was placed, tied to its point if that is far."""
+    if placed is None:
+        return ""
+    said = text(placed.x, placed.y, placed.text, kind=kind)
+    if not placed.far:
+        return said
+    (x, y), box = placed.point, placed.box
+    near_x, near_y = min(max(x, box.left), box.right), min(max(y, box.top), box.bottom)
+    return line(x, y, near_x, near_y, "tie") + said
+
+
+def decades(scale: Scale) -> list[float]:
+    """Powers of ten on an axis; where it has fewer than two, its ends."""
     first, last = math.ceil(math.log10(scale.low)), math.floor(math.log10(scale.high))
-    stride = max(1, math.ceil((last - first) / 7))
+    stride = max(1, math.ceil((last - first) / 6))
     return [10.0**n for n in range(first, last + 1, stride)]
 
 
-def _frame(x: Scale, y: Scale) -> str:
-    points = f"{x.start},{y.end} {x.start},{y.start} {x.end},{y.start}"
-    return f'<polyline points="{points}" class="axis"/>'
+def frame(x: Scale, y: Scale) -> str:
+    """Both axes."""
+    return path([(x.start, y.end), (x.start, y.start), (x.end, y.start)], "axis")
+
+
+def digit_axis(y: Scale, x: Scale, name: str, every: str) -> str:
+    """Lines of correct digits across a panel; the highest is called by ``every``."""
+    parts = [text(4, 15, name, "start")]
+    for at in (0, 4, 8, 12, 16, ALL_DIGITS):
+        parts.append(line(x.start, y(at), x.end, y(at), "grid"))
+        if at != 16:
+            said = every if at == ALL_DIGITS else str(at)
+            parts.append(text(x.start - 5, y(at) + 4, said, "end"))
+    return "".join(parts)
+
+
+def time_axis(x: Scale, y: Scale, name: str) -> str:
+    """Lines of times across a panel."""
+    parts = [text(x.end, HEIGHT - 8, name, "end")]
+    for at in (1.0, 1e2, 1e4, 1e6):
+        parts.append(line(x(at), y.start, x(at), y.end, "grid"))
+        parts.append(text(x(at), y.start + 15, time_text(at)))
+    return "".join(parts)
+
+
+@dataclass(frozen=True)
+class Axes:
+    """What stands at the axes: time, digits, and how "all digits" is called."""
+
+    time: str
+    digits: str
+    every: str
 
 
 def accuracy_panel(
-    offset: int,
-    title: str,
-    marks: Sequence[Mark],
-    rules: Sequence[tuple[float, str]],
-    axes: tuple[str, str],
+    title: str, marks: Sequence[Mark], rules: Sequence[tuple[float, str]], axes: Axes
 ) -> str:
-    """One panel: time per value (log) against bits of error."""
-    x = Scale(0.3, 3e7, offset + LEFT, offset + PANEL - 12, log=True)
-    y = Scale(0.0, 66.0, HEIGHT - BOTTOM, TOP)
-    parts = [_text(offset + PANEL / 2, 15, title, kind="head"), _frame(x, y)]
-    parts.append(_text(x.end, HEIGHT - 8, axes[0], "end"))
-    parts.append(_text(offset + 8, 15, axes[1], "start"))
-    for at in (1.0, 1e2, 1e4, 1e6):
-        parts.append(_line(x(at), y.start, x(at), y.end, "grid"))
-        parts.append(_text(x(at), y.start + 15, time_text(at)))
-    for at in (0, 16, 32, 48, 64):
-        parts.append(_line(x.start, y(at), x.end, y(at), "grid"))
-        parts.append(_text(x.start - 6, y(at) + 4, str(at), "end"))
-    for (at, label), below in zip(rules, (False, True), strict=False):
-        parts.append(_line(x.start, y(at), x.end, y(at), "rule"))
-        parts.append(_text(x.end - 2, y(at) + (11 if below else -4), label, "end"))
+    """One panel: time per value (log) against correct digits."""
+    x, y = TIMES, DIGITS
+    labels = Labels(BOUNDS)
+    parts = [text(x.end, 15, title, "end", "head"), frame(x, y)]
+    parts += [digit_axis(y, x, axes.digits, axes.every), time_axis(x, y, axes.time)]
+    for (at, said), below in zip(rules, (False, True), strict=False):
+        parts.append(line(x.start, y(at), x.end, y(at), "rule"))
+        where = x.end - 2, y(at) + (13 if below else -4)
+        parts.append(text(*where, said, "end"))
+        labels.written(*where, said, "end")
+    for mark in marks:
+        labels.keep_clear(x(mark.x), y(mark.y))
     front = sorted((mark for mark in marks if mark.front), key=lambda mark: mark.x)
-    path = " ".join(f"{x(mark.x):.1f},{y(mark.y):.1f}" for mark in front)
-    parts.append(f'<polyline points="{path}" class="front"/>')
-    parts += [_dot(x(mark.x), y(mark.y), mark) for mark in marks]
-    return "".join(parts) + _numbers(x, y, marks)
+    parts.append(path([(x(mark.x), y(mark.y)) for mark in front], "front"))
+    parts += [dot(x(mark.x), y(mark.y), mark) for mark in marks]
+    ordered = sorted(marks, key=lambda mark: (mark.x, mark.y))
+    parts += [label(labels.place(str(m.number), x(m.x), y(m.y))) for m in ordered]
+    return "".join(parts)
 
 
-def _dot(px: float, py: float, mark: Mark) -> str:
+def dot(px: float, py: float, mark: Mark) -> str:
+    """A way over whole arrays is a circle, one of single values a square; the best are filled."""
     kind = "on" if mark.front else "off"
     if mark.scalar:
         return f'<rect x="{px - 4:.1f}" y="{py - 4:.1f}" width="8" height="8" class="{kind}"/>'
-    return f'<circle cx="{px:.1f}" cy="{py:.1f}" r="4.5" class="{kind}"/>'
+    return circle(px, py, kind, 4.5)
 
 
-_PLACES = ((0, -8), (11, 4), (-11, 4), (10, -9), (-10, -9), (0, -19), (11, -17), (-11, -17))
-"""Where a number may stand beside its point, best place first."""
+def circle(px: float, py: float, kind: str, radius: float = 3.5) -> str:
+    """A round point."""
+    return f'<circle cx="{px:.1f}" cy="{py:.1f}" r="{radius:g}" class="{kind}"/>'
 
 
-def _numbers(x: Scale, y: Scale, marks: Sequence[Mark]) -> str:
-    """Numbers beside the points, moved apart where points lie close together."""
-    taken = [(x(mark.x), y(mark.y) + 4) for mark in marks]
-    parts = []
-    for mark in sorted(marks, key=lambda mark: (mark.x, mark.y)):
-        px, py = x(mark.x), y(mark.y)
-        for dx, dy in _PLACES:
-            spot = (px + dx, py + dy)
-            if all(abs(spot[0] - a) > 9 or abs(spot[1] - b) > 9 for a, b in taken):
-                break
-        taken.append(spot)
-        parts.append(_text(*spot, str(mark.number)))
-    return "".join(parts)
+Setting = tuple[str, float, float]
+"""Label, seconds and error of a setting."""
+KINDS = ("on", "second", "third")
 
 
-def work_panel(curves: Sequence[tuple[str, Sequence[tuple[str, float, float]]]], unit: str) -> str:
+def work_panel(curves: Sequence[tuple[str, Sequence[Setting]]], unit: str, time: str) -> str:
     """Time (log) against error (log), one line per curve, each point with its setting."""
-    points = [point for _, line in curves for point in line]
+    points = [point for _, settings in curves for point in settings]
     seconds = [max(p[1], 1e-9) for p in points]
-    errors = [p[2] for p in points if p[2] > 0]
+    errors = [p[2] for p in points if p[2] > 0] or [1.0]
     floor = max(min(errors) / 10, 1e-18)
-    x = Scale(min(seconds) / 2, max(seconds) * 3, LEFT + 8, PANEL + 130, log=True)
-    y = Scale(floor, max(errors) * 3, HEIGHT - BOTTOM, TOP, log=True)
-    parts = [_frame(x, y), _text(x.start - 8, 15, unit, "start", "head")]
-    for at in _decades(x):
-        parts.append(_line(x(at), y.start, x(at), y.end, "grid"))
-        parts.append(_text(x(at), y.start + 15, time_text(at * 1e9)))
-    for at in _decades(y):
-        parts.append(_line(x.start, y(at), x.end, y(at), "grid"))
-        parts.append(_text(x.start - 6, y(at) + 4, f"{at:.0e}", "end"))
-    kinds = ("on", "second", "third")
-    for i, (kind, (label, line)) in enumerate(zip(kinds, curves, strict=False)):
-        parts.append(_curve(x, y, kind, line))
-        parts.append(_legend(x.end - 70, TOP + 8 + 15 * i, kind, label))
-    return "".join(parts)
+    x = Scale(_below(min(seconds) / 1.5), _above(max(seconds) * 1.5), LEFT + 8, RIGHT, log=True)
+    y = Scale(floor, max(errors) * 3, HEIGHT - BOTTOM, TOP + 14, log=True)
+    parts = [frame(x, y), text(4, 15, unit, "start", "head")]
+    parts.append(text(x.end, HEIGHT - 8, time, "end"))
+    for at in decades(x):
+        parts.append(line(x(at), y.start, x(at), y.end, "grid"))
+        parts.append(text(x(at), y.start + 15, time_text(at * 1e9)))
+    for at in decades(y):
+        parts.append(line(x.start, y(at), x.end, y(at), "grid"))
+        parts.append(text(x.start - 5, y(at) + 4, power_text(at), "end"))
+    return "".join(parts) + _curves(x, y, curves)
 
 
-def _legend(px: float, py: float, kind: str, label: str) -> str:
-    line = f'<polyline points="{px:.1f},{py:.1f} {px + 16:.1f},{py:.1f}" class="line {kind}"/>'
-    return line + _text(px + 21, py + 4, label, "start", "head")
+def _below(value: float) -> float:
+    """The power of ten below a time, so that an axis has two of them."""
+    return float(10.0 ** math.floor(math.log10(value)))
 
 
-def _curve(x: Scale, y: Scale, kind: str, line: Sequence[tuple[str, float, float]]) -> str:
-    """The settings joined by a line; the closed form stands alone."""
-    at = [(name, x(seconds), y(error)) for name, seconds, error in line]
-    path = " ".join(f"{px:.1f},{py:.1f}" for name, px, py in at if name != "=")
-    parts = [f'<polyline points="{path}" class="line {kind}" style="fill:none"/>']
-    for name, px, py in at:
-        parts.append(f'<circle cx="{px:.1f}" cy="{py:.1f}" r="3" class="{kind}"/>')
-        parts.append(_text(px + 5, py - 5, name, "start"))
+def _above(value: float) -> float:
+    return float(10.0 ** math.ceil(math.log10(value)))
+
+
+def _curves(x: Scale, y: Scale, curves: Sequence[tuple[str, Sequence[Setting]]]) -> str:
+    labels = Labels(BOUNDS)
+    parts, start = [], x.start + 8
+    for kind, (name, _) in zip(KINDS, curves, strict=False):
+        if len(curves) > 1:
+            parts.append(line(start, TOP + 2, start + 16, TOP + 2, f"line {kind}"))
+            parts.append(text(start + 20, TOP + 6, name, "start", "head"))
+            labels.written(start, TOP + 6, name + "###", "start")
+            start += 40 + 8 * len(name)
+    places = [(name, x(spent), y(off)) for _, row in curves for name, spent, off in row]
+    for _, px, py in places:
+        labels.keep_clear(px, py, 3.5)
+    for kind, (_, settings) in zip(KINDS, curves, strict=False):
+        at = [(name, x(spent), y(off)) for name, spent, off in settings]
+        whole = joined((px, py) for name, px, py in at if name != "=")
+        parts.append(f'<polyline points="{whole}" class="line {kind}" style="fill:none"/>')
+        parts += [circle(px, py, kind, 3) for _, px, py in at]
+    seen: dict[tuple[str, int, int], None] = {}
+    for name, px, py in places:
+        if (name, round(px / 12), round(py / 12)) not in seen:  # the same said once
+            seen[name, round(px / 12), round(py / 12)] = None
+            parts.append(label(labels.place(name, px, py)))
     return "".join(parts)

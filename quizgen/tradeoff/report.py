@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import os
 import platform
 import time
 import warnings
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from typing import Any
 
 import numpy as np
@@ -14,14 +16,16 @@ import numpy as np
 from quizgen.tradeoff.families import BY_NAME, FAMILIES, Family
 from quizgen.tradeoff.knobs import KNOBS, Curve, Knob
 from quizgen.tradeoff.measure import (
+    ARRAY,
     FULL,
     QUICK,
     Accuracy,
     Bench,
     Effort,
     Measured,
+    Timing,
     accuracy,
-    best_time,
+    timed,
 )
 from quizgen.tradeoff.peers import peers
 
@@ -33,19 +37,47 @@ def silent(_name: str) -> None:
     """Progress that nobody watches."""
 
 
+SLOW = 2e-6
+"""Seconds per value from which a library is timed on few values."""
+
 EXACT = {"exact", "arb"}
 """Rungs whose answer is proven."""
 
 
 @dataclass(frozen=True)
+class Peer:
+    """Another library: time per value and both accuracies."""
+
+    name: str
+    time: Timing
+    exam: Accuracy
+    hard: Accuracy
+
+
+@dataclass(frozen=True)
 class FamilyReport:
-    """Measurements of one family."""
+    """Measurements of one family.
+
+    Parameters
+    ----------
+    name, formula : str
+    tolerance : float
+        Relative tolerance of grading.
+    rungs : tuple of Measured
+    peers : tuple of Peer
+    checks : Timing
+        Time per value of looking at every argument once, which no rung needs for its digits.
+    one_line : bool
+        Whether the stable way is one plain line of NumPy.
+    """
 
     name: str
     formula: str
     tolerance: float
     rungs: tuple[Measured, ...]
-    peers: tuple[tuple[str, Accuracy, Accuracy], ...]
+    peers: tuple[Peer, ...]
+    checks: Timing
+    one_line: bool
 
 
 @dataclass(frozen=True)
@@ -55,9 +87,9 @@ class Report:
     families: tuple[FamilyReport, ...]
     knobs: tuple[tuple[str, tuple[Curve, ...]], ...]
     effort: Effort
-    ladder_seconds: float
-    figure_seconds: float
+    figure: Timing
     machine: str
+    date: str
     seconds: float
 
 
@@ -87,7 +119,7 @@ def measure(
         warnings.simplefilter("ignore")
         curves = () if names else tuple(_knob(knob, effort, progress) for knob in KNOBS)
     return Report(
-        families, curves, effort, _ladder(families), _figure(), _machine(),
+        families, curves, effort, _figure(), _machine(), _today(),
         time.perf_counter() - start,
     )  # fmt: skip
 
@@ -101,7 +133,10 @@ def _family(family: Family, effort: Effort, progress: Progress) -> FamilyReport:
     progress(family.name)
     bench = Bench(family, effort)
     others = tuple(_peer(bench, label, call) for label, call in peers(family.name).items())
-    return FamilyReport(family.name, _formula(family), family.tolerance, tuple(bench.run()), others)
+    return FamilyReport(
+        family.name, _formula(family), family.tolerance, tuple(bench.run()), others,
+        bench.checks(), family.one_line,
+    )  # fmt: skip
 
 
 def _formula(family: Family) -> str:
@@ -110,24 +145,33 @@ def _formula(family: Family) -> str:
     return "" if family.formula is None else to_text(family.formula)
 
 
-def _peer(bench: Bench, label: str, call: Callable[..., Any]) -> tuple[str, Accuracy, Accuracy]:
-    found = []
-    for name in ("exam", "hard"):
-        columns, _, right = bench.sets[name]
-        with warnings.catch_warnings(), np.errstate(all="ignore"):
-            warnings.simplefilter("ignore")
-            found.append(accuracy(list(call(*columns)), right, bench.family.whole_turn))
-    return label, found[0], found[1]
+def _peer(bench: Bench, label: str, call: Callable[..., Any]) -> Peer:
+    with warnings.catch_warnings(), np.errstate(all="ignore"):
+        warnings.simplefilter("ignore")
+        return Peer(
+            label,
+            _peer_time(bench, call),
+            *(_peer_accuracy(bench, name, call) for name in ("exam", "hard")),
+        )
 
 
-def _ladder(families: Iterable[FamilyReport]) -> float:
-    """Largest sum over a family of all proven rungs, in seconds per question."""
-    sums = [sum(r.nanoseconds for r in f.rungs if r.key in EXACT) for f in families]
-    return max(sums) * 1e-9
+def _peer_accuracy(bench: Bench, name: str, call: Callable[..., Any]) -> Accuracy:
+    columns, _, right = bench.sets[name]
+    return accuracy(list(call(*columns)), right, bench.family.whole_turn)
 
 
-def _figure() -> float:
-    """Seconds for one warm figure with a new number each time."""
+def _peer_time(bench: Bench, call: Callable[..., Any]) -> Timing:
+    """Time per value: of few values where one takes long, as it does in Python."""
+    columns = bench.sets["exam"][0]
+    few = timed(lambda: call(*columns), 2).per(len(columns[0]))
+    if few.median > SLOW:
+        return few
+    long = [np.resize(column, ARRAY) for column in columns]
+    return timed(lambda: call(*long), bench.effort.repeats).per(ARRAY)
+
+
+def _figure() -> Timing:
+    """Time of one warm figure with a new number each time."""
     from itertools import count
 
     from quizgen.figures import render
@@ -138,11 +182,15 @@ def _figure() -> float:
     def draw() -> None:
         render("gaussian", {"sigma": float(next(sigmas)), "k": 2.0}, quiz=False, lang="en")
 
-    return best_time(draw, 3)
+    return timed(draw, 5)
 
 
 def _machine() -> str:
     return (
-        f"{platform.system()} {platform.machine()}, Python {platform.python_version()}, "
-        f"NumPy {np.__version__}"
+        f"{platform.system()} {platform.machine()}, {os.cpu_count()} CPU, "
+        f"Python {platform.python_version()}, NumPy {np.__version__}"
     )
+
+
+def _today() -> str:
+    return datetime.now(UTC).date().isoformat()

@@ -142,11 +142,13 @@ def test_cards_have_fields_of_the_language(place):
 
 
 def test_the_tradeoff_page_has_the_language(known):
-    from quizgen.tradeoff.measure import QUICK
+    from quizgen.tradeoff.measure import QUICK, Timing
     from quizgen.tradeoff.page import html
     from quizgen.tradeoff.report import Report
 
-    page = html(Report((), (), QUICK, 0.001, 0.1, "a machine", 1.0), "quizgen tradeoff")
+    figure = Timing(0.1, 0.1, 0.1)
+    report = Report((), (), QUICK, figure, "a machine", "2026-01-01", 1.0)
+    page = html(report, "quizgen tradeoff")
     assert accented("What accuracy costs in time") in page
     assert f'<label for="{LANG}" lang="{LANG}">Áccénts</label>' in page
 

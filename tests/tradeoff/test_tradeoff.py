@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import json
 import math
 import xml.etree.ElementTree as ET
@@ -16,9 +17,10 @@ from quizgen.locale import languages
 from quizgen.maths.systems import arrays, compile_expr, multiprecision, symbolic
 from quizgen.tradeoff import ladder
 from quizgen.tradeoff.data import words
+from quizgen.tradeoff.digits import digits
 from quizgen.tradeoff.families import BY_NAME, FAMILIES
 from quizgen.tradeoff.knobs import KNOBS, coverage
-from quizgen.tradeoff.measure import QUICK, Bench, bits_of, pareto, steps
+from quizgen.tradeoff.measure import QUICK, Bench, bits_of, pareto, spread, steps
 
 SAFE = {"hue"}
 """Families whose printed formula is safe in float64 (the page says so)."""
@@ -94,6 +96,52 @@ def test_steps_between_doubles(value, truth, count):
     assert steps(value, truth) == count
 
 
+@pytest.mark.parametrize(
+    ("value", "truth", "count"),
+    [
+        (2.0, 2.0, 17),
+        (1.001, 1.0, 3),
+        (0.0, 3.0, 0),
+        (5.0, 1.0, 0),
+        (1e-300, 0.0, 0),
+        (math.nan, 1.0, 0),
+        (math.inf, 1.0, 0),
+        (math.inf, math.inf, 17),
+    ],
+)
+def test_correct_decimal_digits(value, truth, count):
+    assert round(digits(value, truth), 6) == count
+
+
+def test_a_double_beside_the_right_one_keeps_fifteen_digits():
+    assert 15 < digits(math.nextafter(1, 2), 1.0) < 16
+
+
+def test_digits_of_an_angle_are_those_of_the_turn():
+    assert digits(359.64, 0.0, 360.0) == pytest.approx(3)  # 0.36 of 360
+    assert digits(360.0, 0.0, 360.0) == 17
+
+
+def test_the_spread_is_median_and_quartiles():
+    found = spread([5.0, 1.0, 4.0, 2.0, 3.0])
+    assert (found.low, found.median, found.high) == (2.0, 3.0, 4.0)
+    assert found.per(2).median == 1.5
+
+
+@pytest.mark.parametrize("name", [name for name, family in BY_NAME.items() if family.one_line])
+def test_a_plain_line_is_as_accurate_as_a_function_could_be(measured, name):
+    assert measured[name]["stable"].hard.digits >= 15
+
+
+def test_the_textbook_hue_is_the_known_one():
+    import colorsys
+
+    rgb = np.random.default_rng(4).integers(0, 256, (300, 3)) / 255
+    rgb = rgb[np.ptp(rgb, axis=1) > 0]
+    expected = [360 * colorsys.rgb_to_hsv(*one)[0] for one in rgb.tolist()]
+    assert BY_NAME["hue"].printed(*rgb.T) == pytest.approx(expected)
+
+
 def test_bits_are_herbies():
     assert [bits_of(count) for count in (0, 1, 3, math.inf)] == [0, 1, 2, 64]
 
@@ -149,15 +197,25 @@ def test_command_writes_page_plots_and_data(tmp_path):
     page = (tmp_path / "tradeoff.html").read_text("utf-8")
     assert "http" not in page.replace("http://www.w3.org/2000/svg", "")
     assert "<script" not in page
-    assert page.count("<svg") == len(languages())
+    panels = 2 * 2  # overview and family, on exam and on hard inputs
+    assert page.count("<svg") == panels * len(languages())
     data = json.loads((tmp_path / "tradeoff.json").read_text("utf-8"))
     assert [rung["key"] for rung in data["families"][0]["rungs"]][:3] == [
         "float32",
         "float64",
         "stable",
     ]
-    svg = ET.parse(tmp_path / "thin-lens.svg").getroot()
-    assert svg.find("{http://www.w3.org/2000/svg}title").text
+    assert data["date"]
+    assert data["effort"]["repeats"] == 3
+    for name in ("thin-lens", "overview"):
+        svg = ET.parse(tmp_path / f"{name}.svg").getroot()
+        assert svg.find("{http://www.w3.org/2000/svg}title").text
+    assert (tmp_path / "overview.png").read_bytes().startswith(b"\x89PNG")
+    with (tmp_path / "tradeoff.csv").open(encoding="utf-8", newline="") as file:
+        rows = {row["way"]: row for row in csv.DictReader(file)}
+    assert rows["exact"]["hard_digits"] == "17"
+    assert float(rows["float64"]["hard_digits"]) < 4
+    assert float(rows["stable"]["low_ns"]) <= float(rows["stable"]["median_ns"])
 
 
 def test_unknown_family_is_one_line():

@@ -40,11 +40,11 @@ def test_the_page_of_the_command_stands_in_the_frame(client, token, measured, re
     assert '<nav aria-label="Menu">' in page
     assert '<a href="/tradeoff" aria-current="page">Accuracy</a>' in page
     plots = re.findall("<svg.*?</svg>", html(report, COMMAND), re.DOTALL)
-    assert len(plots) == len(languages())
-    assert plots[0] in page
-    assert plots[1] not in page
+    each = len(plots) // len(languages())
+    assert all(plot in page for plot in plots[:each])
+    assert plots[each] not in page
     client.post("/settings", data={"token": token, "lang": "bn", "back": "/"})
-    assert plots[1] in client.get("/tradeoff").text
+    assert plots[each] in client.get("/tradeoff").text
     client.post("/settings", data={"token": token, "lang": "en", "back": "/"})
 
 

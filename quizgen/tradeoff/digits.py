@@ -1,0 +1,25 @@
+"""How right a number is, for people: its correct decimal digits."""
+
+from __future__ import annotations
+
+import math
+
+MOST_DIGITS = 16
+ALL_DIGITS = 17.0
+"""Stands for a result that is right to the last bit."""
+
+
+def digits(value: float, truth: float, turn: float = 0.0) -> float:
+    """Correct decimal digits of a result: 0 to 16, or 17 if it is the nearest double."""
+    if math.isnan(value) or math.isinf(value) != math.isinf(truth):
+        return 0.0
+    if value == truth:
+        return ALL_DIGITS
+    if turn:
+        off = abs((value - truth + turn / 2) % turn - turn / 2) / turn
+        return _digits(off) if off else ALL_DIGITS
+    return _digits(abs(value - truth) / abs(truth)) if truth else 0.0
+
+
+def _digits(relative: float) -> float:
+    return min(max(-math.log10(relative), 0.0), float(MOST_DIGITS))

@@ -1,0 +1,186 @@
+"""The one picture: correct digits against time for every formula, from printed to stable to exact.
+
+Each family is a thin line through its three ways, with its number; the thick arrows are the medians
+over all families and say in words what a step costs and brings.
+"""
+
+from __future__ import annotations
+
+import math
+import statistics
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from quizgen.tradeoff.digits import ALL_DIGITS
+from quizgen.tradeoff.labels import Labels
+from quizgen.tradeoff.measure import Measured
+from quizgen.tradeoff.plot import (
+    BOUNDS,
+    HEIGHT,
+    LEFT,
+    RIGHT,
+    Axes,
+    Scale,
+    circle,
+    digit_axis,
+    frame,
+    joined,
+    label,
+    line,
+    path,
+    text,
+    time_text,
+)
+from quizgen.tradeoff.report import EXACT, FamilyReport, Report
+
+INPUTS = ("exam", "hard")
+_X = Scale(0.3, 3e5, LEFT, RIGHT, log=True)
+_Y = Scale(0.0, ALL_DIGITS, HEIGHT - 46, 44)
+
+
+@dataclass(frozen=True)
+class Way:
+    """Time per value in nanoseconds and correct digits."""
+
+    time: float
+    digits: float
+
+
+@dataclass(frozen=True)
+class Road:
+    """A family's three ways: as printed, stable, proven."""
+
+    printed: Way
+    stable: Way
+    proven: Way
+
+    def __iter__(self) -> Iterator[Way]:
+        """From the fastest to the surest."""
+        return iter((self.printed, self.stable, self.proven))
+
+
+@dataclass(frozen=True)
+class Cost:
+    """What a step from one way to another costs and brings: times slower, digits before, after."""
+
+    slower: float
+    before: float
+    after: float
+
+
+def proven(family: FamilyReport) -> Measured:
+    """The cheapest way whose answer is proven."""
+    return min((r for r in family.rungs if r.key in EXACT), key=lambda r: r.nanoseconds)
+
+
+def road(family: FamilyReport, inputs: str) -> Road:
+    """The three ways of a family on exam or on hard inputs."""
+    rungs = {rung.key: rung for rung in family.rungs}
+    ways = (rungs["float64"], rungs["stable"], proven(family))
+    return Road(*(Way(way.nanoseconds, getattr(way, inputs).digits) for way in ways))
+
+
+def cost(one: Way, other: Way) -> Cost:
+    """What the step between two ways costs and brings."""
+    return Cost(other.time / one.time, one.digits, other.digits)
+
+
+def middle(roads: Sequence[Road]) -> Road:
+    """Medians over families."""
+    columns = zip(*roads, strict=True)
+    return Road(
+        *(
+            Way(statistics.median(w.time for w in ways), statistics.median(w.digits for w in ways))
+            for ways in columns
+        )
+    )
+
+
+def digits_text(count: float, every: str) -> str:
+    """Whole correct digits, or the word for all of them."""
+    return every if count >= ALL_DIGITS else str(int(count))
+
+
+def factor_text(factor: float) -> str:
+    """How many times, in two or three figures."""
+    if factor < 0.095:
+        return f"{factor:.1g}"
+    return f"{factor:.1f}" if factor < 10 else f"{factor:.0f}" if factor < 1000 else grouped(factor)
+
+
+def grouped(number: float) -> str:
+    """A large number in two figures, its thousands apart."""
+    size = 10 ** (math.floor(math.log10(number)) - 1)
+    return f"{round(number / size) * size:,}".replace(",", "\u202f")
+
+
+def cost_text(step: Cost, said: dict[str, str]) -> str:
+    """A step in words: × 1.8 slower, 3 -> 15 digits."""
+    if 0.95 <= step.slower < 1.05:
+        head = said["same"]
+    elif step.slower < 1:
+        head = said["faster"].format(times=factor_text(1 / step.slower))
+    else:
+        head = said["slower"].format(times=factor_text(step.slower))
+    before, after = (digits_text(count, said["every"]) for count in (step.before, step.after))
+    return said["digits_same" if before == after else "digits_from"].format(
+        cost=head, before=before, after=after
+    )
+
+
+def panel(report: Report, inputs: str, title: str, axes: Axes, said: dict[str, str]) -> str:
+    """All families on exam or on hard inputs."""
+    roads = [road(family, inputs) for family in report.families]
+    median = middle(roads)
+    labels = Labels(BOUNDS)
+    parts = [text(RIGHT, 15, title, "end", "head"), frame(_X, _Y)]
+    parts += [digit_axis(_Y, _X, axes.digits, axes.every), _times(axes.time)]
+    for one in (*roads, median):
+        for way in one:
+            labels.keep_clear(*_at(way), 4)
+    parts += [path(map(_at, one), "thin off") for one in roads]
+    parts += [_points(one, inputs) for one in roads]
+    arrows = [(median.printed, median.stable), (median.stable, median.proven)]
+    parts += [_arrow(_at(start), _at(end)) for start, end in arrows]
+    for start, end in arrows:
+        (x1, y1), (x2, y2) = _at(start), _at(end)
+        words = cost_text(cost(start, end), said)
+        labels.size = 12
+        parts.append(label(labels.place(words, (x1 + x2) / 2, (y1 + y2) / 2 + 30), "head"))
+    labels.size = 11
+    for number, one in enumerate(roads, 1):
+        parts.append(label(labels.place(str(number), *_at(one.printed))))
+    return "".join(parts)
+
+
+def _at(way: Way) -> tuple[float, float]:
+    return _X(way.time), _Y(way.digits)
+
+
+def _times(name: str) -> str:
+    parts = [text(RIGHT, HEIGHT - 8, name, "end")]
+    for at in (1.0, 10.0, 100.0, 1e3, 1e4, 1e5):
+        parts.append(line(_X(at), _Y.start, _X(at), _Y.end, "grid"))
+        parts.append(text(_X(at), _Y.start + 15, time_text(at)))
+    return "".join(parts)
+
+
+def _points(one: Road, inputs: str) -> str:
+    """Circle, square, diamond; filled on hard inputs."""
+    full = {"exam": "off", "hard": ""}[inputs]
+    (ax, ay), (bx, by), (cx, cy) = map(_at, one)
+    diamond = f"M{cx:.1f} {cy - 5:.1f}l5 5l-5 5l-5-5z"
+    return (
+        circle(ax, ay, full or "second", 4)
+        + f'<rect x="{bx - 3.5:.1f}" y="{by - 3.5:.1f}" width="7" height="7" '
+        f'class="{full or "on"}"/><path d="{diamond}" class="{full or "third"}"/>'
+    )
+
+
+def _arrow(start: tuple[float, float], end: tuple[float, float]) -> str:
+    (x1, y1), (x2, y2) = start, end
+    size = max(((x2 - x1) ** 2 + (y2 - y1) ** 2) ** 0.5, 1e-9)
+    ux, uy = (x2 - x1) / size, (y2 - y1) / size
+    bx, by = x2 - 9 * ux, y2 - 9 * uy
+    head = joined([end, (bx - 5 * uy, by + 5 * ux), (bx + 5 * uy, by - 5 * ux)])
+    return path([start, (bx, by)], "front arrow") + f'<polygon points="{head}" class="on"/>'
