@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cache, cached_property
 from pathlib import Path
 from types import ModuleType
@@ -66,6 +66,27 @@ class Bank:
         self._chains: dict[str, tuple[Chain, bytes]] = {}
         if not self.folder.is_dir():
             raise BankError(f"{root}: no folder 'templates' here")
+
+    @property
+    def parts(self) -> tuple[Bank, ...]:
+        """The banks that it consists of: itself, unless it is a mixed one."""
+        return (self,)
+
+    def home(self, name: str) -> tuple[Bank, str]:
+        """The bank that a template stands in, and what it is called there.
+
+        Raises
+        ------
+        BankError
+            If there is none of this name; tells similar ones.
+        """
+        self.folder_of(name)
+        return self, name
+
+    @property
+    def name(self) -> str:
+        """What the bank is called: as it says, else as its folder is."""
+        return self.about.name or self.root.resolve().name
 
     @property
     def _solvers(self) -> Path:
@@ -124,8 +145,7 @@ class Bank:
 
     def title(self, lang: str) -> str:
         """Title of the chapter."""
-        name = self.about.name or self.root.resolve().name
-        return in_language(self.about.title, lang, _titled(name))
+        return in_language(self.about.title, lang, _titled(self.name))
 
     def topic_title(self, topic: str, lang: str) -> str:
         """Title of a topic."""
@@ -135,6 +155,11 @@ class Bank:
     def blueprints(self) -> dict[str, Path]:
         """Name of each blueprint to its file."""
         return self._beside("blueprints")
+
+    def asks(self, plan: str) -> Mapping[str, str]:
+        """What a blueprint calls templates to their names here; nothing if these are the same."""
+        del plan
+        return {}
 
     @cached_property
     def cards(self) -> dict[str, Path]:
@@ -275,6 +300,24 @@ class Bank:
         if close:
             return f"; did you mean {', '.join(close)}?"
         return f" (there are {len(self.paths)}; quizgen templates lists them)"
+
+    def digest(self, names: Iterable[str]) -> str:
+        """Changes with any file behind these templates; none of them is run."""
+        files = (file for name in names for file in self._files(name))
+        return digest_of(*(read_bytes(file, BankError) for file in files))
+
+    def _files(self, name: str) -> list[Path]:
+        """Rules, words, solver and figure of a template."""
+        rules = self.rules(name)
+        figure = rules.figure.name if rules.figure else ""
+        solver = Path("solvers", f"{rules.solver}.py")
+        roots = [root for root in (self.root, builtin_root()) if (root / solver).is_file()]
+        python = [*(root / solver for root in roots[:1]), self._figures / f"{figure}.py"]
+        return [
+            self.folder_of(name) / "template.toml",
+            *self._prose(name),
+            *filter(Path.is_file, python),
+        ]
 
     def written_in(self, name: str) -> tuple[str, ...]:
         """Languages that a template is written in, without reading them."""

@@ -22,6 +22,7 @@ from quizgen.maths.constants import exact_value
 from quizgen.maths.numbers import written
 from quizgen.maths.precision import working_precision
 from quizgen.maths.units import System, system
+from quizgen.paper.banks import UsedBank
 from quizgen.paper.code import digest_of_parts
 from quizgen.shapes import converted
 
@@ -141,13 +142,14 @@ class Key(msgspec.Struct):
     paper: str = ""
     title: dict[str, str] = {}
     langs: tuple[str, ...] = ("en",)
+    banks: tuple[UsedBank, ...] = ()
 
 
 def key_of(paper: Paper) -> Key:
     """The answer key of a paper."""
     title = {lang: paper.title(lang) for lang in paper.langs}
     questions = [key_question(item) for item in paper.items]
-    return Key(FORMAT, questions, paper.code, paper.digest, title, paper.langs)
+    return Key(FORMAT, questions, paper.code, paper.digest, title, paper.langs, paper.banks)
 
 
 def digest_of_key(key: Key, code: str = "") -> str:

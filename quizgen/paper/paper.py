@@ -20,6 +20,7 @@ from quizgen.errors import BlueprintError, CodeError
 from quizgen.locale import word
 from quizgen.maths.notation import people
 from quizgen.outside import located
+from quizgen.paper.banks import UsedBank, used_banks
 from quizgen.paper.blueprint import Blueprint, SlotRule, named_blueprint
 from quizgen.paper.choose import choose, levels, variety, weights
 from quizgen.paper.code import (
@@ -87,6 +88,8 @@ class Paper:
     """What a graded paper bears for a digest: one without a secret would confirm guesses."""
     holder: Holder | None = None
     """Whose paper it is, if it is one person's."""
+    banks: tuple[UsedBank, ...] = ()
+    """What it was made from."""
 
     def __repr__(self) -> str:
         return f"<Paper {self.code}: {len(self.items)} questions, {float(self.points):g} points>"
@@ -202,7 +205,9 @@ def composed(
     for number, (one, points) in enumerate(zip(asked, weights(blueprint), strict=False), 1):
         items.append(_item(one, langs, str(number), points, figures=figures))
         progress(one.drawn.template.id)
-    return Paper(str(_digested(named, blueprint, asked)), blueprint, langs, tuple(items))
+    code = str(_digested(named, blueprint, asked))
+    banks = used_banks(bank, [one.drawn.template.id for one in asked])
+    return Paper(code, blueprint, langs, tuple(items), banks=banks)
 
 
 class _Wanted(NamedTuple):
@@ -292,8 +297,9 @@ def reference_paper(
     if not blueprint.reference:
         raise BlueprintError(f"blueprint {blueprint.name!r} lists no reference questions")
     with located(blueprint.file):
-        folders = [bank.folder_of(name) for name in blueprint.reference]
-    templates = [bank.template(folder.name) for folder in folders]
+        for name in blueprint.reference:
+            bank.folder_of(name)
+    templates = [bank.template(name) for name in blueprint.reference]
     drawn = [instance(t, REFERENCE if t.rules.reference is not None else 0) for t in templates]
     named = Code(blueprint.name, REFERENCE, choice, level=blueprint.level)
     slotless = msgspec.structs.replace(blueprint, slot=())  # its slots are for other questions

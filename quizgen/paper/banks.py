@@ -1,0 +1,83 @@
+"""Which banks a paper was made from, and whether those that are here are the same.
+
+A digest is of the files behind the questions of the paper, so a bank in which another question has
+changed since is still the same one for it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from functools import cache
+from typing import TYPE_CHECKING
+
+import msgspec
+
+if TYPE_CHECKING:
+    from quizgen.bank.folder import Bank
+
+SHOWN = 12
+"""Signs of a digest."""
+
+
+class UsedBank(msgspec.Struct, frozen=True):
+    """A bank that a paper was made from.
+
+    Parameters
+    ----------
+    name, version : str
+        As its ``bank.toml`` says.
+    digest : str
+        Of the files behind the templates.
+    templates : tuple of str
+        Those in the paper, as they are called in the bank.
+    """
+
+    name: str
+    version: str
+    digest: str
+    templates: tuple[str, ...]
+
+
+def used_banks(bank: Bank, names: Iterable[str]) -> tuple[UsedBank, ...]:
+    """The banks that templates stand in.
+
+    Parameters
+    ----------
+    bank : Bank
+    names : iterable of str
+        The templates of a paper.
+    """
+    homes = [bank.home(name) for name in names]
+    return tuple(
+        _used(part, tuple(sorted({own for home, own in homes if home is part})))
+        for part in bank.parts
+        if any(home is part for home, _ in homes)
+    )
+
+
+@cache
+def _used(bank: Bank, templates: tuple[str, ...]) -> UsedBank:
+    return UsedBank(bank.name, bank.about.version, bank.digest(templates)[:SHOWN], templates)
+
+
+def differing(used: Iterable[UsedBank], banks: Iterable[Bank]) -> str:
+    """How the banks here differ from those of a paper, in one line; empty if they do not."""
+    return "; ".join(_differences(used, {bank.name: bank for bank in banks}))
+
+
+def _differences(used: Iterable[UsedBank], here: Mapping[str, Bank]) -> Iterator[str]:
+    for one in used:
+        if one.name not in here:
+            yield f"{one.name}: not among the banks here (--bank {one.name}, or its folder)"
+            continue
+        part = here[one.name]
+        gone = [name for name in one.templates if name not in part.paths]
+        if part.about.version != one.version:
+            yield (
+                f"{one.name}: version {part.about.version or 'unknown'} here, "
+                f"{one.version or 'unknown'} on the paper"
+            )
+        elif gone:
+            yield f"{one.name}: no template {gone[0]!r} here, which the paper asks"
+        elif _used(part, one.templates).digest != one.digest:
+            yield f"{one.name}: other files here than on the paper, of the same version"
