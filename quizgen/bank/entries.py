@@ -10,6 +10,7 @@ from typing import Literal, TypeVar
 
 import msgspec
 
+from quizgen.bank.clashes import told_apart
 from quizgen.bank.complaints import in_words
 from quizgen.bank.folder import Bank
 from quizgen.errors import BankError
@@ -100,11 +101,23 @@ def passages(kind: type[Entry]) -> list[str]:
 def authored(bank: Bank, name: str, kind: type[E]) -> tuple[E, ...]:
     """Entries of one file of a bank, read once; none if the bank has no such file.
 
+    Of several banks as one those of each in turn, and what two call the same is told apart.
+
     Raises
     ------
     BankError
         Naming file, entry and key.
     """
+    found = {part: _written(part, name, kind) for part in bank.parts}
+    ids = told_apart({part: [entry.id for entry in rows] for part, rows in found.items()})
+    return tuple(
+        msgspec.structs.replace(entry, id=ids[part][entry.id])
+        for part, rows in found.items()
+        for entry in rows
+    )
+
+
+def _written(bank: Bank, name: str, kind: type[E]) -> tuple[E, ...]:
     if name not in bank.cards:
         return ()
     file = bank.cards[name]

@@ -16,7 +16,7 @@ from pathlib import Path
 import msgspec
 from platformdirs import user_data_path
 
-from quizgen.bank.folder import Bank
+from quizgen.bank.folder import Bank, builtin, builtin_root
 from quizgen.errors import BankError
 from quizgen.files import write_all
 from quizgen.kept import digest_of
@@ -37,9 +37,24 @@ def installed() -> dict[str, Path]:
     return found
 
 
+def known() -> dict[str, Path]:
+    """Name to folder of the built-in bank, and of each that a package brings."""
+    return {builtin().name: builtin_root(), **installed()}
+
+
 def root_of(named: Path) -> Path:
-    """The folder of a bank: itself, or that of an installed bank of this name."""
-    return named if named.exists() else installed().get(str(named), named)
+    """The folder of a bank: itself, or that of the built-in or an installed bank of this name.
+
+    Raises
+    ------
+    BankError
+        If there is neither; it tells the names there are.
+    """
+    if named.exists():
+        return named
+    if str(named) not in known():
+        raise BankError(f"{named}: no such folder, and no bank of this name ({', '.join(known())})")
+    return known()[str(named)]
 
 
 def python_of(root: Path) -> list[Path]:

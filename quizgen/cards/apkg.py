@@ -171,7 +171,8 @@ def _settings(deck: Deck) -> tuple[dict[str, Any], ...]:
     names = [ROOT, *sorted({deck_name(deck.wish.bank, note.topic) for note in deck.notes})]
     decks = {str(identity(name)): _deck(identity(name), name) for name in names}
     decks["1"] = _deck(1, "Default")
-    types = [note_type(form, deck.wish.columns) for form in NAMES]
+    columns = dict.fromkeys([note.columns for note in deck.notes]) or [deck.wish.columns]
+    types = [note_type(form, one) for one in columns for form in NAMES]
     models = {str(kind["id"]): kind for kind in types}
     current = {"curDeck": identity(ROOT), "activeDecks": [identity(ROOT)]}
     conf = {**current, "curModel": types[0]["id"], "nextPos": 1,

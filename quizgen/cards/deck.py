@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+from quizgen.bank.clashes import told_apart
 from quizgen.bank.folder import Bank, builtin
 from quizgen.cards.kinds import KINDS
 from quizgen.cards.note import Note
@@ -79,8 +80,16 @@ def _check(names: tuple[str, ...], allowed: tuple[str, ...], what: str) -> None:
 
 
 def _notes(wish: Wish, kinds: tuple[str, ...]) -> Iterator[Note]:
+    banks = {part: replace(wish, bank=part) for part in wish.bank.parts}
     for kind in KINDS:
-        if kind in kinds:
-            for note in KINDS[kind](wish):
+        found = {part: [*KINDS[kind](own)] if kind in kinds else [] for part, own in banks.items()}
+        keys = told_apart({part: [note.key for note in notes] for part, notes in found.items()})
+        for part, notes in found.items():
+            for note in notes:
                 if wish.wants(note.topic):
-                    yield replace(note, version=version_of(note, wish.bank), columns=wish.columns)
+                    yield replace(
+                        note,
+                        key=keys[part][note.key],
+                        version=version_of(note, part),
+                        columns=banks[part].columns,
+                    )

@@ -8,7 +8,7 @@ wrong and how it is done.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
@@ -169,6 +169,7 @@ def deck_of(missed: Iterable[Missed], lang: str, *, bank: Bank, seed: int = 0) -
 
 def _note(missed: Missed, wish: Wish) -> Note:
     part, drawn = missed.part, missed.draw
+    wish = replace(wish, bank=wish.bank.home(drawn.template.id)[0])
     pairs = {
         lang: put_into_words(drawn, lang, number=part.question, level=missed.level)
         for lang in wish.langs

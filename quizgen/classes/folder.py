@@ -16,6 +16,7 @@ from typing import Any
 
 import msgspec
 
+from quizgen.bank.mixed import Source
 from quizgen.classes.roster import Student, read_roster, roster_bytes
 from quizgen.classes.secret import code_of
 from quizgen.errors import ClassError
@@ -39,9 +40,8 @@ class Settings(msgspec.Struct, frozen=True):
         128 bits, from which every number follows.
     blueprint : str
         Its name or its file.
-    bank : str
-        A folder, or empty for the built-in bank.
-    trust : bool
+    banks : tuple of Source
+        What it asks.
     lang : str
         Of students whose row names none.
     digest : str
@@ -53,8 +53,7 @@ class Settings(msgspec.Struct, frozen=True):
     name: str
     secret: str
     blueprint: str
-    bank: str
-    trust: bool
+    banks: tuple[Source, ...]
     lang: str
     digest: str
     templates: tuple[tuple[str, ...], ...]
@@ -143,6 +142,8 @@ class ClassFolder:
         if not place.exists():
             raise ClassError(f"{self.path}: is not the folder of a class (it has no {SETTINGS})")
         table = parse_toml(read_text(place, ClassError), place, ClassError)
+        if "bank" in table:  # of a class that was made when there was but one
+            table["banks"] = [(table.pop("bank"), table.pop("trust", False))]
         try:
             found = converted(table, Settings)
             bytes.fromhex(found.secret)

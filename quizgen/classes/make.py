@@ -13,11 +13,11 @@ from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache
-from pathlib import Path
 from typing import NamedTuple
 
 from quizgen.bank.draw import Draw
-from quizgen.bank.folder import Bank, builtin
+from quizgen.bank.folder import Bank
+from quizgen.bank.mixed import opened, sources
 from quizgen.bank.plan import pick
 from quizgen.classes.folder import (
     FORMS,
@@ -33,6 +33,7 @@ from quizgen.classes.secret import code_of, new_secret, seal_of, seed_of
 from quizgen.errors import ClassError
 from quizgen.executors import run
 from quizgen.files import PRIVATE, write_all
+from quizgen.paper.banks import differing
 from quizgen.paper.blueprint import Blueprint
 from quizgen.paper.choose import choose, families, levels
 from quizgen.paper.code import Code, digest_of
@@ -127,8 +128,7 @@ def new_settings(
         name=name,
         secret=secret,
         blueprint=str(own.resolve()) if own else blueprint.name,
-        bank="" if bank is builtin() else str(bank.root.resolve()),
-        trust=bank.trusted,
+        banks=sources(bank),
         lang=lang,
         digest=_digest(bank, blueprint, templates),
         templates=tuple(templates),
@@ -181,10 +181,14 @@ def make(
 
 def _check(folder: ClassFolder, blueprint: Blueprint) -> None:
     settings = folder.settings
-    if _digest(bank_of(settings), blueprint, settings.templates) != settings.digest:
+    bank = bank_of(settings)
+    if _digest(bank, blueprint, settings.templates) != settings.digest:
+        code = next((head.code for head in folder.heads().values()), "")
+        told = differing(folder.whose(code).key.banks, bank.parts) if code else ""
         raise ClassError(
-            f"{folder.path}: was made with other templates or another blueprint; its papers keep "
-            "their keys, and new ones need a new folder (--out)"
+            f"{folder.path}: was made with other templates or another blueprint"
+            f"{told and f' ({told})'}; its papers keep their keys, and new ones need a new folder "
+            "(--out)"
         )
 
 
@@ -332,4 +336,4 @@ def _alike(drawn: Sequence[Draw], beside: Sequence[Sequence[Draw]]) -> tuple[int
 @cache
 def bank_of(settings: Settings) -> Bank:
     """The bank that a class is made from, opened once a process."""
-    return Bank(Path(settings.bank), trusted=settings.trust) if settings.bank else builtin()
+    return opened(settings.banks)

@@ -142,8 +142,8 @@ def _begin(
     if not papers:
         raise ClassError("nobody has responded to a question of these keys")
     own = folder.path.resolve().name
-    settings = Settings(own, new_secret(), name, "", trust=False, lang=papers[0].lang,
-                        digest="", templates=())  # fmt: skip
+    lang = papers[0].lang
+    settings = Settings(own, new_secret(), name, (), lang=lang, digest="", templates=())
     folder.create(settings, people)
 
 

@@ -16,12 +16,10 @@ HEAD = ("bank", "version", "languages", "templates", "Python", "licence", "folde
 @bank_options
 def banks(**options: Unpack[BankOptions]) -> None:
     """List the banks there are: the built-in one, those of packages, and --bank."""
-    from quizgen.bank.folder import Bank, builtin
-    from quizgen.bank.found import described, installed
+    from quizgen.bank.found import described, known
+    from quizgen.bank.mixed import opened
 
-    found = {builtin().about.name: builtin()}
-    found |= {name: Bank(root) for name, root in installed().items()}
+    found = {name: opened([(str(root), False)]) for name, root in known().items()}
     if options["bank"]:
-        own = open_bank(options)
-        found[own.about.name or own.root.resolve().name] = own
+        found |= {own.name: own for own in open_bank(options).parts}
     print_table(HEAD, [described(name, bank) for name, bank in found.items()])

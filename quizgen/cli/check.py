@@ -6,10 +6,11 @@ import re
 import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Unpack
 
 import click
 
+from quizgen.cli.options import BankOptions, bank_options
 from quizgen.errors import KeyFileError
 from quizgen.locale import FIRST, languages
 from quizgen.marking.echo import safe
@@ -36,6 +37,17 @@ class Marked(NamedTuple):
     result: PaperResult
 
 
+class Options(BankOptions):
+    """What is marked, and how it is told."""
+
+    key: Path
+    answers: tuple[Path, ...]
+    lang: str | None
+    as_json: bool
+    as_csv: bool
+    no_settle: bool
+
+
 @click.command(short_help="Mark typed answers with a paper's key.")
 @click.argument("key", type=click.Path(path_type=Path))
 @click.argument("answers", type=click.Path(path_type=Path), nargs=-1, required=True)
@@ -47,7 +59,8 @@ class Marked(NamedTuple):
 @click.option("--json", "as_json", is_flag=True, help="Print JSON instead of a table.")
 @click.option("--csv", "as_csv", is_flag=True, help="Print CSV (the default for several forms).")
 @click.option("--no-settle", is_flag=True, help="Never start SymPy for undecided formulas.")
-def check(key: Path, answers: tuple[Path, ...], lang: str | None, **flags: bool) -> None:
+@bank_options
+def check(**options: Unpack[Options]) -> None:
     """Mark ANSWERS (answers.toml, .csv or .json, one or many) with KEY (key.json).
 
     With the keys of an export (moodle.xml.keys.jsonl) as KEY, ANSWERS are responses that a system
@@ -57,20 +70,39 @@ def check(key: Path, answers: tuple[Path, ...], lang: str | None, **flags: bool)
     One form prints a table with the mistake found in each part; several forms print CSV: marks and
     notes per part, one line per student. A form that cannot be read is named and the others are
     marked. Exit codes: 0 every form was marked, 1 some were, 2 none.
+
+    A key holds all that marking needs. With --bank it is said besides whether the bank is still
+    the one that the paper was made from.
     """
     from quizgen.cli import responses
     from quizgen.paper.key import read_key
 
+    key, answers, lang = options["key"], options["answers"], options["lang"]
     if key.name.endswith(SUFFIX):
-        sys.exit(responses.check(key, answers, lang, flags))
+        sys.exit(responses.check(key, answers, lang, options))
     paper = read_key(key)
     _belongs(key.parent / PAGE, paper)
-    marked = list(_all_marked(paper, answers, lang, settle=not flags["no_settle"]))
+    _compare(paper, options["bank"])
+    marked = list(_all_marked(paper, answers, lang, settle=not options["no_settle"]))
     if marked:
-        _print(marked, flags, many=len(answers) > 1)
+        _print(marked, options, many=len(answers) > 1)
     missing = len(answers) - len(marked)
     if missing:
         sys.exit(1 if marked else 2)
+
+
+def _compare(key: Key, named: tuple[Path, ...]) -> None:
+    """Say which of the banks that are named, and of ours, are others than the paper's."""
+    if not named:
+        return
+    from quizgen.bank.folder import Bank, builtin
+    from quizgen.bank.found import root_of
+    from quizgen.paper.banks import differing
+
+    banks = [builtin(), *(Bank(root_of(one)) for one in named)]
+    told = differing(key.banks, banks)
+    if told:
+        click.echo(f"quizgen: {visible(told)}; marked by the key", err=True)
 
 
 def _belongs(page: Path, key: Key) -> None:
@@ -102,7 +134,7 @@ def _all_marked(
             click.echo(f"quizgen: {visible(' '.join(str(error).split()))}", err=True)
 
 
-def _print(marked: list[Marked], flags: dict[str, bool], *, many: bool) -> None:
+def _print(marked: list[Marked], flags: Options, *, many: bool) -> None:
     if flags["as_json"]:
         _print_json(marked)
     elif flags["as_csv"] or many:

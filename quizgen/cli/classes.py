@@ -17,12 +17,12 @@ from quizgen.locale import FIRST, choices
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from quizgen.bank.folder import Bank
     from quizgen.classes.folder import ClassFolder
     from quizgen.classes.make import Report
     from quizgen.classes.roster import Student
     from quizgen.paper.blueprint import Blueprint
 
-USUAL = "mock"
 A_PAPER = 0.5
 """Seconds that one takes, about."""
 
@@ -131,11 +131,11 @@ def _columns(text: str | None) -> Mapping[str, str]:
 def _blueprint(folder: ClassFolder, students: list[Student], options: Options) -> Blueprint:
     """The blueprint of the class, which is created if there is none yet."""
     from quizgen.classes.make import bank_of, new_settings
-    from quizgen.paper.blueprint import load_blueprint
+    from quizgen.paper.blueprint import load_blueprint, usual
 
     if folder.is_new:
         bank = open_bank(options)
-        blueprint = load_blueprint(options["blueprint"] or USUAL, bank)
+        blueprint = load_blueprint(options["blueprint"] or usual(bank), bank)
         name = folder.path.resolve().name
         lang = options["lang"] or FIRST
         folder.create(new_settings(name, bank, blueprint, lang, vary=options["vary"]), students)
@@ -149,15 +149,22 @@ def _blueprint(folder: ClassFolder, students: list[Student], options: Options) -
 
 def _same(folder: ClassFolder, options: Options) -> None:
     """Refuse what a class that there is was not made with."""
+    from quizgen.bank.mixed import sources
+    from quizgen.classes.make import bank_of
+
+    def place(bank: Bank) -> str:
+        return " + ".join(root or "built-in" for root, _ in sources(bank))
+
     settings = folder.settings
+    made = {"bank": place(bank_of(settings)), "lang": settings.lang}
     wished = {
-        "bank": str(options["bank"].resolve()) if options["bank"] else None,
+        "bank": place(open_bank(options)) if options["bank"] else None,
         "lang": options["lang"],
     }
     for name, value in wished.items():
-        if value is not None and value != getattr(settings, name):
+        if value is not None and value != made[name]:
             raise ClassError(
-                f"{folder.path}: was made with {name} {getattr(settings, name)!r}, not {value!r}; "
+                f"{folder.path}: was made with {name} {made[name]!r}, not {value!r}; "
                 "a new class needs a new folder (--out)"
             )
     if options["vary"] and not any(len(family) > 1 for family in settings.templates):

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Unpack
 import click
 
 from quizgen import render
+from quizgen.bank.clashes import BETWEEN
 from quizgen.bank.levels import CHOICES, EXAM
 from quizgen.cli.command import command
 from quizgen.cli.options import (
@@ -47,8 +48,6 @@ A_PAPER = 0.5
 """Seconds that one of many takes, about."""
 TO_SPARE = 12
 """Minutes that may be left over because no question is short enough."""
-USUAL = "mock"
-"""The blueprint of who asks for none."""
 
 
 class Options(BankOptions):
@@ -72,7 +71,7 @@ class Options(BankOptions):
 @click.command()
 @click.option("--seed", type=SEED, help="Number that fixes every draw.")
 @click.option("--code", help="Code of a paper: builds exactly that paper again.")
-@click.option("--blueprint", help=f"mock, trial or a TOML file. [default: {USUAL}]")
+@click.option("--blueprint", help="mock, trial or a TOML file. [default: mock]")
 @click.option("--topic", help="Questions of one topic (or all), instead of a blueprint.")
 @click.option("--minutes", type=Whole(3, 9999), help="As many questions as this time allows.")
 @click.option(
@@ -106,7 +105,7 @@ def exam(**options: Unpack[Options]) -> None:
         return
     with Progress("exam") as tell:
         paper = _paper(options, tell)
-        form = (options["out"] or HOME / paper.code) / f"answers.{options['form']}"
+        form = (options["out"] or _home(paper.code)) / f"answers.{options['form']}"
         kept = _filled_in(form, paper.code)
         contents = _contents(paper, formats, form.name, tell)
     _write(form, contents, kept=kept)
@@ -129,7 +128,7 @@ def _many(options: Options, formats: list[str]) -> None:
     codes: list[str] = []
     with Progress("exam", count) as tell, workers(processes) as (executor, ahead):
         for code, contents in in_order(executor, make, range(first, first + count), ahead):
-            form = (options["out"] or HOME) / code / name
+            form = (options["out"] or HOME) / _home(code).name / name
             _write(form, contents, kept=_filled_in(form, code))
             codes.append(code)
             tell(code)
@@ -207,11 +206,29 @@ def _paper(options: Options, tell: Progress) -> Paper:
         if options["topic"] is not None or options["minutes"] is not None:
             raise CodeError("--code already fixes the questions; leave --topic and --minutes out")
         given = _blueprint(options, bank) if options["blueprint"] else None
-        return rebuild(bank, options["code"], given, progress=tell)
+        try:
+            return rebuild(bank, options["code"], given, progress=tell)
+        except CodeError as error:
+            raise CodeError(f"{error}{_others(options, bank)}") from error
     blueprint, lang = _levelled(options, bank), options["lang"] or FIRST
     if options["reference"]:
         return reference_paper(bank, blueprint, lang, progress=tell)
     return build(bank, blueprint, _first_seed(options), lang, progress=tell)
+
+
+def _others(options: Options, bank: Bank) -> str:
+    """Which banks are others than those of the paper, if its key is still in its folder."""
+    from quizgen.paper.banks import differing
+    from quizgen.paper.key import read_key
+
+    key = (options["out"] or _home(str(options["code"]))) / KEY
+    told = differing(read_key(key).banks, bank.parts) if key.exists() else ""
+    return told and f"; {told}"
+
+
+def _home(code: str) -> Path:
+    """The folder of a paper; what parts a bank from its blueprint's name parts drives elsewhere."""
+    return HOME / code.replace(BETWEEN, ".")
 
 
 def _first_seed(options: Options) -> int:
@@ -225,11 +242,11 @@ def _levelled(options: Options, bank: Bank) -> Blueprint:
 
 
 def _blueprint(options: Options, bank: Bank) -> Blueprint:
-    from quizgen.paper.blueprint import EVERYTHING, load_blueprint, of_topic, topics
+    from quizgen.paper.blueprint import EVERYTHING, load_blueprint, of_topic, topics, usual
 
     topic, minutes = options["topic"], options["minutes"]
     if topic is None and minutes is None:
-        return load_blueprint(options["blueprint"] or USUAL, bank)
+        return load_blueprint(options["blueprint"] or usual(bank), bank)
     if options["blueprint"]:
         raise ChoiceError("--blueprint names the questions; leave --topic and --minutes out")
     if topic is not None:
@@ -287,6 +304,6 @@ def _again(options: Options) -> list[str]:
     words: list[str] = []
     if options["blueprint"] and Path(options["blueprint"]).exists():
         words += ["--blueprint", options["blueprint"]]
-    if options["bank"]:
-        words += ["--bank", str(options["bank"])]
+    for named in options["bank"]:
+        words += ["--bank", str(named)]
     return words + ["--trust"] * options["trust"]

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Unpack
 
 import click
 
-from quizgen.cli.exam import USUAL
 from quizgen.cli.options import (
     SEED,
     BankOptions,
@@ -49,7 +48,7 @@ class Options(BankOptions):
 
 @click.command()
 @click.argument("target", metavar="FORMAT", type=click.Choice([*FORMATS], case_sensitive=False))
-@click.option("--blueprint", help=f"A slot for each question of a paper. [default: {USUAL}]")
+@click.option("--blueprint", help="A slot for each question of a paper. [default: mock]")
 @click.option("--topic", help="A slot for each template of this topic.")
 @click.option("--template", "templates", help="A slot for each of these templates, by comma.")
 @click.option("--variants", type=Whole(1, MOST), default=10, show_default=True,
@@ -112,7 +111,7 @@ def _items(options: Options, tell: Progress) -> Iterator[Item]:
         If they are named in two ways.
     """
     from quizgen.export.items import of_blueprint, of_templates
-    from quizgen.paper.blueprint import load_blueprint
+    from quizgen.paper.blueprint import load_blueprint, usual
 
     named = [options[key] for key in ("blueprint", "topic", "templates")]
     if len(named) - named.count(None) > 1:
@@ -120,7 +119,7 @@ def _items(options: Options, tell: Progress) -> Iterator[Item]:
     bank = open_bank(options)
     langs = bank.chosen(options["lang"])
     if options["topic"] is None and options["templates"] is None:
-        plan = load_blueprint(options["blueprint"] or USUAL, bank)
+        plan = load_blueprint(options["blueprint"] or usual(bank), bank)
         made = partial(of_blueprint, bank, plan)
     else:
         made = partial(of_templates, bank, _names(options, bank))

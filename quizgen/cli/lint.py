@@ -69,16 +69,27 @@ class Options(BankOptions):
 def lint(**options: Unpack[Options]) -> None:
     """Prove templates sound over many seeds; exit code 1 if a problem is found.
 
-    FOLDER is the bank, as in --bank. A broken template does not stop the others.
+    FOLDER is a bank, as in --bank; several are examined one by one. A broken template does not
+    stop the others.
     """
-    bank = open_bank({"bank": options["folder"] or options["bank"], "trust": options["trust"]})
-    for name in options["only"]:
-        bank.folder_of(name)
-    names = options["only"] or tuple(bank.paths)
+    folders = (options["folder"],) if options["folder"] else ()
+    whole = open_bank({"bank": (*folders, *options["bank"]), "trust": options["trust"]})
+    only = [whole.home(name) for name in options["only"]]
+    asked = {part: tuple(own for home, own in only if home is part) for part in whole.parts}
+    found = [
+        _linted(part, names or tuple(part.paths), options)
+        for part, names in asked.items()
+        if names or not only
+    ]
+    sys.exit(max(found))
+
+
+def _linted(bank: Bank, names: tuple[str, ...], options: Options) -> int:
+    """Examine a bank by itself, whatever others it is named with; 1 if a problem is found."""
     if options["papers"]:
-        sys.exit(_told(bank, options["papers"], options["jobs"]))
+        return _told(bank, options["papers"], options["jobs"])
     if options["teach"]:
-        sys.exit(_taught(bank, names, options))
+        return _taught(bank, names, options)
     rows, broken = _proved(bank, names, options)
     broken = list({str(problem): problem for problem in broken}.values())
     if options["json"]:
@@ -88,8 +99,7 @@ def lint(**options: Unpack[Options]) -> None:
         print_table(HEAD, rows)
         for problem in broken:
             click.echo(visible(str(problem)), err=True)
-    if broken:
-        sys.exit(1)
+    return int(bool(broken))
 
 
 def _proved(

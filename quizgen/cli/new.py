@@ -47,6 +47,8 @@ def _kinds(function: Callable[P, T]) -> Callable[P, T]:
 @_kinds
 @click.option("--bank", "root", type=click.Path(path_type=Path), default=Path(),
               help="The bank to write it into (by default where you stand).")  # fmt: skip
+@click.option("--trust", is_flag=True, expose_value=False,
+              help="As everywhere beside --bank; nothing of the bank runs here.")  # fmt: skip
 def template(place: str, kind: str, root: Path) -> None:
     """Write a question TOPIC/NAME into a bank: rules, words and, if it computes, a solver."""
     from quizgen.bank.folder import Bank

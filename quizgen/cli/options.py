@@ -38,9 +38,9 @@ SEED = Whole(0, LARGEST_SEED)
 
 
 class BankOptions(TypedDict):
-    """The bank that a command works on."""
+    """The banks that a command works on."""
 
-    bank: Path | None
+    bank: tuple[Path, ...]
     trust: bool
 
 
@@ -48,35 +48,32 @@ def bank_options(command: Callable[P, T]) -> Callable[P, T]:
     """Add ``--bank`` and ``--trust``."""
     trust = click.option("--trust", is_flag=True, help="Run the Python of --bank this time.")
     bank = click.option(
-        "--bank", type=click.Path(path_type=Path), help="Another bank: its folder or name."
+        "--bank",
+        type=click.Path(path_type=Path),
+        multiple=True,
+        help="Another bank: its folder or name; several are mixed.",
     )
     return bank(trust(command))
 
 
 def open_bank(options: BankOptions) -> Bank:
-    """The bank that the options name."""
-    from quizgen.bank.folder import Bank, builtin
-
-    root = bank_root(options)
-    return Bank(root, trusted=is_trusted(root, options)) if root else builtin()
-
-
-def bank_root(options: BankOptions) -> Path | None:
-    """The folder of the bank that the options name; None for the built-in one."""
-    if options["bank"] is None:
-        return None
+    """The bank that the options name, or several as one."""
     from quizgen.bank.found import root_of
+    from quizgen.bank.mixed import opened
 
-    return root_of(options["bank"])
+    roots = [root_of(named) for named in options["bank"]]
+    return opened([(str(root), is_trusted(root, options)) for root in roots])
 
 
-def is_trusted(root: Path | None, options: BankOptions) -> bool:
+def is_trusted(root: Path, options: BankOptions) -> bool:
     """Whether a bank's Python may run: by ``--trust``, as remembered, or by asking whoever types.
 
     Where nobody can be asked it is said at once that it does not run.
     """
-    if root is None or options["trust"]:
-        return options["trust"]
+    from quizgen.bank.folder import builtin_root
+
+    if options["trust"] or root.resolve() == builtin_root().resolve():
+        return True
     from quizgen.bank.found import is_remembered, python_of, remember
 
     files = python_of(root)

@@ -124,13 +124,14 @@ def _wish(options: Options, bank: Bank) -> Wish:
     click.BadParameter
         Naming what there is.
     """
+    from quizgen.bank.mixed import sources
     from quizgen.practice.choosing import fitting
     from quizgen.practice.state import Wish
 
     topic, tier = options["topic"], options["tier"]
     topic = None if topic is None else topic_option(bank, topic)
     tier = None if tier is None else checked("--tier", tier, TIERS)
-    folder = str(options["bank"].resolve()) if options["bank"] else ""
+    folder = "+".join(root for root, _ in sources(bank))
     (lang,), seed = bank.chosen(options["lang"]), options["seed"] or ""
     wish = Wish(lang, options["count"], topic, tier, folder, seed, options["level"])
     if not fitting(bank, wish):

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from quizgen.responses.marks import Marked
 
 
-def check(path: Path, files: Sequence[Path], lang: str | None, flags: Mapping[str, bool]) -> int:
+def check(path: Path, files: Sequence[Path], lang: str | None, flags: Mapping[str, object]) -> int:
     """Mark the responses in files, print them, and give the code to leave with.
 
     Raises
@@ -49,7 +49,7 @@ def _untold(found: Sequence[Marked]) -> Iterator[str]:
             yield f"{one.attempt.where}: {who}: question {number} is not in the keys; not marked"
 
 
-def _print(found: Sequence[Marked], flags: Mapping[str, bool]) -> None:
+def _print(found: Sequence[Marked], flags: Mapping[str, object]) -> None:
     from quizgen.responses.report import as_csv, as_json, lines
 
     if flags["as_json"]:

@@ -12,9 +12,8 @@ from quizgen.cli.options import (
     BankOptions,
     Whole,
     bank_options,
-    bank_root,
     database_option,
-    is_trusted,
+    open_bank,
 )
 
 
@@ -74,11 +73,9 @@ def serve(**options: Unpack[Options]) -> None:
     """Practise and sit the exam in a browser: alone, or with everybody in the network."""
     from quizgen.web.settings import Settings
 
-    root = bank_root(options)
     settings = Settings(
         options["database"],
-        root.resolve() if root else None,
-        trusted=is_trusted(root, options),
+        open_bank(options),
         host=options["host"],
         names=tuple(name.lower() for name in options["names"]),
         behind_proxy=options["behind_proxy"],

@@ -69,13 +69,13 @@ def _fitting(bank: Bank, filters: Filters) -> Iterator[str]:
     topic, kind, search, covers = (filters[key] for key in ("topic", "kind", "search", "covers"))
     topic = None if topic is None else topic_option(bank, topic)
     kind = None if kind is None else checked("--kind", kind, sorted(KINDS))
-    covered = bank.paths if covers is None else covering(bank, covers)
+    covered = {(part, own) for part in bank.parts if covers for own in covering(part, covers)}
     for name in bank.paths:
         rules = bank.rules(name)
         if (
             topic in {None, rules.topic}
             and (kind is None or kind in {part.answer["kind"] for part in rules.part})
-            and name in covered
+            and (covers is None or bank.home(name) in covered)
             and (search is None or _mentions(bank, name, search))
         ):
             yield name
@@ -110,7 +110,8 @@ def _print_coverage(bank: Bank) -> None:
 
     rows = [
         (row.group, str(len(row.covered)), str(row.total), " ".join(row.holes))
-        for row in coverage(bank)
+        for part in bank.parts
+        for row in coverage(part)
     ]
     _print(("group", "covered", "of", "holes"), rows)
 

@@ -28,6 +28,7 @@ from pathlib import Path
 
 import msgspec
 
+from quizgen.bank.clashes import BETWEEN
 from quizgen.bank.folder import Bank, builtin
 from quizgen.bank.levels import CHOICES, EXAM
 from quizgen.bank.limits import MOST_MINUTES, MOST_POINTS
@@ -92,6 +93,11 @@ class Blueprint(Authored, frozen=True):
 EVERYTHING = "all"
 
 
+def usual(bank: Bank) -> str:
+    """The blueprint of who asks for none; that of several banks as one asks all of them."""
+    return f"{EVERYTHING}.90" if len(bank.parts) > 1 else "mock"
+
+
 def of_topic(bank: Bank, topic: str, minutes: int = 0) -> Blueprint:
     """Blueprint without a file: a topic (or ``all``), within a time (0: no limit)."""
     name = f"{topic}.{minutes}" if minutes else topic
@@ -151,10 +157,26 @@ def named_blueprint(name: str, bank: Bank) -> Blueprint | None:
     """
     topic = re.fullmatch(r"(.+?)(?:\.(\d{1,4}))?", name, re.ASCII)
     if name in bank.blueprints:
-        return _read(bank.blueprints[name])
+        return _among(_read(bank.blueprints[name]), name, bank)
     if topic and topic[1] in topics(bank):
         return of_topic(bank, topic[1], int(topic[2] or 0))
     return None
+
+
+def _among(plan: Blueprint, name: str, bank: Bank) -> Blueprint:
+    """A bank's own blueprint: mixed with other banks it goes on asking the questions of its own."""
+    names = bank.asks(name)
+    if not names:
+        return plan
+    every = tuple(here for here in names.values() if not bank.rules(here).beyond)
+    slots = tuple(
+        msgspec.structs.replace(
+            slot, templates=tuple(names.get(own, own) for own in slot.templates) or every
+        )
+        for slot in plan.slot
+    )
+    reference = tuple(names.get(own, own) for own in plan.reference)
+    return msgspec.structs.replace(plan, name=name, slot=slots, reference=reference)
 
 
 def _read(path: Path) -> Blueprint:
@@ -192,7 +214,7 @@ def _check(blueprint: Authored, where: Path) -> None:
         for problem in _problems(slot):
             raise BlueprintError(f"{where}: slot {index}: {problem}")
     for name in blueprint.reference:
-        if not is_name(name):
+        if not _is_asked(name):
             raise BlueprintError(f"{where}: reference: {name!r} is no name (allowed: {NAMES})")
     total = max(sum(slot.count for slot in blueprint.slot), len(blueprint.reference))
     if total > MOST_QUESTIONS:
@@ -226,4 +248,10 @@ def _problems(slot: SlotRule) -> Iterator[str]:
     if not 1 <= slot.count <= MOST_QUESTIONS:
         yield f"count must be 1 to {MOST_QUESTIONS}"
     names = (*slot.templates, *(() if slot.topic is None else (slot.topic,)))
-    yield from (f"{name!r} is no name (allowed: {NAMES})" for name in names if not is_name(name))
+    yield from (f"{name!r} is no name (allowed: {NAMES})" for name in names if not _is_asked(name))
+
+
+def _is_asked(name: str) -> bool:
+    """Whether a text can name a template, with or without its bank before it."""
+    bank, _, own = name.rpartition(BETWEEN)
+    return is_name(own) and (not bank or is_name(bank))

@@ -120,19 +120,19 @@ def _gives_away(bank: Bank, name: str, chosen: list[str]) -> bool:
 
 
 def _timed(bank: Bank, blueprint: Blueprint, seed: int | str) -> list[str]:
-    """Questions of a topic, tiers in turn, as many as the minutes allow; then sorted by tier."""
+    """Questions of a topic, tiers (and banks) in turn, as many as the minutes allow, by tier."""
     rules = {name: bank.rules(name) for name in bank.paths}
     open_names = [n for n in rules if blueprint.topic in (EVERYTHING, rules[n].topic)]
     budget = blueprint.budget or working_time(sum(minutes_of(rules[n]) for n in open_names))
     used = 0
     chosen: list[str] = []
-    tiers = sorted({rules[n].tier for n in open_names})
+    group = {n: (rules[n].tier, bank.parts.index(bank.home(n)[0])) for n in open_names}
     while True:
         before = len(chosen)
-        for turn, tier in enumerate(tiers):
+        for turn, one in enumerate(sorted({*group.values()})):
             fitting = [
                 n for n in open_names
-                if n not in chosen and rules[n].tier == tier
+                if n not in chosen and group[n] == one
                 and working_time(used + minutes_of(rules[n])) <= budget
                 and not _gives_away(bank, n, chosen)
             ]  # fmt: skip

@@ -80,7 +80,7 @@ def sheet(bank: Bank, choice: str, topics: Sequence[str] = ()) -> Sheet:
     if not wanted:
         of = f" of the topic {', '.join(topics)}" if topics and formulas(bank) else ""
         raise BankError(
-            f"{bank.root}: no formulas{of} here (they stand in templates/cards/formulas.toml)"
+            f"{bank.name}: no formulas{of} here (they stand in templates/cards/formulas.toml)"
         )
     asked = asked_in(bank)
     order = dict.fromkeys((*bank.topics, *(entry.topic for entry in wanted)))

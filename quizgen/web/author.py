@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 
 import msgspec
 from starlette.concurrency import run_in_threadpool
@@ -24,6 +23,8 @@ from quizgen.web.site import Site
 from quizgen.web.views import lang_of, page
 
 LEVELS = (EXAM, GUIDED, "transfer")
+FOLDERS = ("templates", "solvers", "figures")
+"""What a bank consists of."""
 DIGITS = 9
 """Of a seed."""
 
@@ -61,9 +62,10 @@ class Examined:
         return msgspec.json.encode(self.examine(bank.afresh(), self.template))
 
 
-def stamp_of(root: Path) -> str:
+def stamp_of(bank: Bank) -> str:
     """What changes when a file of a bank is saved."""
-    files = sorted(path for name in ("templates", "solvers") for path in (root / name).rglob("*"))
+    folders = [part.root / name for part in bank.parts for name in FOLDERS]
+    files = sorted(path for folder in folders for path in folder.rglob("*"))
     seen = [
         (str(path), path.stat().st_mtime_ns)
         for path in files
@@ -75,7 +77,7 @@ def stamp_of(root: Path) -> str:
 async def templates(request: Request) -> Response:
     """All templates by topic."""
     site: Site = request.app.state.site
-    bank, lang = Bank(site.bank.root), lang_of(request)
+    bank, lang = site.bank.afresh(), lang_of(request)
     rules = [(name, bank.rules(name)) for name in bank.paths]
     groups = [
         (bank.topic_title(topic, lang), [(n, one.tier) for n, one in rules if one.topic == topic])
@@ -88,7 +90,7 @@ def _name(request: Request) -> str:
     """The template that is asked for; the bank may have got it just now."""
     site: Site = request.app.state.site
     name: str = request.path_params["name"]
-    if name not in Bank(site.bank.root).paths:
+    if name not in site.bank.afresh().paths:
         raise HTTPException(404)
     return name
 
@@ -100,7 +102,7 @@ async def template(request: Request) -> Response:
     seed = asked.get("seed", "")
     seed = str(int(seed)) if seed.isascii() and seed.isdecimal() and len(seed) <= DIGITS else "0"
     level = asked.get("level", "") if asked.get("level") in LEVELS else EXAM
-    stamp = await run_in_threadpool(stamp_of, site.bank.root)
+    stamp = await run_in_threadpool(stamp_of, site.bank)
     if asked.get("stamp") == stamp:
         return Response(status_code=204)  # nothing was saved: what is shown stays
     shown, wrong = list[Made](), ""
@@ -126,7 +128,7 @@ async def lint(request: Request) -> Response:
     """What is wrong with a template."""
     site: Site = request.app.state.site
     name, examine = _name(request), site.settings.examine
-    stamp = await run_in_threadpool(stamp_of, site.bank.root)
+    stamp = await run_in_threadpool(stamp_of, site.bank)
     assert examine is not None  # noqa: S101 - without it there is no such page
     problems: list[str] = decoded(
         await site.workers.done(Examined(name, examine, stamp)), list[str]

@@ -7,13 +7,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from functools import cache
-from pathlib import Path
 from typing import Protocol
 
 import msgspec
 
-from quizgen.bank.folder import Bank, builtin
+from quizgen.bank.folder import Bank
 from quizgen.bank.levels import EXAM, GUIDED
 from quizgen.bank.prose import Block, Inline
 from quizgen.errors import BlueprintError
@@ -147,11 +145,6 @@ class MadePaper(msgspec.Struct, frozen=True):
     items: list[Made]
 
 
-@cache
-def _bank(root: Path | None, *, trusted: bool) -> Bank:
-    return Bank(root, trusted=trusted) if root else builtin()
-
-
 class Job(Protocol):
     """Something else that a worker makes; equal jobs give equal bytes."""
 
@@ -162,14 +155,12 @@ class Job(Protocol):
     def __hash__(self) -> int: ...
 
 
-def make(root: Path | None, trusted: bool, wanted: Wanted | WantedPaper | Job) -> bytes:
+def make(bank: Bank, wanted: Wanted | WantedPaper | Job) -> bytes:
     """Compose a question or a paper and put it into markup, or do another job.
 
     Parameters
     ----------
-    root : pathlib.Path or None
-        Folder of the bank, the built-in one if there is none.
-    trusted : bool
+    bank : Bank
     wanted : Wanted or WantedPaper or Job
 
     Raises
@@ -177,7 +168,6 @@ def make(root: Path | None, trusted: bool, wanted: Wanted | WantedPaper | Job) -
     QuizgenError
         If a template is wrong, or there is no such paper.
     """
-    bank = _bank(root, trusted=trusted)
     if not isinstance(wanted, Wanted | WantedPaper):
         return wanted.run(bank)
     if isinstance(wanted, WantedPaper):

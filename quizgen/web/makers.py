@@ -12,8 +12,8 @@ import signal
 import threading
 from collections.abc import Iterator
 from multiprocessing.connection import Connection
-from pathlib import Path
 
+from quizgen.bank.folder import Bank
 from quizgen.errors import BankError
 from quizgen.web.made import Job, Wanted, WantedPaper, make
 
@@ -30,22 +30,19 @@ class Maker:
 
     Parameters
     ----------
-    bank : pathlib.Path or None
-        Folder of the bank, the built-in one if there is none.
-    trusted : bool
+    bank : Bank
+        Opened anew by the process.
     """
 
-    def __init__(self, bank: Path | None, *, trusted: bool) -> None:
-        self._bank, self._trusted = bank, trusted
+    def __init__(self, bank: Bank) -> None:
+        self._bank = bank
         self._closed = False
         self._changing = threading.Lock()
         self._begin()
 
     def _begin(self) -> None:
         self._line, there = _SPAWN.Pipe()
-        self.process = _SPAWN.Process(
-            target=_work, args=(there, self._bank, self._trusted), daemon=True
-        )
+        self.process = _SPAWN.Process(target=_work, args=(there, self._bank), daemon=True)
         with _uninterrupted():
             self.process.start()
         there.close()
@@ -107,7 +104,7 @@ def _uninterrupted() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _work(line: Connection, bank: Path | None, trusted: bool) -> None:
+def _work(line: Connection, bank: Bank) -> None:
     """Make what is wanted until nobody wants anything."""
     from quizgen.figures import _pen  # what the first question will need
     from quizgen.question import compose
@@ -115,13 +112,11 @@ def _work(line: Connection, bank: Path | None, trusted: bool) -> None:
     del _pen, compose
     with contextlib.suppress(EOFError, OSError):
         while True:
-            line.send(_made(bank, trusted, line.recv()))
+            line.send(_made(bank, line.recv()))
 
 
-def _made(
-    bank: Path | None, trusted: bool, wanted: Wanted | WantedPaper | Job
-) -> bytes | Exception:
+def _made(bank: Bank, wanted: Wanted | WantedPaper | Job) -> bytes | Exception:
     try:
-        return make(bank, trusted, wanted)
+        return make(bank, wanted)
     except Exception as error:  # noqa: BLE001 - raised again by who asked
         return error

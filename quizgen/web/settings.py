@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 
-from quizgen.bank.folder import Bank
+from quizgen.bank.folder import Bank, builtin
 
 LOCAL = ("127.0.0.1", "localhost")
 """Names under which a browser on this machine reaches a server of its own."""
@@ -25,10 +25,8 @@ class Settings:
     ----------
     database : str
         Address of the database, as SQLAlchemy writes it.
-    bank : pathlib.Path, optional
-        Folder of another bank.
-    trusted : bool
-        Whether that bank's own solvers may run.
+    bank : Bank
+        Whose questions are asked.
     host : str
         Where it listens. Anywhere but on this machine alone, people sign in.
     names : tuple of str
@@ -47,8 +45,7 @@ class Settings:
     """
 
     database: str
-    bank: Path | None = None
-    trusted: bool = False
+    bank: Bank = field(default_factory=builtin)
     host: str = LOCAL[0]
     names: tuple[str, ...] = ()
     behind_proxy: bool = False

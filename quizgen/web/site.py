@@ -6,7 +6,6 @@ import asyncio
 from dataclasses import replace
 from weakref import WeakValueDictionary
 
-from quizgen.bank.folder import Bank, builtin
 from quizgen.locale import FIRST, languages
 from quizgen.web.passwords import Patience
 from quizgen.web.settings import Settings
@@ -23,12 +22,12 @@ class Site:
 
     Raises
     ------
-    BankError, StoreError
-        If the bank or the database cannot be opened.
+    StoreError
+        If the database cannot be opened.
     """
 
     def __init__(self, settings: Settings) -> None:
-        self.bank = Bank(settings.bank, trusted=settings.trusted) if settings.bank else builtin()
+        self.bank = settings.bank
         self.store = Store(settings.database)
         token = self.store.lasting("token", settings.token)  # open pages outlive the server
         self.settings = replace(settings, token=token)

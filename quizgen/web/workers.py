@@ -65,7 +65,7 @@ class Workers:
     def warm(self) -> None:
         """Start the processes."""
         for _ in range(self.settings.workers):
-            maker = Maker(self.settings.bank, trusted=self.settings.trusted)
+            maker = Maker(self.settings.bank)
             self.makers.append(maker)
             self._idle.put(maker)
 

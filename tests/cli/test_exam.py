@@ -178,7 +178,7 @@ MISTAKES = [
     (["exam", "--format", "docx"], "allowed: html, pdf"),
     (["exam", "--code", "nonsense"], "not a paper's code"),
     (["exam", "--lang", "fr"], "fr"),
-    (["exam", "--bank", "missing"], "no folder 'templates'"),
+    (["exam", "--bank", "missing"], "no such folder, and no bank of this name"),
     (["exam", "--code", "trial-4-en-000000"], "other templates"),
     (["exam", "--code", "trial-4-en-000000", "--seed", "3"], "already fixes"),
     (["exam", "--code", "trial-4-en-000000", "--topic", "optics"], "already fixes"),

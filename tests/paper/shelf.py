@@ -14,6 +14,7 @@ class Shelf:
     def __init__(self, table=(), **named):
         self.table = dict(table, **named)
         self.paths = dict.fromkeys(self.table)
+        self.parts = (self,)
 
     def rules(self, name):
         given = {**DEFAULT, **self.table[name]}
@@ -26,3 +27,6 @@ class Shelf:
 
     def origin(self, name):
         return name
+
+    def home(self, name):
+        return self, name

@@ -9,6 +9,7 @@ import pytest
 from own_bank import NAME
 from starlette.testclient import TestClient
 
+from quizgen.bank.folder import Bank
 from quizgen.cli.lint import problems_of
 from quizgen.web.app import application
 from quizgen.web.settings import Settings
@@ -16,7 +17,7 @@ from quizgen.web.settings import Settings
 
 @pytest.fixture(scope="module")
 def author(root, database):
-    settings = Settings(database(), root, trusted=True, workers=1, examine=problems_of)
+    settings = Settings(database(), Bank(root, trusted=True), workers=1, examine=problems_of)
     app = application(settings)
     with TestClient(app, "http://127.0.0.1:8000") as client:
         client.get(f"/enter?key={app.state.site.settings.token}")

@@ -30,7 +30,7 @@ def settings(database, root):
     for name, rule in RULES.items():
         text = BLUEPRINT.format(rule=rule, name=name.title(), template=NAME)
         (folder / f"{name}.toml").write_text(text)
-    return Settings(database(), root, trusted=True, workers=1)
+    return Settings(database(), Bank(root, trusted=True), workers=1)
 
 
 @pytest.mark.parametrize(

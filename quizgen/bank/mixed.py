@@ -1,0 +1,233 @@
+"""Several banks as one: a paper, a deck or a session takes its questions from all of them.
+
+Each bank keeps what is its own: units, figures, solvers, words and the formulas of its sheet. What
+two of them call by the same name - a template, a blueprint, a formula - is told apart by the bank's
+name before it, ``filtering:otsu-threshold``; whatever stands in one of them alone keeps its name. A
+topic is the same one wherever it is called the same, and its title is that of the first bank.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from functools import cached_property
+from pathlib import Path
+
+import msgspec
+
+from quizgen.bank.about import About
+from quizgen.bank.clashes import told_apart
+from quizgen.bank.folder import Bank, builtin, builtin_root
+from quizgen.bank.formulas import formulas
+from quizgen.bank.rules import Rules
+from quizgen.bank.template import Template
+from quizgen.errors import BankError
+from quizgen.locale import chosen
+from quizgen.outside import named
+
+Source = tuple[str, bool]
+"""Folder of a bank, empty for the built-in one, and whether its Python may run."""
+
+
+def sources(bank: Bank) -> tuple[Source, ...]:
+    """What ``opened`` opens a bank by."""
+    return tuple(
+        ("" if part is builtin() else str(part.root.resolve()), part.trusted) for part in bank.parts
+    )
+
+
+def opened(places: Iterable[Source]) -> Bank:
+    """The bank of a folder, several of them as one, or the built-in one if there is none."""
+    parts = tuple(_opened(root, trusted) for root, trusted in places)
+    if len(parts) > 1:
+        return Mixed(parts)
+    return parts[0] if parts else builtin()
+
+
+def _opened(root: str, trusted: bool) -> Bank:
+    is_ours = not root or Path(root).resolve() == builtin_root().resolve()
+    return builtin() if is_ours else Bank(Path(root), trusted=trusted)
+
+
+class Mixed(Bank):
+    """Several banks as one.
+
+    Parameters
+    ----------
+    parts : tuple of Bank
+        Two or more; the first one's titles stand before those of the others.
+
+    Raises
+    ------
+    BankError
+        If two have the same name.
+    """
+
+    def __init__(self, parts: tuple[Bank, ...]) -> None:
+        super().__init__(parts[0].root, trusted=all(part.trusted for part in parts))
+        self._parts = parts
+        for part in parts:
+            named(part.name, f"{part.folder / 'bank.toml'}: name", BankError)
+        for name, count in Counter(part.name for part in parts).items():
+            if count > 1:
+                roots = " and ".join(str(part.root) for part in parts if part.name == name)
+                raise BankError(
+                    f"{roots}: both are called {name!r}; write another name into one's bank.toml"
+                )
+
+    def __reduce__(self) -> tuple[object, ...]:
+        """Another process opens the folders for itself."""
+        return Mixed, (self._parts,)
+
+    def __repr__(self) -> str:
+        return f"<Banks {self.name}: {len(self)} templates>"
+
+    @property
+    def parts(self) -> tuple[Bank, ...]:
+        """The banks that it consists of."""
+        return self._parts
+
+    def afresh(self) -> Bank:
+        """The same banks, their files and solvers read again."""
+        return Mixed(tuple(part.afresh() for part in self._parts))
+
+    @cached_property
+    def about(self) -> About:
+        """Names and titles of all, and the topics of each in turn."""
+        topics: dict[str, dict[str, str]] = {}
+        for part in self._parts:
+            for topic in part.topics:
+                said = {lang: part.topic_title(topic, lang) for lang in part.languages}
+                topics[topic] = {**said, **topics.get(topic, {})}
+        spoken = dict.fromkeys(lang for part in self._parts for lang in part.languages)
+        title = {lang: " + ".join(part.title(lang) for part in self._parts) for lang in spoken}
+        return About("+".join(part.name for part in self._parts), title=title, topics=topics)
+
+    @cached_property
+    def languages(self) -> tuple[str, ...]:
+        """Languages that all of them are written in.
+
+        Raises
+        ------
+        BankError
+            If there is none.
+        """
+        first, *others = (part.languages for part in self._parts)
+        found = tuple(lang for lang in first if all(lang in held for held in others))
+        if not found:
+            raise BankError(f"no language is common to the banks: {self._spoken}")
+        return found
+
+    @property
+    def _spoken(self) -> str:
+        return "; ".join(
+            f"{one.name} is written in {', '.join(one.languages)}" for one in self._parts
+        )
+
+    def chosen(self, choice: str) -> tuple[str, ...]:
+        """Languages of a choice, the leading one first; ``both`` stands for those of all banks.
+
+        Raises
+        ------
+        BankError
+            If one of the banks is not written in it.
+        ChoiceError
+            If there is no such language.
+        """
+        langs = chosen(choice, self.languages)
+        for lang in langs:
+            if lang not in self.languages:
+                common = ", ".join(self.languages)
+                raise BankError(
+                    f"not all of it is written in {lang!r}: {self._spoken} (all: {common})"
+                )
+        return langs
+
+    @cached_property
+    def _called(self) -> dict[Bank, dict[str, str]]:
+        return told_apart({part: part.paths for part in self._parts})
+
+    @cached_property
+    def _origins(self) -> dict[Bank, dict[str, str]]:
+        firsts = {part: [part.origin(name) for name in part.paths] for part in self._parts}
+        return told_apart(firsts)
+
+    @cached_property
+    def _homes(self) -> dict[str, tuple[Bank, str]]:
+        return {
+            here: (part, own) for part, names in self._called.items() for own, here in names.items()
+        }
+
+    @cached_property
+    def paths(self) -> dict[str, Path]:
+        """Template name to its folder, in alphabetical order."""
+        return {
+            name: self._homes[name][0].paths[self._homes[name][1]] for name in sorted(self._homes)
+        }
+
+    def home(self, name: str) -> tuple[Bank, str]:
+        """The bank that a template stands in, and what it is called there."""
+        self.folder_of(name)
+        return self._homes[name]
+
+    def _hint(self, name: str) -> str:
+        clashing = [names[name] for names in self._called.values() if name in names]
+        return f"; did you mean {' or '.join(clashing)}?" if clashing else super()._hint(name)
+
+    @cached_property
+    def blueprints(self) -> dict[str, Path]:
+        """Name of each blueprint to its file."""
+        return {here: part.blueprints[own] for here, (part, own) in self._plans.items()}
+
+    @cached_property
+    def _plans(self) -> dict[str, tuple[Bank, str]]:
+        called = told_apart({part: part.blueprints for part in self._parts})
+        return {here: (part, own) for part, names in called.items() for own, here in names.items()}
+
+    def asks(self, plan: str) -> Mapping[str, str]:
+        """What the templates of a blueprint's own bank are called here."""
+        return self._called[self._plans[plan][0]]
+
+    @cached_property
+    def cards(self) -> dict[str, Path]:
+        """Name of each file of card content to that of the first bank which has one."""
+        return {name: path for part in reversed(self._parts) for name, path in part.cards.items()}
+
+    def rules(self, name: str) -> Rules:
+        """Checked ``template.toml`` of a template, its names as they are here."""
+        if name not in self._rules:
+            part, own = self.home(name)
+            found, called = part.rules(own), self._called[part]
+            first = self._origins[part][part.origin(own)]
+            self._rules[name] = msgspec.structs.replace(
+                found,
+                formerly="" if first == name else first,
+                apart=tuple(called.get(other, other) for other in found.apart),
+                covers=tuple(self._formula(part, item) for item in found.covers),
+            )
+        return self._rules[name]
+
+    def _formula(self, part: Bank, name: str) -> str:
+        """What a formula of one of the banks is called here."""
+        return self._formulas.get(part, {}).get(name, name)
+
+    @cached_property
+    def _formulas(self) -> dict[Bank, dict[str, str]]:
+        return told_apart({part: [entry.id for entry in formulas(part)] for part in self._parts})
+
+    def template(self, name: str) -> Template:
+        """Load a template, once.
+
+        Raises
+        ------
+        BankError
+            If it is unknown or wrong; names the file and the place.
+        """
+        if name not in self._templates:
+            part, own = self.home(name)
+            found = part.template(own)
+            cites = {step: self._formula(part, one) for step, one in found.chain.formulas.items()}
+            chain = replace(found.chain, formulas=cites) if cites else found.chain
+            self._templates[name] = replace(found, id=name, rules=self.rules(name), chain=chain)
+        return self._templates[name]
