@@ -13,7 +13,7 @@ from itertools import groupby
 import numpy as np
 from numpy.typing import NDArray
 
-from quizgen.camera.body import F_NUMBER
+from quizgen.camera.body import aperture
 from quizgen.camera.scene import Image, SceneError, Thing
 from quizgen.camera.view import View
 
@@ -292,7 +292,7 @@ def sheets(view: View) -> tuple[Sheet, ...]:
 
 
 def _key(thing: Thing, view: View) -> tuple[float | None, Motion]:
-    return (thing.depth if view.camera[F_NUMBER] is not None else None), motion(thing, view)
+    return (thing.depth if aperture(view.camera) is not None else None), motion(thing, view)
 
 
 def _background(view: View, *, kept: bool) -> Layer:

@@ -9,7 +9,13 @@ from typing import overload
 import numpy as np
 from numpy.typing import NDArray
 
-from quizgen.camera.body import F_NUMBER, FOCAL_LENGTH, FOCUS_DISTANCE, PIXEL_PITCH
+from quizgen.camera.body import (
+    FOCAL_LENGTH,
+    FOCUS_DISTANCE,
+    PINHOLE,
+    PIXEL_PITCH,
+    aperture,
+)
 from quizgen.camera.scene import Image, Scene, SceneError
 from quizgen.camera.settings import Settings
 
@@ -51,6 +57,20 @@ class View:
         return length / pitch
 
     @property
+    def image_distance(self) -> float:
+        """Distance from the aperture to the sensor in px: v = f s/(s - f) (thin lens)."""
+        length, distance = self.camera[FOCAL_LENGTH], self.camera[FOCUS_DISTANCE]
+        if length is None or math.isinf(distance):
+            return self.focal
+        return self.focal * (distance / (distance - length))
+
+    @property
+    def f_number(self) -> float:
+        """Focal length over aperture; infinite for a point."""
+        length, opening = self.camera[FOCAL_LENGTH], aperture(self.camera)
+        return math.inf if length is None or opening is None else length / opening
+
+    @property
     def centre(self) -> tuple[float, float]:
         """Principal point (x, y), counted from the centre of the first pixel (errata E27)."""
         return (self.width - 1) / 2.0, (self.height - 1) / 2.0
@@ -76,13 +96,16 @@ class View:
         ----------
         depth : float or numpy.ndarray
             Distance in m, > 0, may be infinite. With f, N, s: c = f^2/(N (s-f)) (1 - s/z), and
-            f^2/(N z) negative when focused at infinity.
+            f^2/(N z) negative when focused at infinity. Through a hole of diameter d without a
+            lens d (1 + f/z), never sharp.
         """
         length, pitch = self.camera[FOCAL_LENGTH], self.camera[PIXEL_PITCH]
-        number, distance = self.camera[F_NUMBER], self.camera[FOCUS_DISTANCE]
-        if number is None or length is None or pitch is None:
+        opening, distance = aperture(self.camera), self.camera[FOCUS_DISTANCE]
+        if opening is None or length is None or pitch is None:
             return np.zeros_like(depth) if isinstance(depth, np.ndarray) else 0.0
-        scale = length**2 / (number * pitch)
+        if self.camera[PINHOLE] is not None:
+            return opening / pitch * (1.0 + length / depth)
+        scale = length * opening / pitch
         if math.isinf(distance):
             return -scale / depth
         return scale / (distance - length) * (1.0 - distance / depth)

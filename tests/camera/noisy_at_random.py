@@ -54,4 +54,9 @@ def camera(source):
         saturation=maybe(0.1, lambda: float(source.uniform(0, 2)), 1.0),
         gaussian_noise=maybe(0.2, lambda: between(-4, -0.5), 0.0),
         normalise=maybe(0.1, lambda: (0.1, 0.9, 0.0, 1.0), None),
+        iso=maybe(0.2, lambda: 100.0 * between(-0.5, 1.2), 100.0),
+        fixed_pattern=maybe(0.2, lambda: between(-1.5, 1.5), 0.0),
+        bias=maybe(0.2, lambda: between(-1, 2), 0.0),
+        dark_frames=maybe(0.2, lambda: int(source.integers(1, 30)), 0),
+        binning=maybe(0.15, lambda: int(source.integers(2, 5)), 1),
     )  # fmt: skip

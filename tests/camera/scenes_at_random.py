@@ -93,17 +93,35 @@ def camera(source, *, noise: bool) -> Camera:
 
     well = maybe(0.5 if not noise else 1.0, lambda: small(2.5, 5), None)
     pitch = 0.05 / source.uniform(12, 60)
+    number = maybe(0.4, lambda: small(-1, 3) * 0.05 / pitch / 40, None)
+    hole = maybe(0.1, lambda: small(-2, 0.5) * pitch, None) if number is None else None
+    opening = hole if number is None else 0.05 / number
+    shutter = maybe(0.5, lambda: small(-5, -1), 0.0)
+    light = math.log2((0.05 / opening) ** 2 / shutter) if opening and shutter else None
     return Camera(
         focal_length=0.05,
         pixel_pitch=float(pitch),
-        f_number=maybe(0.4, lambda: small(-1, 3) * 0.05 / pitch / 40, None),
-        focus_distance=maybe(0.8, lambda: float(source.uniform(0.5, 30)), math.inf),
+        f_number=number,
+        pinhole=hole,
+        focus_distance=math.inf if hole else maybe(0.8, lambda: source.uniform(0.5, 30), math.inf),
+        wavelength=maybe(0.3, lambda: min(1e-3, small(-2, 0.5) * pitch * opening / 0.05), None)
+        if opening
+        else None,
+        flare=maybe(0.1, lambda: small(-5, 0), 0.0),
+        light_value=maybe(0.3, lambda: light + signed(-3, 0.3), None)
+        if light and -19 < light < 29
+        else None,
+        iso=maybe(0.2, lambda: 100.0 * 2 ** signed(-3, 0.6), 100.0),
+        fixed_pattern=maybe(0.2, lambda: small(-2, 1.5), 0.0) if noise else 0.0,
+        bias=maybe(0.2, lambda: small(-2, 2), 0.0) if well else 0.0,
+        dark_frames=maybe(0.2, lambda: int(source.integers(1, 30)), 0) if noise else 0,
+        binning=maybe(0.1, lambda: int(source.integers(2, 6)), 1),
         k1=maybe(0.3, lambda: signed(-6, -1), 0.0),
         k2=maybe(0.1, lambda: signed(-6, -2), 0.0),
         lateral_colour=maybe(0.2, lambda: signed(-5, 0.3), 0.0),
         natural_vignetting=bool(source.random() < 0.3),
         mechanical_vignetting=maybe(0.2, lambda: min(0.9, small(-4, 0)), 0.0),
-        shutter=maybe(0.5, lambda: small(-5, -1), 0.0),
+        shutter=shutter,
         velocity=maybe(0.2, lambda: (signed(0, 2.5), signed(0, 2.5)), (0.0, 0.0)),
         row_time=maybe(0.3, lambda: small(-7, -3), 0.0),
         exposure=maybe(0.3, lambda: signed(-4, 0.5), 0.0),

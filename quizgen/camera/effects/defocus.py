@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from quizgen.camera.body import F_NUMBER
+from quizgen.camera.body import aperture
 from quizgen.camera.costs import at_least_a_call, convolution
 from quizgen.camera.draw import Layer, Sheet, Stack, sheets
 from quizgen.camera.effect import Effect, Rung
@@ -152,7 +152,7 @@ EFFECT = Effect(
     name="defocus",
     stage="optics",
     decides=("defocus", "depth of field", "aperture", "artefacts"),
-    present=lambda view: view.camera[F_NUMBER] is not None,
+    present=lambda view: aperture(view.camera) is not None,
     run=run,
     cost=at_least_a_call(cost),
     skipped=skipped,

@@ -9,7 +9,7 @@ from functools import lru_cache
 import numpy as np
 
 from quizgen.arrays.distortion import displacement, fold_radius, inverse_radius
-from quizgen.camera.body import F_NUMBER, NEEDS_LENS
+from quizgen.camera.body import NEEDS_LENS, aperture
 from quizgen.camera.costs import at_least_a_call, at_size, sampling
 from quizgen.camera.draw import Layer, Stack, sheets
 from quizgen.camera.effect import Effect, Rung
@@ -151,7 +151,7 @@ def magnification(view: View) -> float:
 def skipped(facts: Facts, view: View) -> Error:
     """Largest displacement times the steepest slope; anything where a depth map moves along."""
     distance = largest_displacement(view)
-    if view.camera[F_NUMBER] is not None and view.has_depth_map and distance >= 0.5:
+    if aperture(view.camera) is not None and view.has_depth_map and distance >= 0.5:
         return Error(facts.span)
     return shifted(facts, distance, view)
 

@@ -1,47 +1,79 @@
-"""Exposure: everything times 2^stops."""
+"""Exposure: light by aperture and shutter, and a correction of 2^stops."""
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
+from quizgen.camera.body import SHUTTER, aperture
 from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, on_picture
 from quizgen.camera.facts import Error, Facts
 from quizgen.camera.scene import Image
-from quizgen.camera.settings import Setting, between
-from quizgen.camera.values import quantity
+from quizgen.camera.settings import Rule, Setting, Settings, between
+from quizgen.camera.values import number, quantity
 from quizgen.camera.view import View
 
 EXPOSURE = Setting("exposure", quantity("stop"), 0.0, (between(-40.0, 40.0, "stop"),))
-"""Stops; +1 doubles."""
+"""Correction in stops; +1 doubles."""
+
+
+def _lets_light_in(_: object, camera: Settings) -> bool:
+    return aperture(camera) is not None and camera[SHUTTER] > 0.0
+
+
+LIGHT_VALUE = Setting[float | None](
+    "light_value",
+    number,
+    None,
+    (between(-20.0, 30.0), Rule(_lets_light_in, "needs shutter, and f_number or pinhole")),
+)
+"""Brightness of the scene: the exposure value for ISO 100 that makes radiance 1 white."""
+
+
+def exposure_value(view: View) -> float:
+    """log2(N^2/t), as on a light meter set to ISO 100 (ISO 2720)."""
+    return math.log2(view.f_number**2 / view.camera[SHUTTER])
+
+
+def factor(view: View) -> float:
+    """What radiance is multiplied by, up to the photosites; `quizgen.camera.effects.gain` follows.
+
+    Without a light value the picture is metered: f-number and shutter do not change it.
+    """
+    stops, light = view.camera[EXPOSURE], view.camera[LIGHT_VALUE]
+    if light is not None:
+        stops += light - exposure_value(view)
+    return float(2.0**stops)
 
 
 def run(image: Image, view: View, rung: str = "") -> Image:
-    """Multiply by 2^stops."""
-    return image * np.float32(2.0 ** view.camera[EXPOSURE])
+    """Multiply by light, time and correction."""
+    return image * np.float32(factor(view))
 
 
 def skipped(facts: Facts, view: View) -> Error:
     """Largest value times the missing factor."""
-    return facts.amplified(abs(2.0 ** view.camera[EXPOSURE] - 1.0))
+    return facts.amplified(abs(factor(view) - 1.0))
 
 
 def carried(error: Error, facts: Facts, view: View) -> Error:
     """Errors are amplified too."""
-    return error.times(2.0 ** view.camera[EXPOSURE])
+    return error.times(factor(view))
 
 
 def after(facts: Facts, view: View) -> Facts:
     """Everything times the factor."""
-    return facts.scaled(2.0 ** view.camera[EXPOSURE])
+    return facts.scaled(factor(view))
 
 
 EFFECT = Effect(
     name="exposure",
     stage="sensor",
-    decides=("exposure",),
-    settings=(EXPOSURE,),
-    present=lambda view: view.camera[EXPOSURE] != 0.0,
+    decides=("exposure", "aperture", "shutter"),
+    settings=(EXPOSURE, LIGHT_VALUE),
+    present=lambda view: factor(view) != 1.0,
     run=on_picture(run),
     cost=measured((0.0786, 18)),
     skipped=skipped,

@@ -1,4 +1,4 @@
-"""Projection: lengths in metres become pixels, x = f X/Z."""
+"""Projection: lengths in metres become pixels, x = v X/Z at image distance v."""
 
 from __future__ import annotations
 
@@ -21,16 +21,18 @@ def project(scene: Scene, view: View) -> Scene:
     view : View
         Camera with focal length and pixel pitch.
     """
-    return replace(scene, things=tuple(_project(thing, view.focal) for thing in scene.things))
+    return replace(
+        scene, things=tuple(_project(thing, view.image_distance) for thing in scene.things)
+    )
 
 
-def _project(thing: Thing, focal: float) -> Thing:
+def _project(thing: Thing, distance: float) -> Thing:
     def on_sensor(length: Length) -> Length:
         if not length.metric:
             return length
         if math.isinf(thing.depth):
             raise SceneError(f"a {thing.shape} in metres needs a finite depth")
-        return Length(focal * length.value / thing.depth)
+        return Length(distance * length.value / thing.depth)
 
     lengths = {name: on_sensor(length) for name, length in thing.lengths().items()}
     velocity = on_sensor(thing.velocity[0]), on_sensor(thing.velocity[1])

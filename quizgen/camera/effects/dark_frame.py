@@ -1,0 +1,83 @@
+"""Dark frame: pedestal, fixed pattern and mean dark charge subtracted from the raw data."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from quizgen.camera.body import NEEDS_FULL_WELL
+from quizgen.camera.costs import measured
+from quizgen.camera.effect import Effect, on_picture
+from quizgen.camera.effects import fixed_pattern, mosaic
+from quizgen.camera.effects.dark_current import dark_electrons
+from quizgen.camera.effects.gain import gain
+from quizgen.camera.effects.read_noise import READ_NOISE
+from quizgen.camera.facts import Error, Facts
+from quizgen.camera.noise import add_normal, electrons_at_white, noisier, stream
+from quizgen.camera.scene import Image
+from quizgen.camera.settings import Setting, between
+from quizgen.camera.values import whole
+from quizgen.camera.view import View
+
+DARK_FRAMES = Setting("dark_frames", whole, 0, (NEEDS_FULL_WELL, between(0, 10**6)))
+"""Pictures with the lens covered, whose mean is subtracted; 0 subtracts nothing."""
+
+
+def _mean(view: View) -> float:
+    """Pedestal and mean dark charge, 1 = white."""
+    dark = dark_electrons(view) / electrons_at_white(view)
+    return (fixed_pattern.level(view) + dark) * gain(view)
+
+
+def _left(view: View) -> float:
+    """Noise left in the mean of the dark frames: that of one, over the root of their number.
+
+    A mean of counts is taken as normal; with one frame of few electrons it is not quite.
+    """
+    variance = view.camera[READ_NOISE] ** 2 + dark_electrons(view)
+    frames = view.camera[DARK_FRAMES]
+    return math.sqrt(variance / frames) / electrons_at_white(view) * gain(view)
+
+
+def master(shape: tuple[int, ...], view: View) -> Image:
+    """Mean of the dark frames, shape (H, W, 3)."""
+    dark = np.float32(dark_electrons(view) / electrons_at_white(view))
+    frame = fixed_pattern.offsets(np.full((*shape[:2], 3), dark, np.float32), view)
+    return add_normal(frame * np.float32(gain(view)), _left(view), stream(view, "dark frame"))
+
+
+def run(image: Image, view: View, rung: str = "") -> Image:
+    """Subtract the mean of the dark frames."""
+    dark = master(image.shape, view)
+    return image - (mosaic.run(dark, view) if image.shape[2] == 1 else dark)
+
+
+def skipped(facts: Facts, view: View) -> Error:
+    """All that would be subtracted, the spread of the offsets included."""
+    pattern = fixed_pattern.skipped(facts, view).sigma * gain(view)
+    return Error(_mean(view), math.hypot(pattern, _left(view)))
+
+
+def after(facts: Facts, view: View) -> Facts:
+    """Darker; what noise the frames have left is added."""
+    low, high = facts.limits
+    down = _mean(view)
+    lowered = replace(
+        facts, low=facts.low - down, high=facts.high - down, limits=(low - down, high - down)
+    )
+    return noisier(lowered, replace(skipped(facts, view), sure=0.0))
+
+
+EFFECT = Effect(
+    name="dark frame",
+    stage="processing",
+    decides=("dark frame", "fixed pattern", "dark current", "noise"),
+    settings=(DARK_FRAMES,),
+    present=lambda view: view.camera[DARK_FRAMES] > 0,
+    run=on_picture(run),
+    cost=measured((15, 620)),
+    skipped=skipped,
+    after=after,
+)

@@ -1,0 +1,69 @@
+"""Fixed pattern: what every photosite adds by itself, the same in all pictures of a camera."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from quizgen.camera.body import NEEDS_FULL_WELL
+from quizgen.camera.costs import measured
+from quizgen.camera.effect import Effect, on_picture
+from quizgen.camera.facts import Error, Facts
+from quizgen.camera.noise import add_normal, electrons_at_white, noisier, stream
+from quizgen.camera.scene import Image
+from quizgen.camera.settings import NOT_NEGATIVE, Setting
+from quizgen.camera.values import quantity
+from quizgen.camera.view import View
+
+FIXED_PATTERN = Setting("fixed_pattern", quantity("e-"), 0.0, (NEEDS_FULL_WELL, NOT_NEGATIVE))
+"""Standard deviation of the offsets of the photosites, e- (DSNU of EMVA 1288)."""
+BIAS = Setting("bias", quantity("e-"), 0.0, (NEEDS_FULL_WELL, NOT_NEGATIVE))
+"""Pedestal of all photosites, e-: it keeps noise around black from being clipped."""
+
+
+def level(view: View) -> float:
+    """The pedestal, 1 = white."""
+    return view.camera[BIAS] / electrons_at_white(view)
+
+
+def offsets(image: Image, view: View) -> Image:
+    """A picture with pedestal and offsets added: they do not depend on the scene's seed."""
+    sigma = view.camera[FIXED_PATTERN] / electrons_at_white(view)
+    lifted = image + np.float32(level(view))
+    if not sigma:
+        return lifted
+    camera = replace(view, scene=replace(view.scene, seed=0))
+    return add_normal(lifted, sigma, stream(camera, "fixed pattern"))
+
+
+def run(image: Image, view: View, rung: str = "") -> Image:
+    """Add pedestal and offsets."""
+    return offsets(image, view)
+
+
+def skipped(facts: Facts, view: View) -> Error:
+    """The pedestal, and the spread of the offsets."""
+    return Error(level(view), view.camera[FIXED_PATTERN] / electrons_at_white(view))
+
+
+def after(facts: Facts, view: View) -> Facts:
+    """Brighter by the pedestal; the offsets count as noise."""
+    low, high = facts.limits
+    up = level(view)
+    lifted = replace(facts, low=facts.low + up, high=facts.high + up, limits=(low + up, high + up))
+    return noisier(lifted, replace(skipped(facts, view), sure=0.0))
+
+
+EFFECT = Effect(
+    name="fixed pattern",
+    stage="sensor",
+    decides=("fixed pattern", "dark frame", "noise"),
+    settings=(FIXED_PATTERN, BIAS),
+    present=lambda view: view.camera[FIXED_PATTERN] > 0.0 or view.camera[BIAS] > 0.0,
+    run=on_picture(run),
+    cost=measured((7.3, 300)),
+    skipped=skipped,
+    after=after,
+    random=True,
+)

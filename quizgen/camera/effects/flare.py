@@ -1,0 +1,40 @@
+"""Veiling glare: light that strays inside the lens and lies over the whole picture."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from quizgen.camera.costs import measured
+from quizgen.camera.effect import Effect, on_picture
+from quizgen.camera.facts import Error, Facts
+from quizgen.camera.scene import Image
+from quizgen.camera.settings import SHARE, Setting
+from quizgen.camera.values import quantity
+from quizgen.camera.view import View
+
+FLARE = Setting("flare", quantity("%"), 0.0, (SHARE,))
+"""Share of the light that is spread evenly (the veiling glare index of ISO 9358)."""
+
+
+def run(image: Image, view: View, rung: str = "") -> Image:
+    """Take a share of every pixel's light and spread it evenly: the mean brightness is kept."""
+    share = view.camera[FLARE]
+    veil = share * image.mean(axis=(0, 1), dtype=np.float64)
+    return np.asarray(image * np.float32(1.0 - share) + veil.astype(np.float32))
+
+
+def skipped(facts: Facts, view: View) -> Error:
+    """The mean lies inside the range, so that a pixel is at most the whole range away from it."""
+    return Error(view.camera[FLARE] * facts.span)
+
+
+EFFECT = Effect(
+    name="flare",
+    stage="sensor",
+    decides=("flare", "contrast", "artefacts"),
+    settings=(FLARE,),
+    present=lambda view: view.camera[FLARE] > 0.0,
+    run=on_picture(run),
+    cost=measured((0.9, 45)),
+    skipped=skipped,
+)
