@@ -13,9 +13,17 @@ from quizgen.cli.terminal import Progress
 @click.argument("family", required=False, metavar="[FAMILY]")
 @click.option("--out", default="tradeoff", metavar="DIR", help="Folder to write to.")
 @click.option("--quick", is_flag=True, help="Fewer inputs: a fraction of the time.")
+@click.option(
+    "--count",
+    type=click.IntRange(1),
+    metavar="N",
+    help="Draw N questions to count wrong keys (10000: nothing is extrapolated).",
+)
 @click.option("--list", "only_list", is_flag=True, help="Name the families and stop.")
-def tradeoff(family: str | None, out: str, *, quick: bool, only_list: bool) -> None:
-    """Show what accuracy costs in time: an HTML page, SVG plots and JSON.
+def tradeoff(
+    family: str | None, out: str, *, quick: bool, count: int | None, only_list: bool
+) -> None:
+    """Show what accuracy costs in time: an HTML page, SVG and PNG plots, CSV and JSON.
 
     FAMILY limits the page to one solver, for example thin-lens.
     """
@@ -30,9 +38,12 @@ def tradeoff(family: str | None, out: str, *, quick: bool, only_list: bool) -> N
     from quizgen.tradeoff.page import write
     from quizgen.tradeoff.report import measure
 
-    words = ["quizgen", "tradeoff", *([family] if family else []), *(["--quick"] if quick else [])]
+    words = ["quizgen", "tradeoff", *([family] if family else []), *(["--quick"] if quick else []),
+             *(["--count", str(count)] if count else [])]  # fmt: skip
     with Progress("measuring") as progress:
-        report = measure([family] if family else [], quick=quick, progress=progress)
+        report = measure(
+            [family] if family else [], quick=quick, drawn=count or 0, progress=progress
+        )
     write(report, Path(out), " ".join(words))
     page = Path(out) / "tradeoff.html"
     click.echo(f"{page}: {len(report.families)} families, {report.seconds:.1f} s")

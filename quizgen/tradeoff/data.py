@@ -12,7 +12,9 @@ from quizgen.locale import table
 from quizgen.tradeoff.measure import Measured, Timing
 from quizgen.tradeoff.overview import cost, cost_text, digits_text, proven, road
 from quizgen.tradeoff.plot import time_text
+from quizgen.tradeoff.product import PHASES, Product
 from quizgen.tradeoff.report import FamilyReport, Report
+from quizgen.tradeoff.solving import FAULTS
 
 HEAD = (
     "family", "number", "way", "median_ns", "low_ns", "high_ns",
@@ -40,6 +42,7 @@ def as_data(report: Report, command: str) -> dict[str, Any]:
         "quartiles",
         "figure": asdict(report.figure),
         "families": [_finite(asdict(family)) for family in report.families],
+        "product": None if report.product is None else asdict(report.product),
         "knobs": {key: [asdict(curve) for curve in curves] for key, curves in report.knobs},
     }
 
@@ -60,6 +63,24 @@ def as_csv(report: Report) -> str:
     for number, family in enumerate(report.families, 1):
         for rung in family.rungs:
             writer.writerow([family.name, number, rung.key, *_times(rung.time), *_errors(rung)])
+    return text.getvalue()
+
+
+PRODUCT = ("arithmetic", "drawing_ms", "solving_ms", "collisions_ms", "marking_ms", "paper_ms",
+           "drawn", "digit", "accepted", "rejected", "unanswered")  # fmt: skip
+"""Columns of ``product.csv``: medians per paper, then faults among the questions drawn."""
+
+
+def product_csv(product: Product) -> str:
+    """One row per arithmetic."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(PRODUCT)
+    for row in product.rows:
+        spent = [1e3 * row.phases[phase].median for phase in PHASES] + [1e3 * row.whole.median]
+        found = product.counted.faults.get(row.system, {})
+        counts = [product.counted.drawn, *(found.get(fault, 0) for fault in FAULTS)]
+        writer.writerow([row.system, *(f"{ms:.4g}" for ms in spent), *counts])
     return text.getvalue()
 
 

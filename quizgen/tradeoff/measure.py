@@ -38,10 +38,11 @@ class Effort:
     inputs: int
     scalars: int
     repeats: int
+    papers: int
 
 
-FULL = Effort(inputs=400, scalars=60, repeats=7)
-QUICK = Effort(inputs=60, scalars=8, repeats=3)
+FULL = Effort(inputs=400, scalars=60, repeats=7, papers=7)
+QUICK = Effort(inputs=60, scalars=8, repeats=3, papers=3)
 
 
 @dataclass(frozen=True)

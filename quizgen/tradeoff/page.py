@@ -9,10 +9,12 @@ from importlib.resources import files
 from pathlib import Path
 
 import jinja2
+import msgspec
 from markupsafe import Markup
 
 from quizgen.files import write_all
 from quizgen.locale import language, languages
+from quizgen.maths.notation import people
 from quizgen.render.fonts import bangla_uri
 from quizgen.render.layouts import environment
 from quizgen.render.typ import png
@@ -22,6 +24,7 @@ from quizgen.tradeoff.data import (
     as_data,
     digits_said,
     markdown,
+    product_csv,
     steps_text,
     verdict_text,
     words,
@@ -37,7 +40,9 @@ from quizgen.tradeoff.plot import (
     time_text,
     work_panel,
 )
+from quizgen.tradeoff.product import ROUND, Counted, Product
 from quizgen.tradeoff.report import FamilyReport, Peer, Report
+from quizgen.tradeoff.solving import FAULTS
 
 HALF_PIXEL = 0.5 / 255
 
@@ -52,6 +57,10 @@ def write(report: Report, folder: Path, command: str) -> list[Path]:
     made["tradeoff.json"] = json.dumps(as_data(report, command), indent=1) + "\n"
     made["tradeoff.csv"] = as_csv(report)
     made["tradeoff.md"] = markdown(report, command)
+    if report.product is not None:
+        made["product.csv"] = product_csv(report.product)
+        counts = msgspec.toml.encode(report.product.counted)
+        made["counted.toml"] = counts.decode()
     page = {"tradeoff.html": html(report, command).encode()}
     pictures = {"overview.png": png(plots["overview"].encode(), 560)}
     texts = {name: text.encode() for name, text in made.items()}
@@ -90,6 +99,9 @@ def _layouts() -> jinja2.Environment:
         digits=digits_said,
         slower=slower,
         family_panels=family_panels,
+        faults=FAULTS,
+        counted=counted,
+        product_sentence=product_sentence,
         knob_plot=knob_plot,
     )
     return layouts
@@ -135,6 +147,29 @@ def sentence(report: Report, lang: str) -> str:
         proven=time_text(median.proven.time),
         share=f"{median.proven.time / report.figure.median / 1e7:.2g}",
         figure=time_text(1e9 * report.figure.median),
+    )
+    return said
+
+
+def counted(found: Counted, system: str, fault: str) -> str:
+    """How many of ``ROUND`` questions have a fault; marked where it is extrapolated."""
+    many = people.number(str(found.of_round(system, fault)))
+    return many if found.drawn >= ROUND else f"≈ {many}"
+
+
+def product_sentence(product: Product, lang: str) -> str:
+    """Why the product computes exactly, in numbers."""
+    rows = {row.system: row for row in product.rows}
+    exact, doubles = (rows[name].phases["solving"].median for name in ("exact", "float64"))
+    whole = rows["exact"].whole.median
+    said: str = words(lang)["product"]["sentence"].format(
+        exact=time_text(1e9 * exact),
+        doubles=time_text(1e9 * doubles),
+        whole=time_text(1e9 * whole),
+        share=f"{100 * (exact - doubles) / whole:.1f}",
+        rejected=counted(product.counted, "float64", "rejected"),
+        digit=counted(product.counted, "float64", "digit"),
+        accepted=counted(product.counted, "rounded", "accepted"),
     )
     return said
 

@@ -8,7 +8,6 @@ import time
 import warnings
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from datetime import UTC, datetime
 from typing import Any
 
 import numpy as np
@@ -28,6 +27,7 @@ from quizgen.tradeoff.measure import (
     timed,
 )
 from quizgen.tradeoff.peers import peers
+from quizgen.tradeoff.product import Product, measure_product, today
 
 Progress = Callable[[str], None]
 """Told the name of what is measured next."""
@@ -86,6 +86,7 @@ class Report:
 
     families: tuple[FamilyReport, ...]
     knobs: tuple[tuple[str, tuple[Curve, ...]], ...]
+    product: Product | None
     effort: Effort
     figure: Timing
     machine: str
@@ -94,15 +95,17 @@ class Report:
 
 
 def measure(
-    names: Iterable[str] = (), *, quick: bool = False, progress: Progress = silent
+    names: Iterable[str] = (), *, quick: bool = False, drawn: int = 0, progress: Progress = silent
 ) -> Report:
-    """Measure the named families (all of them by default).
+    """Measure the named families (by default all of them, the settings and the whole product).
 
     Parameters
     ----------
     names : iterable of str
     quick : bool
         Fewer inputs.
+    drawn : int
+        Questions to draw to count faults of the product anew; 0 for what is recorded.
     progress : callable
         Told the name of each family and knob before it is measured.
 
@@ -118,8 +121,9 @@ def measure(
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         curves = () if names else tuple(_knob(knob, effort, progress) for knob in KNOBS)
+    product = None if names else measure_product(drawn, effort.papers, progress)
     return Report(
-        families, curves, effort, _figure(), _machine(), _today(),
+        families, curves, product, effort, _figure(), _machine(), today(),
         time.perf_counter() - start,
     )  # fmt: skip
 
@@ -190,7 +194,3 @@ def _machine() -> str:
         f"{platform.system()} {platform.machine()}, {os.cpu_count()} CPU, "
         f"Python {platform.python_version()}, NumPy {np.__version__}"
     )
-
-
-def _today() -> str:
-    return datetime.now(UTC).date().isoformat()

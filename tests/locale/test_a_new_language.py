@@ -147,7 +147,7 @@ def test_the_tradeoff_page_has_the_language(known):
     from quizgen.tradeoff.report import Report
 
     figure = Timing(0.1, 0.1, 0.1)
-    report = Report((), (), QUICK, figure, "a machine", "2026-01-01", 1.0)
+    report = Report((), (), None, QUICK, figure, "a machine", "2026-01-01", 1.0)
     page = html(report, "quizgen tradeoff")
     assert accented("What accuracy costs in time") in page
     assert f'<label for="{LANG}" lang="{LANG}">Áccénts</label>' in page
