@@ -34,7 +34,7 @@ LAYERS = {
     "paper": "errors shapes outside files locale maths bank figures marking question",
     "practice": "errors shapes outside files locale maths bank marking question paper",
     "responses": "errors shapes outside files locale maths marking question paper practice",
-    "render": "errors outside files locale typeset bank question paper",
+    "render": "errors outside files kept locale typeset bank question paper",
     "cards": "errors executors shapes outside files locale maths typeset bank figures question paper render",
     "export": "errors files locale maths typeset bank figures marking question paper responses render",
     "tradeoff": "errors shapes outside files locale maths arrays typeset bank figures marking question paper render",

@@ -1,4 +1,4 @@
-"""Bring what the bank's files come to with the wheel, so that nobody has to wait for it once."""
+"""Bring what the bank and the layouts come to with the wheel, so that nobody waits for it once."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 
 class Keep(BuildHookInterface):  # type: ignore[type-arg]
-    """Loads every template of the bank while its wheel is built."""
+    """Loads every template of the bank and every layout of papers while their wheel is built."""
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         """Add what is kept to the files of the wheel; a checkout keeps it when it is asked."""
@@ -20,10 +20,12 @@ class Keep(BuildHookInterface):  # type: ignore[type-arg]
         sys.path.insert(0, self.root)
         from quizgen import kept
         from quizgen.bank.folder import Bank
+        from quizgen.render.layouts import compiled
 
         self._made = tempfile.TemporaryDirectory()
         kept.own = lambda: Path(self._made.name)
         list(Bank(Path(self.root), trusted=True))
+        compiled("quizgen.render")
         build_data["force_include"][self._made.name] = "quizgen/builtin/kept"
 
     def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:

@@ -1,16 +1,83 @@
-"""The layouts of a package's pages: Jinja as all pages of ours use it."""
+"""The layouts of a package's pages: Jinja as all pages of ours use it.
+
+Jinja compiles a layout to Python, which takes longer than to fill it in. The bytecode is kept, as
+Python keeps that of modules.
+"""
 
 from __future__ import annotations
 
+import marshal
+from collections.abc import Callable
+from contextlib import suppress
+from functools import cache
+from importlib.util import MAGIC_NUMBER
+from pathlib import Path
+from types import CodeType
+
 import jinja2
+from jinja2.bccache import Bucket, BytecodeCache
+
+from quizgen import kept
+
+_KIND = "layouts"
+
+
+class _Loader(jinja2.PackageLoader):
+    """Layouts that go by their names: bytecode says nothing of the folder that it was made in."""
+
+    def get_source(
+        self, environment: jinja2.Environment, template: str
+    ) -> tuple[str, str, Callable[[], bool] | None]:
+        """The layout, its name, and whether it is still the same."""
+        source, _, fresh = super().get_source(environment, template)
+        return source, template, fresh
+
+
+class _Kept(BytecodeCache):
+    """Bytecode under the digest of its layout, of how Jinja is used here, and of Python."""
+
+    def get_bucket(
+        self, environment: jinja2.Environment, name: str, filename: str | None, source: str
+    ) -> Bucket:
+        """What is kept of a layout, or room for it."""
+        del filename
+        key = kept.digest_of(_maker(), name.encode(), source.encode())
+        bucket = Bucket(environment, key, "")
+        self.load_bytecode(bucket)
+        return bucket
+
+    def load_bytecode(self, bucket: Bucket) -> None:
+        """Find it."""
+        with suppress(EOFError, ValueError, TypeError):
+            found = marshal.loads(kept.find(_KIND, bucket.key) or b"")  # noqa: S302 (as Python's own)
+            bucket.code = found if isinstance(found, CodeType) else None
+
+    def dump_bytecode(self, bucket: Bucket) -> None:
+        """Keep it."""
+        kept.keep(_KIND, bucket.key, marshal.dumps(bucket.code))
+
+
+@cache
+def _maker() -> bytes:
+    """Digest of what makes bytecode of a layout."""
+    own = Path(__file__).read_bytes()
+    return kept.digest_of(own, jinja2.__version__.encode(), MAGIC_NUMBER).encode()
 
 
 def environment(*packages: str) -> jinja2.Environment:
     """The layouts in the folders ``pages`` of packages: texts are escaped, unknown names fail."""
     return jinja2.Environment(
-        loader=jinja2.ChoiceLoader([jinja2.PackageLoader(name, "pages") for name in packages]),
+        loader=jinja2.ChoiceLoader([_Loader(name, "pages") for name in packages]),
+        bytecode_cache=_Kept(),
         autoescape=True,
         trim_blocks=True,
         lstrip_blocks=True,
         undefined=jinja2.StrictUndefined,
     )
+
+
+def compiled(package: str) -> None:
+    """Have all layouts of a package compiled and kept."""
+    layouts = environment(package)
+    for name in layouts.list_templates(extensions=("j2",)):
+        layouts.get_template(name)
