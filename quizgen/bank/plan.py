@@ -14,7 +14,7 @@ from quizgen.bank.rules import KeepRule, Scalar
 from quizgen.bank.template import Template
 from quizgen.bank.traps import PartPlan
 from quizgen.errors import BankError, MathError
-from quizgen.maths.numbers import places, rational, to_float, written
+from quizgen.maths.numbers import places, rational, to_float
 from quizgen.maths.precision import working_precision
 from quizgen.maths.systems import Compiled, compile_inner, exact
 from quizgen.maths.tree import names
@@ -167,12 +167,11 @@ def candidates(
         return tuple(rational(str(v)) for v in listed)
     if not span:
         return ()
-    first, last, step = map(written, span)
-    left_out = {written(v) for v in skip}
-    count = int((last - first) / step) + 1
-    return tuple(
-        rational(first + i * step) for i in range(count) if first + i * step not in left_out
-    )
+    first, last, step = (rational(str(v)) for v in span)
+    left_out = {rational(str(v)) for v in skip}
+    count = int(((last - first) / step).floor()) + 1
+    values = (first + place * step for place in range(count))
+    return tuple(value for value in values if value not in left_out)
 
 
 def keep_test(rule: KeepRule) -> Callable[[Value], bool]:
