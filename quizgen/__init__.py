@@ -105,10 +105,12 @@ def __dir__() -> list[str]:
 if not TYPE_CHECKING:  # a type checker reads the imports above and refuses any other name
 
     def __getattr__(name: str) -> object:
-        from importlib import import_module, metadata
+        from importlib import import_module
 
         if name == "__version__":
-            return metadata.version("quizgen")
+            from importlib.metadata import version
+
+            return version("quizgen")
         if name not in HOMES:
             raise AttributeError(f"module 'quizgen' has no attribute {name!r}")
         return getattr(import_module(f"quizgen.{HOMES[name]}"), name)

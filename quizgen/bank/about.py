@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from importlib.metadata import version
 from pathlib import Path
 from typing import TypeVar
 
@@ -118,6 +117,8 @@ def read_about(path: Path) -> About:
 
 
 def _check_version(path: Path, requires: str) -> None:
+    from importlib.metadata import version
+
     from packaging.specifiers import InvalidSpecifier, SpecifierSet
 
     here = version("quizgen")
