@@ -268,3 +268,14 @@ def test_terms_equally_near_are_returned_together():
 def test_slips_allowed_grow_with_the_word():
     assert [budget("a" * length) for length in (4, 5, 8, 9)] == [0, 1, 1, 2]
     assert [slips("hue", "cat", most) for most in (1, 2, 3)] == [2, 3, 3]
+
+
+@pytest.mark.parametrize(("typed", "term", "counted"), [
+    ("gamma", "gamma", 0), ("gmama", "gamma", 1), ("gama", "gamma", 1), ("gammaa", "gamma", 1),
+    ("gamna", "gamma", 1), ("gmmaa", "gamma", 2), ("aberation", "aberrations", 2),
+    ("binnign", "bining", 2), ("retina", "cornea", 3), ("tertiary", "whitepaper", 3),
+    ("hyperopia", "whitepaper", 3), ("iris", "virus", 2), ("", "ab", 2), ("", "abc", 3),
+])  # fmt: skip
+def test_slips_are_counted_up_to_two(typed, term, counted):
+    assert slips(typed, term, 2) == slips(term, typed, 2) == counted
+    assert slips(typed, term, 0) == min(counted, 1)

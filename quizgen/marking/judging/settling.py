@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
 import sys
 from collections.abc import Mapping
 
@@ -21,6 +20,8 @@ def settle_equal(
     The formulas travel as text of the formula grammar and are rebuilt node by node, so nothing
     that was typed is ever evaluated as code.
     """
+    import subprocess  # hardly a formula stays undecided
+
     positive = ",".join(sorted(n for n, domain in symbols.items() if domain == "positive"))
     command = [sys.executable, "-m", "quizgen.marking.judging.settling", positive]
     try:

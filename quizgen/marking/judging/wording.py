@@ -5,6 +5,7 @@ from __future__ import annotations
 import operator
 import re
 import unicodedata
+from collections import Counter
 from collections.abc import Callable, Iterable
 from functools import cache, lru_cache
 
@@ -65,7 +66,16 @@ def slips(first: str, second: str, most: int) -> int:
     int
         ``most + 1`` if there are more than ``most``.
     """
+    if _unlike(first, second, most):
+        return most + 1
     return int(_distance()(first, second, score_cutoff=most))
+
+
+def _unlike(first: str, second: str, most: int) -> bool:
+    """Whether letters alone, wherever they stand, tell of more slips than ``most``."""
+    if abs(len(first) - len(second)) > most or len({*first} ^ {*second}) > 2 * most:
+        return True
+    return max(len(first), len(second)) - (Counter(first) & Counter(second)).total() > most
 
 
 @cache
