@@ -13,6 +13,15 @@ from typing import Any
 import msgspec
 
 from quizgen.bank.complaints import in_words
+from quizgen.bank.most import (
+    MOST_CHOICES,
+    MOST_FORMULAS,
+    MOST_IN_POOL,
+    MOST_MINUTES,
+    MOST_OPTIONS,
+    MOST_PARTS,
+    MOST_POINTS,
+)
 from quizgen.bank.rules import DrawRule, KeepRule, Rules
 from quizgen.errors import FormulaError
 from quizgen.maths.constants import Scalar
@@ -23,12 +32,6 @@ from quizgen.shapes import converted
 
 LARGEST = 10**100
 """Largest size of an authored number, and of its inverse."""
-MOST_CHOICES = 10_000
-"""Values of a range, and entries of a list."""
-MOST_POINTS, MOST_MINUTES, MOST_PARTS, MOST_OPTIONS = 1000, 9999, 10, 12
-MOST_IN_POOL = 60
-"""Options, pairs, steps or gaps of which every draw takes some."""
-MOST_FORMULAS = 500
 
 Problems = Iterator[tuple[str, str]]
 """Field and what is wrong in it."""

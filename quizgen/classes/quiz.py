@@ -20,9 +20,10 @@ from quizgen.classes.secret import code_of, new_secret
 from quizgen.errors import ClassError
 from quizgen.files import PRIVATE, write_all
 from quizgen.paper.key import FORMAT, Key, KeyQuestion, digest_of_key
+from quizgen.responses import SUFFIX
 from quizgen.responses.attempts import Attempt, Lost
 from quizgen.responses.files import attempts
-from quizgen.responses.keys import SUFFIX, Kept, Keys, read
+from quizgen.responses.keys import Kept, Keys, read
 from quizgen.responses.marks import Given, given
 
 

@@ -15,7 +15,7 @@ from quizgen.errors import KeyFileError
 from quizgen.locale import FIRST, languages
 from quizgen.marking.echo import safe
 from quizgen.outside import visible
-from quizgen.responses.keys import SUFFIX
+from quizgen.responses import SUFFIX
 
 if TYPE_CHECKING:
     from quizgen.paper.form import Answers

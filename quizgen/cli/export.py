@@ -74,7 +74,8 @@ def export(**options: Unpack[Options]) -> None:
     from quizgen.export.kept import kept
     from quizgen.export.wording import formulas
     from quizgen.files import PRIVATE, write_all
-    from quizgen.responses.keys import SUFFIX, written
+    from quizgen.responses import SUFFIX
+    from quizgen.responses.keys import written
 
     target = options["target"]
     if options["maths"] == "tex" and target not in TEX:

@@ -31,7 +31,7 @@ import msgspec
 from quizgen.bank.clashes import BETWEEN
 from quizgen.bank.folder import Bank, builtin
 from quizgen.bank.levels import CHOICES, EXAM
-from quizgen.bank.limits import MOST_MINUTES, MOST_POINTS
+from quizgen.bank.most import MOST_MINUTES, MOST_POINTS
 from quizgen.errors import BlueprintError
 from quizgen.locale import languages, word
 from quizgen.outside import NAMES, is_name, parse_toml, read_text

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 from flint import fmpq
 
-from quizgen.bank.limits import MOST_POINTS
+from quizgen.bank.most import MOST_POINTS
 from quizgen.errors import FormulaError, KeyFileError
 from quizgen.files import read_table
 from quizgen.marking.mark import load_spec

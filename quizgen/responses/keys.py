@@ -21,7 +21,6 @@ from quizgen.question.contract import Form
 from quizgen.shapes import decoder
 
 FORMAT = "quizgen-responses/1"
-SUFFIX = ".keys.jsonl"
 LARGEST = 200_000_000
 """Bytes of the largest file of keys that is read."""
 

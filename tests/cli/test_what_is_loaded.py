@@ -15,7 +15,7 @@ from quizgen.cli.main import main
 try:
     main(sys.argv[1:])
 finally:
-    print(*{name.partition(".")[0] for name in sys.modules}, file=sys.stderr)
+    print(*sys.modules, file=sys.stderr)
 """
 DRAWING = {"numpy", "matplotlib", "PIL"}
 """What only a figure needs."""
@@ -23,11 +23,8 @@ DRAWING = {"numpy", "matplotlib", "PIL"}
 
 @pytest.fixture(scope="module")
 def place(tmp_path_factory):
-    """A folder with a paper in it, and the built-in solvers compiled."""
-    bank = builtin()
-    for name in bank.paths:
-        if bank.rules(name).solver:
-            bank.chain(bank.rules(name).solver)
+    """A folder; solvers are compiled and prose is read, once and for all."""
+    list(builtin())
     return tmp_path_factory.mktemp("loaded")
 
 
@@ -42,6 +39,8 @@ def test_no_command_from_making_a_paper_to_marking_it_loads_sympy(place):
     assert not {"sympy", "matplotlib", "markdown_it"} & made
     checked = loaded(place, "check paper/key.json paper/answers.toml")
     assert not ({"sympy", "typst", "markdown_it"} | DRAWING) & checked
+    assert not {f"quizgen.{name}" for name in ("figures", "question", "typeset")} & checked
+    assert not {"subprocess", "importlib.metadata", "quizgen.bank.rules"} & checked
 
 
 @pytest.mark.parametrize("command", [
