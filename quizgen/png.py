@@ -34,8 +34,10 @@ _LENGTH_BASE = (
     163, 195, 227, 258,
 )  # fmt: skip
 _LENGTH_BITS = (0,) * 8 + (1,) * 4 + (2,) * 4 + (3,) * 4 + (4,) * 4 + (5,) * 4 + (0,)
-_LONGEST = 258
+_SHORTEST, _LONGEST = 3, 258
 _DISTANCE_ONE = "00000"
+_HEADER, _END = "110", "0000000"
+"""Bits before and after all symbols: one block, the last, with the fixed table."""
 
 
 # Written with bytes that never vary
@@ -61,14 +63,30 @@ def _repeat(length: int) -> str:
 
 
 @cache
-def _run(byte: int, count: int) -> str:
-    """Bits of one byte repeated."""
-    bits, count = [_symbol(byte)], count - 1
-    while count >= 3:
-        step = min(count, _LONGEST)
-        bits.append(_repeat(step))
-        count -= step
-    return "".join(bits) + _symbol(byte) * count
+def _table() -> tuple[NDArray[np.uint32], NDArray[np.int64]]:
+    """Bits of the 256 literals and of the repeats, as numbers; and how many each has."""
+    import numpy as np
+
+    bits = [*map(_symbol, range(256)), *map(_repeat, range(_SHORTEST, _LONGEST + 1))]
+    values = np.array([int(code[::-1], 2) for code in bits], np.uint32)
+    return values, np.array([*map(len, bits)])
+
+
+def _symbols(data: NDArray[np.uint8]) -> NDArray[np.intp]:
+    """Rows of the table: each run is its byte, long repeats of it, and what is left."""
+    import numpy as np
+
+    starts = np.flatnonzero(np.diff(data, prepend=data[0] ^ 1))
+    long, left = np.divmod(np.diff(starts, append=len(data)) - 1, _LONGEST)
+    short = left < _SHORTEST
+    counts = 1 + long + np.where(short, left, 1)
+    symbols = np.repeat(data[starts].astype(np.intp), counts)
+    ends = np.cumsum(counts)
+    symbols[ends[~short] - 1] = 256 + left[~short] - _SHORTEST
+    for run in np.flatnonzero(long).tolist():
+        first = ends[run] - counts[run] + 1
+        symbols[first : first + long[run]] = 256 + _LONGEST - _SHORTEST
+    return symbols
 
 
 def deflate(data: NDArray[np.uint8]) -> bytes:
@@ -86,11 +104,19 @@ def deflate(data: NDArray[np.uint8]) -> bytes:
     """
     import numpy as np
 
-    starts = np.flatnonzero(np.diff(data, prepend=data[0] ^ 1))
-    counts = np.diff(starts, append=len(data))
-    bits = f"110{''.join(map(_run, data[starts].tolist(), counts.tolist()))}{_symbol(256)}"
-    packed = int(bits[::-1], 2).to_bytes((len(bits) + 7) // 8, "little")
-    return b"\x78\x01" + packed + pack(">I", adler32(data.tobytes()))
+    values, lengths = _table()
+    symbols = _symbols(data)
+    ends = len(_HEADER) + np.cumsum(lengths[symbols])
+    at = ends - lengths[symbols]
+    words = values[symbols] << (at % 8).astype(np.uint32)
+    size = (int(ends[-1]) + len(_END) + 7) // 8
+    packed, first = np.zeros(size + 4), at // 8
+    for place in range(4):  # bits of different symbols never meet, so that adding joins them
+        part = words >> np.uint32(8 * place) & np.uint32(255)
+        packed[place : place + size] += np.bincount(first, part, size)
+    packed[0] += int(_HEADER[::-1], 2)
+    stream = packed[:size].astype(np.uint8).tobytes()
+    return b"\x78\x01" + stream + pack(">I", adler32(data.tobytes()))
 
 
 def index_data(indices: NDArray[np.uint8]) -> bytes:
@@ -101,9 +127,7 @@ def index_data(indices: NDArray[np.uint8]) -> bytes:
     indices : ndarray of uint8, shape (height, width)
         Index of the colour of each pixel.
     """
-    import numpy as np
-
-    return deflate(np.pad(indices, ((0, 0), (1, 0))).ravel())
+    return deflate(_led(indices, 0).ravel())
 
 
 def indexed(shape: tuple[int, int], data: bytes, palette: Sequence[tuple[int, int, int]]) -> bytes:
@@ -140,16 +164,23 @@ def encode(codes: NDArray[np.uint8]) -> bytes:
     bytes
         A PNG file, the same with every version of zlib.
     """
-    import numpy as np
-
-    if codes.ndim == 3 and np.array_equal(codes[..., :1].repeat(3, axis=2), codes):
+    if codes.ndim == 3 and (codes == codes[..., :1]).all():
         codes = codes[..., 0]
     height, width = codes.shape[:2]
     rows = codes.reshape(height, -1)
-    upward = np.diff(rows, axis=0, prepend=rows[:1] * 0)  # flat areas become runs of zeros
-    filtered = np.pad(upward, ((0, 0), (1, 0)), constant_values=2)
+    filtered = _led(rows, 2)
+    filtered[1:, 1:] -= rows[:-1]  # flat areas become runs of zeros
     kind = _GREY if codes.ndim == 2 else _RGB
     return _file((height, width), kind, (b"IDAT", deflate(filtered.ravel())))
+
+
+def _led(rows: NDArray[np.uint8], way: int) -> NDArray[np.uint8]:
+    """Rows with the number of their filter before each."""
+    import numpy as np
+
+    led = np.empty((len(rows), rows.shape[1] + 1), np.uint8)
+    led[:, 0], led[:, 1:] = way, rows
+    return led
 
 
 def _file(shape: tuple[int, int], kind: int, *chunks: tuple[bytes, bytes]) -> bytes:
@@ -203,9 +234,7 @@ def _filtered(codes: NDArray[np.uint8], kind: int, *chunks: tuple[bytes, bytes])
     beside = np.diff(codes, axis=1, prepend=codes[:, :1] * 0)
     above = np.diff(codes, axis=0, prepend=codes[:1] * 0)
     rows = [one.reshape(len(codes), -1) for one in (codes, beside, above)]
-    data = [
-        np.pad(row, ((0, 0), (1, 0)), constant_values=way).tobytes() for way, row in enumerate(rows)
-    ]
+    data = [_led(row, way).tobytes() for way, row in enumerate(rows)]
     best = min(data, key=lambda one: len(zlib.compress(one, 1)))
     height, width = codes.shape[:2]
     return _file((height, width), kind, *chunks, (b"IDAT", zlib.compress(best, 9)))

@@ -181,3 +181,9 @@ def test_indexed_pictures_are_read_by_pillow():
     file = png.indexed(indices.shape, png.index_data(indices), palette)
     picture = np.asarray(Image.open(io.BytesIO(file)).convert("RGB"))
     assert (picture == np.array(palette)[indices]).all()
+
+
+@pytest.mark.parametrize("count", [1, 3, 4, 258, 259, 260, 261, 262, 517, 519, 2000])
+def test_runs_of_any_length_are_inflated_by_zlib(count):
+    data = np.concatenate([np.full(count, byte, np.uint8) for byte in (0, 200, 143, 144, 0)])
+    assert zlib.decompress(png.deflate(data)) == data.tobytes()

@@ -11,7 +11,7 @@ runs. Pictures are float32 arrays (H, W, 3), linear until ``gamma``; importing n
 from quizgen.camera.camera import Camera
 from quizgen.camera.plan import Plan, everything, plan
 from quizgen.camera.scene import Length, Scene, SceneError, Thing
-from quizgen.camera.simulate import Photo, simulate, simulate_everything
+from quizgen.camera.simulate import Photo, photographs, simulate, simulate_everything
 from quizgen.camera.view import View
 
 __all__ = [
@@ -24,6 +24,7 @@ __all__ = [
     "Thing",
     "View",
     "everything",
+    "photographs",
     "plan",
     "simulate",
     "simulate_everything",

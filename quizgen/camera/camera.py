@@ -50,7 +50,7 @@ class Camera(Settings):
         for name in more.keys() - known.keys():
             raise SceneError(f"unknown key {name!r} in camera{nearest(name, known)}")
         super().__init__({name: x for name, x in given.items() if x != known[name].identity})
-        for setting in known.values():
+        for setting in (setting for name, setting in known.items() if name in self.given):
             for fault in setting.faults(self):
                 raise SettingError(setting.name, fault)
 

@@ -109,6 +109,7 @@ def _blades(thing: Thing, x: Plane, y: Plane) -> Plane:
 
 def _polygon(thing: Thing, x: Plane, y: Plane) -> Plane:
     """Distances beyond the soft edge are not computed: only near a side does its own one count."""
+    x, y = np.broadcast_arrays(x, y)
     distance, inside = np.full(x.shape, np.inf), np.zeros(x.shape, bool)
     rows, columns = _ends(y, 1), _ends(x, 0)
     for (ax, ay), (bx, by) in zip(thing.points, (*thing.points[1:], thing.points[0]), strict=True):
@@ -141,7 +142,7 @@ def _near(ends: tuple[Plane, Plane], start: float, stop: float) -> NDArray[np.bo
 
 
 def _full(thing: Thing, x: Plane, y: Plane) -> Plane:  # noqa: ARG001 - every shape takes the same
-    return np.full(x.shape, -np.inf)
+    return np.full(np.broadcast_shapes(x.shape, y.shape), -np.inf)
 
 
 SHAPES: dict[str, Shape] = {
@@ -199,8 +200,8 @@ def _place(thing: Thing, view: View) -> tuple[float, float]:
     return view.centre[0] + thing.x.value, view.centre[1] + thing.y.value
 
 
-_ROWS = 64
-"""Rows drawn at once, so that what lies in between stays small."""
+_BAND = 1 << 16
+"""Pixels drawn at once, about, so that what lies in between stays small."""
 
 
 def _extent(thing: Thing) -> float:
@@ -228,14 +229,18 @@ def _parts(thing: Thing, view: View) -> Iterator[tuple[slice, slice]]:
     (column, row), far = _place(thing, view), _extent(thing)
     left, right = _within(column, far, view.width)
     top, bottom = _within(row, far, view.height)
-    for start in range(top, bottom, _ROWS) if left < right else ():
-        yield slice(start, min(start + _ROWS, bottom)), slice(left, right)
+    rows = max(1, _BAND // max(1, right - left))
+    for start in range(top, bottom, rows) if left < right else ():
+        yield slice(start, min(start + rows, bottom)), slice(left, right)
 
 
 def _own_axes(thing: Thing, view: View, part: tuple[slice, slice]) -> tuple[Plane, Plane]:
+    """Places from a thing's centre along its own axes: a row and a column, or planes if turned."""
     column, row = _place(thing, view)
     x = (np.arange(part[1].start, part[1].stop) - column)[None, :]
     y = (np.arange(part[0].start, part[0].stop) - row)[:, None]
+    if not thing.angle:
+        return x, y
     cosine, sine = math.cos(thing.angle), math.sin(thing.angle)
     return cosine * x + sine * y, cosine * y - sine * x
 

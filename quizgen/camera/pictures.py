@@ -17,7 +17,6 @@ from quizgen.camera.effects.normalisation import stretch_range
 from quizgen.camera.hsv import edit_hsv
 from quizgen.camera.noise import stream
 from quizgen.camera.scene import Image, Scene
-from quizgen.camera.simulate import Photo, simulate
 from quizgen.camera.view import View
 
 Codes = NDArray[np.uint8]
@@ -66,14 +65,6 @@ def bayer(image: Image, phase: str = "RGGB") -> tuple[Image, Image, Image]:
         for column, channel in enumerate(channels):
             coloured[row::2, column::2, channel] = raw[row::2, column::2, 0]
     return raw[..., 0], coloured, demosaicing.run(raw, view)
-
-
-def at_f_numbers(scene: Scene, camera: Camera, numbers: tuple[float, ...]) -> tuple[Photo, ...]:
-    """The same scene at several f-numbers; brightness stays, as with a matching shutter."""
-    return tuple(
-        simulate(scene, camera.but(f_number=number), question="depth of field")
-        for number in numbers
-    )
 
 
 def normalised(

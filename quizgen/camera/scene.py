@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, fields
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
 from typing import NamedTuple
 
@@ -98,14 +98,17 @@ class Thing:
     @property
     def metric(self) -> bool:
         """Whether any length is in metres, so that the object must be projected."""
-        return any(value.metric for value in self.lengths().values()) or any(
-            part.metric for part in self.velocity
-        )
+        lengths = (getattr(self, name) for name in _lengths())
+        return any(one.metric for one in (*lengths, *self.velocity))
 
     def lengths(self) -> dict[str, Length]:
         """Every length field by name."""
-        named = {item.name: getattr(self, item.name) for item in fields(self)}
-        return {name: value for name, value in named.items() if isinstance(value, Length)}
+        return {name: getattr(self, name) for name in _lengths()}
+
+
+@cache
+def _lengths() -> tuple[str, ...]:
+    return tuple(item.name for item in fields(Thing) if isinstance(item.default, Length))
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,7 +151,7 @@ class Scene:
     title: str = ""
     file: Path | None = None
 
-    @property
+    @cached_property
     def metric(self) -> bool:
         """Whether anything is given in metres."""
         return any(thing.metric for thing in self.things)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from quizgen.camera import effects
 from quizgen.camera.camera import Camera
 from quizgen.camera.codes import rounded
-from quizgen.camera.draw import composite
+from quizgen.camera.draw import Sheet, Stack, composite, sheets
 from quizgen.camera.facts import EXCEEDED
 from quizgen.camera.filters import warm_up
 from quizgen.camera.plan import GREY_LEVELS, Plan, Prepared, everything, plan
@@ -109,6 +109,22 @@ def simulate_everything(scene: Scene, camera: Camera) -> Photo:
     """Run every present effect exactly, for comparison."""
     prepared = Prepared(scene, camera)
     return run(prepared, everything(prepared))
+
+
+def photographs(scene: Scene, *cameras: Camera) -> tuple[Photo, ...]:
+    """One scene by several cameras, every present effect exactly.
+
+    Cameras that see the same layers share them, so that they are drawn once.
+    """
+    drawn: dict[tuple[Sheet, ...], Stack] = {}
+    photos = []
+    for camera in cameras:
+        prepared = Prepared(scene, camera)
+        seen = sheets(prepared.view)
+        prepared.stack = drawn.get(seen) or prepared.stack
+        drawn[seen] = prepared.stack
+        photos.append(run(prepared, everything(prepared)))
+    return tuple(photos)
 
 
 def difference_dn(planned: Photo, whole: Photo) -> float:

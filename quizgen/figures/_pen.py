@@ -64,7 +64,8 @@ class Pen:
 
     def area(self, part: str, points: Sequence[Point] | np.ndarray, style: Style = SHADE) -> None:
         """Fill a polygon, or outline it if the style is a line."""
-        closed = np.vstack([points, points[:1]])
+        closed = np.empty((len(points) + 1, 2))
+        closed[:-1], closed[-1] = points, points[0]
         codes = np.full(len(closed), _canvas.LINE, np.uint8)
         codes[0], codes[-1] = _canvas.MOVE, _canvas.CLOSE
         self._add(part, style, closed, codes)

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from quizgen.figures._parameters import Parameter, Values
 from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from quizgen.camera.camera import Camera
     from quizgen.camera.scene import Colour, Scene, Thing
     from quizgen.figures._canvas import Canvas
@@ -76,24 +80,30 @@ CAPTIONS: Mapping[str, str] = {
 
 def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, leave out the symbols of the cause."""
-    from quizgen.camera import Camera, simulate
-    from quizgen.camera.filters import everywhere_alike
     from quizgen.figures._pen import WIDTH, Pen
     from quizgen.figures._photo import place
 
     kind = KINDS[int(values["kind"])]
-    scene, camera = photographed(kind, int(values["variant"]), int(values["way"]))
     wide = (WIDTH - 3 * _GAP) / 2
     high = wide * _HIGH / _WIDE
     pen = Pen(WIDTH, 2 + high + (_TOP if not quiz else 2))
-    with everywhere_alike():
-        ideal = simulate(scene, Camera(gamma="srgb"))
-        with_it = simulate(scene, camera, question="artefacts")
-    for left, photo in ((_GAP, ideal), (2 * _GAP + wide, with_it)):
-        place(canvas, pen, photo.pixels(), (left, 2, wide, high))
+    pair = _pair(kind, int(values["variant"]), int(values["way"]))
+    for left, photo in zip((_GAP, 2 * _GAP + wide), pair, strict=True):
+        place(canvas, pen, photo, (left, 2, wide, high))
     if not quiz:
         pen.label((2 * _GAP + 1.5 * wide, pen.height - 8), CAPTIONS[kind])
     pen.onto(canvas, background="#ffffff")
+
+
+@lru_cache(maxsize=64)
+def _pair(kind: str, variant: int, way: int) -> tuple[NDArray[np.uint8], ...]:
+    """The scene without and with the artefact, for the question and for its solution."""
+    from quizgen.camera import Camera, photographs
+    from quizgen.camera.filters import everywhere_alike
+
+    scene, camera = photographed(kind, variant, way)
+    with everywhere_alike():
+        return tuple(photo.pixels() for photo in photographs(scene, Camera(gamma="srgb"), camera))
 
 
 def photographed(kind: str, variant: int, way: int = 0) -> tuple[Scene, Camera]:

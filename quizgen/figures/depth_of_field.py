@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from quizgen.figures._numbers import derived, given, numbered
@@ -9,12 +10,17 @@ from quizgen.figures._parameters import Parameter, Values, require
 from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
-    from quizgen.camera.camera import Camera
+    import numpy as np
+    from numpy.typing import NDArray
+
     from quizgen.camera.scene import Scene
     from quizgen.figures._canvas import Canvas
     from quizgen.figures._pen import Pen
 
 DARK = "keep"
+
+Setting = tuple[float, float]
+"""Distance in focus in m, and f-number."""
 
 PARAMETERS = {
     "f": Parameter("mm", "focal length", 50.0, 10.0, 200.0),
@@ -44,12 +50,30 @@ def f_numbers(values: Values) -> tuple[float, float]:
     return (pair[1], pair[0]) if values["order"] else pair
 
 
-def photographed(values: Values) -> tuple[Scene, Camera]:
-    """Scene and camera of the figure; the f-number is still to be set.
+def photos_of(values: Values, *settings: Setting) -> tuple[NDArray[np.uint8], ...]:
+    """The three objects with each setting of the lens, in 8-bit codes."""
+    return _photos(values["f"], tuple(values[f"z_{place}"] for place in (1, 2, 3)), settings)
 
-    The objects are drawn equally large, so that blur alone tells them apart.
-    """
-    from quizgen.camera import Camera, Length, Scene, Thing
+
+@lru_cache(maxsize=64)
+def _photos(
+    focal: float, depths: tuple[float, ...], settings: tuple[Setting, ...]
+) -> tuple[NDArray[np.uint8], ...]:
+    """The photographs, for the question and for its solution."""
+    from quizgen.camera import Camera, photographs
+    from quizgen.camera.filters import everywhere_alike
+
+    cameras = [
+        Camera(focal / 1e3, SENSOR_MM / 1e3 / _WIDE, number, distance, gamma="srgb")
+        for distance, number in settings
+    ]
+    with everywhere_alike():
+        return tuple(photo.pixels() for photo in photographs(_scene(depths), *cameras))
+
+
+def _scene(depths: tuple[float, ...]) -> Scene:
+    """The objects, drawn equally large, so that blur alone tells them apart."""
+    from quizgen.camera import Length, Scene, Thing
 
     looks = (
         ("disc", "checker", (0.9, 0.75, 0.2), (0.25, 0.06, 0.03)),
@@ -59,38 +83,27 @@ def photographed(values: Values) -> tuple[Scene, Camera]:
     things = tuple(
         Thing(
             shape, x=Length(_APART * (place - 1)), y=Length(2.0), width=Length(36),
-            height=Length(52), radius=Length(20), cell=Length(9), depth=values[f"z_{place + 1}"],
+            height=Length(52), radius=Length(20), cell=Length(9), depth=depths[place],
             texture=texture, colour=colour, other=other,
         )
         for place, (shape, texture, colour, other) in enumerate(looks)
     )  # fmt: skip
-    scene = Scene(_WIDE, _HIGH, things, (0.18, 0.24, 0.3), background_depth=10.0 * values["z_3"])
-    camera = Camera(
-        focal_length=values["f"] / 1e3,
-        pixel_pitch=SENSOR_MM / 1e3 / _WIDE,
-        focus_distance=values["s"],
-        gamma="srgb",
-    )
-    return scene, camera
+    return Scene(_WIDE, _HIGH, things, (0.18, 0.24, 0.3), background_depth=10.0 * depths[-1])
 
 
 def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, show their numbers without the f-numbers."""
-    from quizgen.camera import pictures
-    from quizgen.camera.filters import everywhere_alike
     from quizgen.figures._pen import WIDTH, Pen
     from quizgen.figures._photo import place as put
 
     _check(values)
-    scene, camera = photographed(values)
     wide = (WIDTH - 3 * _GAP) / 2
     high = wide * _HIGH / _WIDE
     pen = Pen(WIDTH, _BELOW + high + _TOP + 2)
-    with everywhere_alike():
-        photos = pictures.at_f_numbers(scene, camera, f_numbers(values))
+    photos = photos_of(values, *((values["s"], number) for number in f_numbers(values)))
     for place, photo in enumerate(photos):
         left = _GAP + place * (wide + _GAP)
-        put(canvas, pen, photo.pixels(), (left, _BELOW, wide, high))
+        put(canvas, pen, photo, (left, _BELOW, wide, high))
         told = f"f{{/{given(f_numbers(values)[place])}}}"
         pen.label((left + wide / 2, pen.height - 8), numbered(place + 1, told, quiz=quiz))
         distances(pen, values, left, wide, 9)

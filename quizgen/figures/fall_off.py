@@ -77,14 +77,14 @@ def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
 
 
 def _photo(canvas: Canvas, pen: Pen, values: Values) -> None:
-    from quizgen.camera import simulate
+    from quizgen.camera import photographs
     from quizgen.camera.filters import everywhere_alike
     from quizgen.figures._pen import RED
     from quizgen.figures._photo import place
 
     scene, camera = photographed(values)
     with everywhere_alike():
-        photo = simulate(scene, camera, question="vignetting")
+        (photo,) = photographs(scene, camera)
     place(canvas, pen, photo.pixels(), _PHOTO)
     left, low, wide, high = _PHOTO
     middle = low + high / 2

@@ -39,7 +39,7 @@ _ORDERS = tuple(permutations(range(4)))
 _GAP, _TOP, _BELOW = 6.0, 15.0, 14.0
 
 
-def settings(values: Values) -> tuple[tuple[float, float], ...]:
+def settings(values: Values) -> tuple[depth_of_field.Setting, ...]:
     """Distance in focus and f-number of photos 1, 2 and 3."""
     wide = [(values[f"z_{place}"], values["N_w"]) for place in (1, 2, 3)]
     every = [*wide, (values["z_2"], values["N_s"])]
@@ -48,8 +48,6 @@ def settings(values: Values) -> tuple[tuple[float, float], ...]:
 
 def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, show their numbers without the settings."""
-    from quizgen.camera import pictures
-    from quizgen.camera.filters import everywhere_alike
     from quizgen.figures._pen import WIDTH, Pen
     from quizgen.figures._photo import place as put
 
@@ -58,12 +56,10 @@ def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     wide = (WIDTH - 4 * _GAP) / 3
     high = wide * 2 / 3
     pen = Pen(WIDTH, _BELOW + high + _TOP + 2)
-    for place, (s, number) in enumerate(settings(values)):
-        scene, camera = depth_of_field.photographed({**values, "s": s})
-        with everywhere_alike():
-            (photo,) = pictures.at_f_numbers(scene, camera, (number,))
+    photos = depth_of_field.photos_of(values, *settings(values))
+    for place, (photo, (s, number)) in enumerate(zip(photos, settings(values), strict=True)):
         left = _GAP + place * (wide + _GAP)
-        put(canvas, pen, photo.pixels(), (left, _BELOW, wide, high))
+        put(canvas, pen, photo, (left, _BELOW, wide, high))
         told = f"{given(s)} {{m,}} f{{/{given(number)}}}"
         pen.label((left + wide / 2, pen.height - 8), numbered(place + 1, told, quiz=quiz))
         depth_of_field.distances(pen, values, left, wide, 8.5)

@@ -11,7 +11,9 @@ from quizgen.figures._parameters import Parameter, Values, require
 from quizgen.figures._words import words_of
 
 if TYPE_CHECKING:
-    from quizgen.camera.scene import Image
+    import numpy as np
+    from numpy.typing import NDArray
+
     from quizgen.figures._canvas import Canvas
     from quizgen.figures._pen import Pen
 
@@ -38,20 +40,22 @@ def edit_order(order: float) -> tuple[str, ...]:
     return list(permutations(EDITS))[int(order)]
 
 
-def level(edit: str, before: float, values: Values) -> float:
-    """Grey level that an edit makes of one from 0 to 255, not yet rounded to 8 bits."""
+def levels(edit: str, before: NDArray[np.float64], values: Values) -> NDArray[np.float64]:
+    """Grey levels that an edit makes of ones from 0 to 255, not yet rounded to 8 bits."""
+    import numpy as np
+
     gaps = values["n"] - 1
     if edit == "coarse":
-        return int(before / 255 * gaps + 0.5) * 255 / gaps
+        return np.floor(before / 255 * gaps + 0.5) * 255 / gaps
     if edit == "squeezed":
         return values["low"] + (values["high"] - values["low"]) * before / 255
-    return min(255.0, before + (values["s"] if edit == "brightened" else 0.0))
+    return np.minimum(255.0, before + (values["s"] if edit == "brightened" else 0.0))
 
 
 @cache
-def scene() -> Image:
-    """Soft shades from black to white: a sky, a field, a ball and a wall, shape (78, 144, 3)."""
-    from quizgen.camera import Camera, Length, Scene, Thing, simulate
+def scene() -> NDArray[np.uint8]:
+    """Soft shades from black to white: a sky, a field, a ball and a wall, shape (78, 144)."""
+    from quizgen.camera import Camera, Length, Scene, Thing, pictures, simulate
     from quizgen.camera.filters import everywhere_alike
 
     def grey(shade: float) -> tuple[float, float, float]:
@@ -68,7 +72,8 @@ def scene() -> Image:
               texture="ramp", colour=grey(0.65), other=grey(0.1)),
     )  # fmt: skip
     with everywhere_alike():
-        return simulate(Scene(_WIDE, _HIGH, things), Camera()).values
+        photo = simulate(Scene(_WIDE, _HIGH, things), Camera())
+    return pictures.codes(photo.values)[..., 0]
 
 
 def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
@@ -88,19 +93,19 @@ def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     pen.onto(canvas, background="#ffffff")
 
 
-def _edited(edit: str, values: Values) -> Image:
+def _edited(edit: str, values: Values) -> NDArray[np.uint8]:
     import numpy as np
 
-    table = np.array([level(edit, code, values) / 255 for code in range(256)], np.float32)
-    return table[np.floor(scene() * np.float32(255) + np.float32(0.5)).astype(int)]
-
-
-def _photo(canvas: Canvas, pen: Pen, image: Image, where: tuple[float, ...]) -> None:
     from quizgen.camera import pictures
+
+    table = levels(edit, np.arange(256.0), values) / 255
+    return pictures.codes(table.astype(np.float32))[scene()]
+
+
+def _photo(canvas: Canvas, pen: Pen, codes: NDArray[np.uint8], where: tuple[float, ...]) -> None:
     from quizgen.figures._photo import histogram, place
 
     left, low, wide, high = where
-    codes = pictures.codes(image)[..., 0]
     place(canvas, pen, codes, (left, low + _TICKS + _HISTOGRAM + 3, wide, high))
     histogram(pen, codes, BINS, (left, low + _TICKS, wide, _HISTOGRAM))
 

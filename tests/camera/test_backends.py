@@ -7,8 +7,20 @@ import cv2
 import numpy as np
 import pytest
 import scenes_at_random as at_random
+from scipy.ndimage import convolve
 
-from quizgen.camera import Camera, Scene, SceneError, filters, hsv, power
+from quizgen.camera import (
+    Camera,
+    Length,
+    Scene,
+    SceneError,
+    Thing,
+    filters,
+    hsv,
+    photographs,
+    power,
+    simulate_everything,
+)
 from quizgen.camera.kernels import disc, line
 from quizgen.camera.plan import Prepared, everything, plan
 from quizgen.camera.simulate import run
@@ -193,3 +205,29 @@ def test_the_camera_imports_numpy_only():
         "assert not heavy, heavy"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+@pytest.mark.parametrize("diameter", [1.5, 6.1, 14.2, 70.0])
+@pytest.mark.parametrize("at", [(0, 0), (20, 30), (39, 59)])
+def test_a_thing_in_the_dark_is_blurred_as_by_scipy(diameter, at):
+    image = np.zeros((48, 64, 3), np.float32)
+    image[at[0] : at[0] + 9, at[1] : at[1] + 5] = (0.9, 0.4, 0.1)
+    kernel = disc(diameter)
+    expected = convolve(image, kernel[..., None], mode="nearest")
+    with filters.everywhere_alike():
+        assert np.abs(filters.convolve(image, kernel) - expected).max() < 2e-6
+
+
+def test_a_flat_picture_stays_as_it_is_however_it_is_blurred():
+    flat = np.full((30, 40, 3), 0.3, np.float32)
+    assert filters.convolve(flat, disc(9.0)) is flat
+
+
+def test_cameras_that_share_layers_see_what_each_sees_alone():
+    things = tuple(Thing("disc", x=Length(x), radius=Length(9), depth=z)
+                   for x, z in ((-20, 1.0), (0, 2.0), (20, 5.0)))  # fmt: skip
+    scene = Scene(64, 48, things, (0.2, 0.3, 0.4), background_depth=9.0)
+    lens = Camera(0.05, 2.5e-4, focus_distance=2.0, gamma="srgb")
+    cameras = [lens.but(f_number=2.0), lens.but(f_number=11.0), Camera(gamma="srgb")]
+    for photo, camera in zip(photographs(scene, *cameras), cameras, strict=True):
+        assert np.array_equal(photo.values, simulate_everything(scene, camera).values)

@@ -14,7 +14,7 @@ from quizgen.camera.effect import Effect, Rung
 from quizgen.camera.facts import Error, Facts, LayerFacts
 from quizgen.camera.filters import convolve
 from quizgen.camera.kernels import change, disc
-from quizgen.camera.layers import Field, each, resampled, within
+from quizgen.camera.layers import Field, each, within
 from quizgen.camera.scene import Image
 from quizgen.camera.view import View
 
@@ -42,7 +42,10 @@ def _blurred(layer: Layer, view: View, rung: str) -> Stack:
         colour = _blurred_by_depth(layer.colour, layer.depth, view, rung)
         return (replace(layer, colour=colour, depth=math.inf),)
     kernel = disc(float(view.blur_diameter(layer.depth)))
-    return (resampled(layer, lambda image: convolve(image, kernel)),)
+    if layer.cover is None:
+        return (replace(layer, colour=convolve(layer.colour, kernel)),)
+    both = convolve(np.concatenate([layer.colour, layer.cover], axis=2), kernel)
+    return (replace(layer, colour=both[..., :3], cover=both[..., 3:]),)
 
 
 def slices(diameters: tuple[float, float], rung: str = "") -> Field:
