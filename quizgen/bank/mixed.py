@@ -9,7 +9,8 @@ topic is the same one wherever it is called the same, and its title is that of t
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
@@ -48,6 +49,13 @@ def opened(places: Iterable[Source]) -> Bank:
 def _opened(root: str, trusted: bool) -> Bank:
     is_ours = not root or Path(root).resolve() == builtin_root().resolve()
     return builtin() if is_ours else Bank(Path(root), trusted=trusted)
+
+
+def _origins(part: Bank) -> Iterator[str]:
+    """Origins of the templates of a bank; one that cannot be read stops none of the others."""
+    for name in part.paths:
+        with suppress(BankError):
+            yield part.origin(name)
 
 
 class Mixed(Bank):
@@ -150,8 +158,7 @@ class Mixed(Bank):
 
     @cached_property
     def _origins(self) -> dict[Bank, dict[str, str]]:
-        firsts = {part: [part.origin(name) for name in part.paths] for part in self._parts}
-        return told_apart(firsts)
+        return told_apart({part: [*_origins(part)] for part in self._parts})
 
     @cached_property
     def _homes(self) -> dict[str, tuple[Bank, str]]:

@@ -133,6 +133,7 @@ async def unreachable(request: Request, error: Exception) -> Response:
 
 
 async def failed(request: Request, error: Exception) -> Response:
-    """A page for a template that is wrong; what is wrong stands on the page of its authors."""
-    del error
-    return page(request, "message.html.j2", 500, title="error.title", text="error.500")
+    """A page for a template that is wrong; authors are told what is."""
+    site: Site = request.app.state.site
+    wrong = str(error) if site.settings.examine else ""
+    return page(request, "message.html.j2", 500, title="error.title", text="error.500", wrong=wrong)

@@ -59,7 +59,7 @@ class Examined:
 
     def run(self, bank: Bank) -> bytes:
         """Find it."""
-        return msgspec.json.encode(self.examine(bank.afresh(), self.template))
+        return msgspec.json.encode(self.examine(*bank.afresh().home(self.template)))
 
 
 def stamp_of(bank: Bank) -> str:
@@ -78,12 +78,16 @@ async def templates(request: Request) -> Response:
     """All templates by topic."""
     site: Site = request.app.state.site
     bank, lang = site.bank.afresh(), lang_of(request)
-    rules = [(name, bank.rules(name)) for name in bank.paths]
-    groups = [
-        (bank.topic_title(topic, lang), [(n, one.tier) for n, one in rules if one.topic == topic])
-        for topic in bank.topics
-    ]
-    return page(request, "templates.html.j2", groups=groups)
+    found, broken = dict[str, list[tuple[str, str]]](), list[tuple[str, str]]()
+    for name in bank.paths:
+        try:
+            rules = bank.rules(name)
+            found.setdefault(rules.topic, []).append((name, rules.tier))
+        except QuizgenError as error:
+            broken.append((name, str(error)))
+    order = [topic for topic in (bank.about.topics or sorted(found)) if topic in found]
+    groups = [(bank.topic_title(topic, lang), found[topic]) for topic in order]
+    return page(request, "templates.html.j2", groups=groups, broken=broken)
 
 
 def _name(request: Request) -> str:

@@ -10,8 +10,10 @@ from own_bank import NAME
 from starlette.testclient import TestClient
 
 from quizgen.bank.folder import Bank
+from quizgen.bank.mixed import opened
 from quizgen.cli.lint import problems_of
 from quizgen.web.app import application
+from quizgen.web.author import stamp_of
 from quizgen.web.settings import Settings
 
 
@@ -127,3 +129,49 @@ def test_lint_says_what_is_wrong(author, root):
         re.sub(r"## check\n.*?(?=\n## )", "", bangla.read_text("utf-8"), flags=re.DOTALL), "utf-8"
     )
     assert "bn.md" in author.get(f"/author/{NAME}/lint").text
+
+
+def test_a_template_that_cannot_be_read_hides_no_other(author, root):
+    there = root / "templates" / "projection"
+    other = there / "new"
+    other.mkdir()
+    (other / "template.toml").write_text('teir = "A"\n', "utf-8")
+    try:
+        page = author.get("/author")
+        assert page.status_code == 200
+        assert re.search(r"templates/projection/new/template\.toml: .*teir", page.text)
+        assert f'href="/author/{NAME}"' in page.text
+    finally:
+        (other / "template.toml").unlink()
+        other.rmdir()
+
+
+def test_authors_are_told_what_is_wrong_with_their_bank(author, root):
+    about = root / "templates" / "bank.toml"
+    about.write_text('nmae = "x"\n', "utf-8")
+    try:
+        page = author.get("/author")
+        assert page.status_code == 500
+        assert re.search(r"<pre>.*bank\.toml: unknown key .*nmae", page.text)
+    finally:
+        about.unlink()
+
+
+def test_a_figure_that_is_saved_is_drawn_anew(root):
+    figure = root / "figures" / "own.py"
+    figure.parent.mkdir(exist_ok=True)
+    before = stamp_of(Bank(root))
+    figure.write_text("", "utf-8")
+    assert stamp_of(Bank(root)) != before
+    figure.unlink()
+
+
+def test_authors_of_one_bank_among_others(root, database):
+    mixed = opened([("", True), (str(root), True)])
+    app = application(Settings(database(), mixed, workers=1, examine=problems_of))
+    with TestClient(app, "http://127.0.0.1:8000") as client:
+        client.get(f"/enter?key={app.state.site.settings.token}")
+        name = f"{root.name}:{NAME}"
+        assert f'href="/author/{name}"' in client.get("/author").text
+        assert 'class="steps"' in client.get(f"/author/{name}").text
+        assert 'id="found"' in client.get(f"/author/{name}/lint").text
