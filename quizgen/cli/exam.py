@@ -275,7 +275,7 @@ def _report(
     click.echo(
         f"{many(len(paper.items), 'question')}, {float(paper.points):g} points, {paper.minutes} min"
     )
-    _remark(paper)
+    _remark(paper, options["minutes"])
     again = command("exam", "--code", paper.code, *_again(options))
     check = command("check", folder / KEY, form)
     click.echo(f"Code: {paper.code}")
@@ -286,17 +286,16 @@ def _report(
         click.echo(f"  or fill in {folder / 'exam.html'}, save answers.json there, then: {page}")
 
 
-def _remark(paper: Paper) -> None:
+def _remark(paper: Paper, asked: int | None) -> None:
     """Say how many papers there are, and whether the time that was asked for is used."""
     from quizgen.paper.blueprint import EVERYTHING
 
     if paper.variety:
         click.echo(f"One of up to {paper.variety_text} papers that this blueprint can make")
-    budget = paper.blueprint.budget
-    if budget > paper.minutes + TO_SPARE:
+    if asked and asked > paper.minutes + TO_SPARE:
         topic = paper.blueprint.topic
         where = "this bank" if topic == EVERYTHING else f"topic {topic}"
-        click.echo(f"You asked for {budget} min: {where} has no more questions that go together")
+        click.echo(f"You asked for {asked} min: {where} has no more questions that go together")
 
 
 def _again(options: Options) -> list[str]:
