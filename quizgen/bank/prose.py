@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, cached_property
 from typing import TYPE_CHECKING, Any, Protocol
 
 import msgspec
@@ -123,6 +123,11 @@ class Text:
     def sentence(self, section: str, name: str) -> tuple[Inline, ...] | None:
         """A named sentence, or None."""
         return self.named.get(section, {}).get(name)
+
+    @cached_property
+    def filled(self) -> dict[tuple[str, str], tuple[Inline, ...]]:
+        """Named sentences without blanks, each as it stands in every draw once it was asked for."""
+        return {}
 
 
 TIED = "\u00a0=\u00a0"

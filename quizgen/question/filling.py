@@ -21,6 +21,7 @@ from quizgen.bank.prose import (
     fill,
     fill_blocks,
     fill_text,
+    slots,
 )
 from quizgen.errors import BankError
 from quizgen.maths.notation import people, to_text
@@ -77,7 +78,14 @@ class Filler:
         BankError
             If the language file lacks it, or a slot names nothing that may stand there.
         """
-        return fill(self.unfilled(section, name), self._value, self._program)
+        place = section, name
+        if place in self.text.filled:
+            return self.text.filled[place]
+        written = self.unfilled(section, name)
+        filled = fill(written, self._value, self._program)
+        if place not in self.text.cases and not any(slots(written)):
+            self.text.filled[place] = filled
+        return filled
 
     def unfilled(self, section: str, name: str) -> tuple[Inline, ...]:
         """A named sentence as it is written; of several cases the one that fits the draw.

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import NamedTuple
 
 from quizgen import typeset
@@ -57,8 +58,9 @@ def worked(drawn: Draw, step: ChainStep) -> Maths:
     return in_line(step.name, sides_of(drawn, step))
 
 
+@lru_cache(maxsize=128)
 def sides_of(drawn: Draw, step: ChainStep) -> tuple[Side, ...]:
-    """The sides of a worked step, from formula to rounded value."""
+    """The sides of a worked step, from formula to rounded value, the same in every language."""
     with working_precision():
         expr = taken_branch(step.expr, drawn.values, exact())
     sides = [Side("=", typeset.layout(expr), to_text(expr), FORMULA)]

@@ -140,12 +140,14 @@ class Spec(Worded, kw_only=True, frozen=True):
     def _trap(self, shares: Mapping[str, Fraction], mistaken: Sequence[Sheet]) -> str:
         """The known mistake that explains most of what is missed."""
         missed = [name for name, share in shares.items() if share < 1]
-        explained = {
-            trap: sum(self.features[name].share(sheet) == 1 for name in missed)
-            for trap, sheet in zip(self.traps, mistaken, strict=True)
-        }
-        found = max(explained, key=lambda trap: explained[trap], default="")
-        return f"trap:{found}" if found and explained[found] else ""
+        found, most = "", 0
+        for trap, sheet in zip(self.traps, mistaken, strict=True):
+            explained = sum(self.features[name].share(sheet) == 1 for name in missed)
+            if explained > most:
+                found, most = trap, explained
+            if most == len(missed):
+                break
+        return f"trap:{found}" if found else ""
 
 
 def _decimals(extent: float) -> int:

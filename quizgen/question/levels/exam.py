@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
 from quizgen.bank.draw import Draw
@@ -23,6 +24,7 @@ def fits(_drawn: Draw) -> bool:
     return True
 
 
+@lru_cache(maxsize=32)
 def asking(drawn: Draw, lang: str) -> Asking:
     """Stem and parts as authored, with the whole worked solution."""
     built = [build(drawn, index) for index in range(len(drawn.template.rules.part))]
