@@ -41,7 +41,7 @@ LAYERS = {
     "classes": "errors executors shapes outside files locale maths bank marking question paper responses render",
     "web": "errors executors shapes outside files png locale maths typeset bank camera figures marking question paper practice render "
     "cards tradeoff classes",
-    "audit": "errors outside files locale maths bank figures marking question paper render",
+    "audit": "errors outside files locale maths bank figures marking question paper render cards",
     "cli": "errors executors outside files png locale maths bank camera figures marking question paper practice render cards "
     "responses export tradeoff classes audit web",
 }

@@ -9,11 +9,13 @@ the key points of a text, the order of steps. What a question prints itself is n
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import permutations
 
 from quizgen.bank.draw import Draw
+from quizgen.bank.folder import Bank
 from quizgen.bank.levels import EXAM
 from quizgen.bank.prose import Block, Code, CodeBlock, Inline, Items, Paragraph, Styled, Table
 from quizgen.errors import FormulaError
@@ -21,10 +23,11 @@ from quizgen.marking.kinds import choice, gap, match, order, text
 from quizgen.marking.mark import show
 from quizgen.marking.specs import AnySpec
 from quizgen.maths.alike import Form, forms, in_program
-from quizgen.maths.notation import ReadError, parse
+from quizgen.maths.notation import ReadError, parse, to_text
 from quizgen.maths.tree import Expr
+from quizgen.paper.choose import apart
 from quizgen.paper.draws import asked_formulas
-from quizgen.paper.paper import Item, Paper
+from quizgen.paper.paper import Paper
 from quizgen.question.compose import Key, Question
 from quizgen.question.picture import described
 from quizgen.question.shown import Maths
@@ -67,7 +70,8 @@ class Said:
     """What a question prints in one language."""
 
     sentences: list[str] = field(default_factory=list)
-    formulas: set[Form] = field(default_factory=set)
+    formulas: dict[Form, str] = field(default_factory=dict)
+    """Each with the whole formula that it stands in."""
 
     @cached_property
     def numbers(self) -> set[str]:
@@ -91,6 +95,46 @@ class Secret:
     points: text.Spec | None
     steps: tuple[str, ...]
 
+    @cached_property
+    def words(self) -> list[tuple[str, frozenset[str], frozenset[str]]]:
+        """Each sentence, what of its words must be told, and all of them, if they are enough."""
+        found = [(f"{must} {may}".strip(), _words(must), _words(f"{must} {may}"))
+                 for must, may in self.sentences]  # fmt: skip
+        return [one for one in found if len(one[2]) >= WORDS]
+
+
+@dataclass(frozen=True)
+class Heard:
+    """What a question says, and what it asks, in one of its languages."""
+
+    template: str
+    lang: str
+    said: Said
+    secrets: tuple[Secret, ...]
+
+
+def heard(question: Question, key: Key) -> Heard:
+    """Look through a question; its numbers aside, of which a paper draws others if need be."""
+    own = said(question, key.draw)
+    asked = tuple(replace(one, numbers=frozenset()) for one in secrets(question, key, own))
+    return Heard(question.template, question.lang, own, asked)
+
+
+def told(bank: Bank, questions: Sequence[Heard]) -> dict[Leak, str]:
+    """Which of a bank's questions tell what another one asks, and in which language first.
+
+    Those of which one names the other in ``apart`` never stand in one paper.
+    """
+    found: dict[Leak, str] = {}
+    for asker, teller in permutations(questions, 2):
+        names = teller.template, asker.template
+        if teller.lang != asker.lang or apart(bank, *names):
+            continue
+        for secret in asker.secrets:
+            for what in dict.fromkeys(_told(secret, teller.said)):
+                found.setdefault(Leak(*names, secret.label, what), teller.lang)
+    return found
+
 
 def leaks(paper: Paper) -> list[Leak]:
     """Every question of a paper that tells what another one asks, in any of its languages."""
@@ -98,7 +142,7 @@ def leaks(paper: Paper) -> list[Leak]:
     for place in range(len(paper.langs)):
         told = [said(item.questions[place], item.keys[place].draw) for item in paper.items]
         for asker, own in zip(paper.items, told, strict=True):
-            for secret in secrets(asker, place, own):
+            for secret in secrets(asker.questions[place], asker.keys[place], own):
                 for teller, other in zip(paper.items, told, strict=True):
                     if teller is not asker:
                         names = teller.keys[0].template, asker.keys[0].template
@@ -108,13 +152,13 @@ def leaks(paper: Paper) -> list[Leak]:
 
 
 def _told(secret: Secret, other: Said) -> Iterator[str]:
-    yield from (f"formula {secret.formulas[f]}" for f in secret.formulas if f in other.formulas)
+    for form in secret.formulas.keys() & other.formulas.keys():
+        yield f"formula {secret.formulas[form]} in ${other.formulas[form]}$"
     yield from (f"number {n}" for n in sorted(secret.numbers & other.numbers))
-    for must, may in secret.sentences:
-        needed, words = _words(must), _words(f"{must} {may}")
-        for told, others in other.words if len(words) >= WORDS else ():
+    for sentence, needed, words in secret.words:
+        for line, others in other.words:
             if needed <= others and len(words & others) >= SAME * len(words):
-                yield f"{must} {may}".strip().join("''") + f" in {told!r}"
+                yield f"'{sentence}' in {line!r}"
     if secret.points:
         yield from _named_points(secret.points, other)
     places = [other.sentences.index(step) for step in secret.steps if step in other.sentences]
@@ -141,7 +185,7 @@ def said(question: Question, drawn: Draw) -> Said:
     found = Said([one.strip(" -") for line in blocks(shown) for one in _SENTENCE.split(line)])
     found.sentences += _SENTENCE.split(described(drawn, question.lang, quiz=True) or "")
     for expr in _formulas(shown):
-        found.formulas.update(forms(expr))
+        found.formulas |= dict.fromkeys(forms(expr), to_text(expr))
     return found
 
 
@@ -169,9 +213,8 @@ def _read(typed: str) -> Iterator[Expr]:
         return
 
 
-def secrets(item: Item, place: int, own: Said) -> Iterator[Secret]:
-    """What each part of a question asks, in the language at a place."""
-    question, key = item.questions[place], item.keys[place]
+def secrets(question: Question, key: Key, own: Said) -> Iterator[Secret]:
+    """What each part of a question asks, which says itself what is ``own``."""
     for index, part in enumerate(question.parts):
         spec = key.specs[index]
         asked = _asked_formulas(key, index)

@@ -17,7 +17,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from quizgen.audit.dimensions import dimension_problems
+from quizgen.audit.leaks import Heard, heard
 from quizgen.audit.pictures import figure_problems
+from quizgen.audit.teach import Lessons
 from quizgen.bank.draw import Draw, draw, reference
 from quizgen.bank.levels import EXAM
 from quizgen.bank.plan import plan_of
@@ -60,6 +62,7 @@ class Report:
     ranges: dict[str, tuple[float, float]] = field(default_factory=dict)
     traps: Counter[str] = field(default_factory=Counter)
     problems: list[str] = field(default_factory=list)
+    heard: list[Heard] = field(default_factory=list)
 
     @property
     def acceptance(self) -> float:
@@ -87,8 +90,9 @@ def lint_template(template: Template, seeds: int = 200, langs: tuple[str, ...] =
     report.problems += [*_language_problems(template, langs), *dimension_problems(template)]
     if report.problems:
         return report
+    lessons = Lessons(template)
     try:
-        first = _examine_draws(template, seeds, report)
+        first = _examine_draws(template, seeds, report, lessons)
         known = [reference(template)] if template.rules.reference is not None else []
         for one in (*first[:COMPOSED], *known):
             report.problems += composed_problems(one)
@@ -96,7 +100,13 @@ def lint_template(template: Template, seeds: int = 200, langs: tuple[str, ...] =
             report.problems += marking_problems(one)
         for one in first[:LEVELLED]:
             report.problems += level_problems(one)
+            report.heard += [
+                heard(*put_into_words(one, lang, figures=False)) for lang in template.languages
+            ]
         report.problems += [*figure_problems(first), *_constant(template, report)]
+        report.problems += [
+            f"part {one.label}: {one.what}" for one in lessons.findings() if one.level == "error"
+        ]
     except QuizgenError as error:
         report.problems.append(str(error))
     report.problems = list(dict.fromkeys(report.problems))
@@ -113,7 +123,7 @@ def _telling(draws: list[Draw]) -> Iterator[Draw]:
             yield one
 
 
-def _examine_draws(template: Template, seeds: int, report: Report) -> list[Draw]:
+def _examine_draws(template: Template, seeds: int, report: Report, lessons: Lessons) -> list[Draw]:
     """Count what the draws give; those whose answers are to be typed back."""
     seen: set[str] = set()
     first: list[Draw] = []
@@ -128,6 +138,7 @@ def _examine_draws(template: Template, seeds: int, report: Report) -> list[Draw]
         for traps in one.traps:
             report.traps.update(traps)
         _widen(report, one)
+        lessons.add(one)
         if seed < AT_MOST:
             first.append(one)
     report.distinct = len(seen)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
+from quizgen.audit.decks import card_problems
+from quizgen.audit.leaks import Heard, told
 from quizgen.bank.folder import Bank
 from quizgen.errors import QuizgenError
 
@@ -23,6 +25,14 @@ ADVICE = {
     r"part \w+: printed answer": "let the answer kind, its unit and rounding fit what is printed",
     r"trap .* typed as": "widen the distance to the key: another rounding, or [keep]",
     "cannot be told from": "give the mistake another result: other numbers in [draw], or drop it",
+    "bits, at least": "let other options, statements or pairs be right in turn",
+    "clearly the longest": "make wrong ones as long",
+    "no reason for": "write a line '- NAME: sentence' for it in section reasons",
+    "no trap names": "add traps to the answer, each with its sentence in section traps",
+    r"claims for \d+ parts": "write more of them",
+    "share names": "rename them in one of the two",
+    "both have letters": "give the figure other letters, or show fewer options",
+    "tells what": "say it in other words, or name the other template in apart",
     "no admissible draw": "widen [draw], or relax [keep] and where",
     "is of another kind than": "give it a unit of the kind that the solver works with",
     "is asked in .* its step is in": "ask in a unit of the same kind",
@@ -36,6 +46,8 @@ ADVICE = {
     "unknown parameter": "leave it out of values, or mend its name",
     "unknown unit": "use a listed one, or define it in units of bank.toml",
     "is not in bank.toml": "write it under [topics] there, or use one of these",
+    "is of no template": "run python -m quizgen.cards.renew, with the folder of the bank",
+    r"entry '.* is missing": "write it",
     "is not a drawn quantity": "use a name of [draw] or of the solver's steps",
     "draw lacks": "write a line for it under [draw]",
     "unknown to the solver": "use the name of one of its steps",
@@ -66,6 +78,8 @@ ADVICE = {
 }
 """Pattern of a problem to what an author can do about it; the first that fits is said."""
 
+QUOTED = 30
+"""Letters of a sentence by which its line is found."""
 _KEY = re.compile(r"([\w.'-]+?)(?:\.(?:range|pick|skip|unit|min|max|multiple|decimals))?: ")
 _SPOKEN = re.compile(r"; did you mean|allowed: |--trust|is expected$|see docs")
 """A problem that names its mend itself."""
@@ -162,6 +176,8 @@ def _of_part(lines: list[str], what: str) -> int | None:
 
 
 def _in_toml(what: str) -> Iterator[str]:
+    if entry := re.match(r"entry '([^']+)'", what):
+        yield rf"""^id\s*=\s*["']{re.escape(entry[1])}["']"""
     if key := re.search(r"unknown key '([^']+)'", what):
         yield rf"""(?:^|[{{,\s])"?{re.escape(key[1])}"?\s*="""
     if place := _KEY.match(what):
@@ -183,6 +199,8 @@ def _in_words(what: str) -> Iterator[str]:
         yield rf"^#+ {re.escape(section[1])}$"
     if shown := re.search(r"(\{\{ .*? \}\}|\$.+?\$)", what):
         yield re.escape(shown[1])
+    if quoted := re.search(r" in '(.+)'$", what):
+        yield re.escape(quoted[1][:QUOTED])
     if "double braces" in what:
         yield r"\{\{(?!\s*[^{}]*\}\})"
 
@@ -190,6 +208,14 @@ def _in_words(what: str) -> Iterator[str]:
 def _in_python(what: str) -> Iterator[str]:
     for named in re.findall(r"(?:step|trap) '([^']+)'", what):
         yield rf"Step\({re.escape(named)}\b|[\"']{re.escape(named)}[\"']"
+
+
+def told_problems(bank: Bank, questions: Sequence[Heard]) -> Iterator[Problem]:
+    """Which questions tell what another one of the bank asks."""
+    for leak, lang in told(bank, questions).items():
+        part = f" in part {leak.label}" if leak.label else ""
+        said = f"{lang}.md: tells what {leak.asker!r} asks{part}: {leak.what}"
+        yield located(bank, leak.teller, said)
 
 
 def bank_problems(bank: Bank) -> Iterator[Problem]:
@@ -207,3 +233,7 @@ def bank_problems(bank: Bank) -> Iterator[Problem]:
             look()
         except QuizgenError as error:
             yield located(bank, "", str(error))
+    try:
+        yield from (located(bank, "", said) for said in card_problems(bank))
+    except QuizgenError as error:
+        yield located(bank, "", str(error))

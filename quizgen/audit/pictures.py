@@ -34,7 +34,7 @@ def figure_problems(draws: Sequence[Draw]) -> Iterator[str]:
         for lang in template.languages:
             for quiz in (True, False):
                 try:
-                    said = _seen(one, lang, quiz=quiz, drawn=lang == template.languages[0])
+                    said = figure_words(one, lang, quiz=quiz, drawn=lang == template.languages[0])
                 except QuizgenError as error:
                     yield str(error)
                     return
@@ -43,8 +43,18 @@ def figure_problems(draws: Sequence[Draw]) -> Iterator[str]:
         yield from _given_away(shown)
 
 
-def _seen(one: Draw, lang: str, *, quiz: bool, drawn: bool) -> str:
-    """All that a figure says: its words and, if it is one of the bank's own, its labels."""
+def figure_words(one: Draw, lang: str, *, quiz: bool, drawn: bool = True) -> str:
+    """All that a figure says: its words and, if it is one of the bank's own, its labels.
+
+    Parameters
+    ----------
+    one : Draw
+    lang : str
+    quiz : bool
+        As the question shows it, not the solution.
+    drawn : bool
+        Whether to draw it, for its labels.
+    """
     said = [described(one, lang, quiz=quiz) or ""]
     if drawn and one.template.figure:
         figure = pictured(one, lang, quiz=quiz)

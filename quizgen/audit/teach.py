@@ -1,7 +1,8 @@
 """Whether questions teach: answers that vary, nothing that gives them away, a reason everywhere.
 
 Each finding is about one part of a template over many draws. An ``error`` is what no question may
-have; a ``note`` is worth a look. The proof that a question is right stands in ``lint``.
+have; a ``note`` is worth a look. ``lint`` looks at its own draws for the errors, and only the sizes
+of whole pools are left to be counted here.
 """
 
 from __future__ import annotations
@@ -14,13 +15,14 @@ from itertools import product
 from typing import Any, Literal
 
 from quizgen.audit.pace import off_the_scale
+from quizgen.audit.pictures import figure_words
 from quizgen.audit.variety import CLOSED, Seen
 from quizgen.bank.draw import Draw, draw
 from quizgen.bank.plan import admissible, plan_of
 from quizgen.bank.pools import variants
 from quizgen.bank.template import Template
 from quizgen.maths.precision import working_precision
-from quizgen.question.compose import identity, put_into_words
+from quizgen.question.compose import identity
 from quizgen.question.filling import Filler, plain
 from quizgen.question.kinds import build
 
@@ -35,6 +37,8 @@ CLAIMS = 8
 """Claims that a pool needs for each part that takes one."""
 DIFFERENT = 10
 """Questions that a template must be able to make, at least."""
+ENOUGH = 50
+"""Draws from which shares can be told."""
 COUNTED, POOLED = 200, 20_000
 """Candidates that are walked through to count a pool; more where parts have pools."""
 
@@ -52,8 +56,37 @@ class Finding:
     what: str
 
 
+class Lessons:
+    """What stands between a template and teaching, by its draws, which are looked at one by one."""
+
+    def __init__(self, template: Template) -> None:
+        self.template = template
+        self.seen = {index: Seen(str(part.answer["kind"]))
+                     for index, part in enumerate(template.rules.part)
+                     if part.answer.get("kind") in CLOSED}  # fmt: skip
+        self.first: Draw | None = None
+
+    def add(self, one: Draw) -> None:
+        """Take a draw into account."""
+        self.first = self.first or one
+        fillers = [Filler(one, lang) for lang in self.template.languages] if self.seen else []
+        for index, part in self.seen.items():
+            part.add(one, index, fillers)
+
+    def findings(self) -> Iterator[Finding]:
+        """What was found, by part."""
+        for index, label in enumerate(self.template.labels):
+            said = [*_claims_findings(self.template)] if index == 0 else []
+            said += _authored(self.template, index)
+            said += _letters(self.first, index) if self.first else []
+            if index in self.seen:
+                said += _seen_findings(self.template, index, self.seen[index])
+            for level, what in said:
+                yield Finding(self.template.id, label or "1", level, what)
+
+
 def examine(template: Template, seeds: int = 200) -> list[Finding]:
-    """Look at one template over many draws.
+    """Look at one template over many draws, and count its pool.
 
     Parameters
     ----------
@@ -61,28 +94,23 @@ def examine(template: Template, seeds: int = 200) -> list[Finding]:
     seeds : int
         How many draws to look at.
     """
-    closed = [i for i, p in enumerate(template.rules.part) if p.answer.get("kind") in CLOSED]
-    seen = {index: Seen(str(template.rules.part[index].answer["kind"])) for index in closed}
-    different: set[str] = set()
+    lessons, different = Lessons(template), set[str]()
     for seed in range(seeds):
         one = draw(template, seed)
         different.add(identity(one))
-        fillers = [Filler(one, lang) for lang in template.languages]
-        for index, part in seen.items():
-            part.add(one, index, build(one, index), fillers)
-    found = [*_template_findings(template, len(different), seeds)]
+        lessons.add(one)
+    pools = _pool_findings(template, len(different), seeds)
+    found = [Finding(template.id, "", level, what) for level, what in pools]
     found += [Finding(template.id, "", "note", what) for what in off_the_scale(template)]
-    for index, label in enumerate(template.labels):
-        said = [*_authored(template, index)]
-        said += _seen_findings(template, index, seen[index]) if index in seen else []
-        found += [Finding(template.id, label or "1", level, what) for level, what in said]
-    return found
+    return [*found, *lessons.findings()]
 
 
 def _seen_findings(template: Template, index: int, seen: Seen) -> Said:
+    if seen.draws < ENOUGH:
+        return
     answer = template.rules.part[index].answer
     wanted = WANTED_BITS.get(seen.kind, MANY if seen.most >= 4 else FEW)
-    if seen.bits < wanted:
+    if seen.most_bits < wanted:
         yield "error", f"its answer has {seen.bits:.2f} bits, at least {wanted} are wanted"
     yield from _choice_findings(seen)
     if seen.kind == "choice" and not answer.get("in_order"):
@@ -144,17 +172,19 @@ def _phrases(template: Template, name: str, reasons: set[str]) -> tuple[str, ...
     return rule.words if rule and name not in reasons else (name,)
 
 
-def _template_findings(template: Template, different: int, seeds: int) -> Iterator[Finding]:
-    for level, what in _pool_findings(template, different, seeds):
-        yield Finding(template.id, "", level, what)
-    for label, what in _letters(template):
-        yield Finding(template.id, label or "1", "error", what)
-
-
 def _pool_findings(template: Template, different: int, seeds: int) -> Said:
     rules = template.rules
     if different < min(DIFFERENT, seeds):
         yield "error", f"{different} different questions in {seeds} draws"
+    if not rules.pool:
+        yield "error", "pool is missing: how many different questions there are"
+    counted = pool_size(template)
+    if counted and counted != rules.pool:
+        yield "error", f"there are {counted} different questions, not {rules.pool or 0}"
+
+
+def _claims_findings(template: Template) -> Said:
+    rules = template.rules
     asked = sum("from" in part.answer for part in rules.part)
     if len(rules.claims) < CLAIMS * asked:
         yield "error", f"{len(rules.claims)} claims for {asked} parts, {CLAIMS * asked} are wanted"
@@ -163,11 +193,6 @@ def _pool_findings(template: Template, different: int, seeds: int) -> Said:
     twice = sorted(listed & set(rules.claims))
     if twice:
         yield "error", f"claims and options share names, and so their reason: {', '.join(twice)}"
-    if not rules.pool:
-        yield "error", "pool is missing: how many different questions there are"
-    counted = pool_size(template)
-    if counted and counted != rules.pool:
-        yield "error", f"there are {counted} different questions, not {rules.pool or 0}"
 
 
 def pool_size(template: Template) -> int:
@@ -195,15 +220,16 @@ _MARK = re.compile(r"(?<![\w'])([A-L])(?![\w'])(?! =)(?<!A(?= (?!and |or )[a-z])
 _PICTURE = re.compile(r"[^\W\d]{2,15} (\d)")
 
 
-def _letters(template: Template) -> Iterator[tuple[str, str]]:
+def _letters(one: Draw, index: int) -> Said:
     """Letters of options that the figure shows too, and numbered pictures out of order."""
-    question, _ = put_into_words(draw(template, 0), template.languages[0])
-    shown = set(_MARK.findall(question.figure.alt)) if question.figure else set()
-    for part, label in zip(question.parts, template.labels, strict=True):
-        clash = sorted(shown & {mark for mark, _ in part.field.options})
-        if clash:
-            yield label, f"options and figure both have letters {', '.join(clash)}"
-        found = [_PICTURE.fullmatch(plain(text)) for _, text in part.field.options]
-        places = [int(match[1]) for match in found if match]
-        if len(places) == len(found) > 1 and places != list(range(1, len(found) + 1)):
-            yield label, "numbered pictures are out of order: use in_order"
+    lang = one.template.languages[0]
+    shown = set(_MARK.findall(figure_words(one, lang, quiz=True)))
+    options = build(one, index).options
+    clash = sorted(shown & {mark for mark, _ in options})
+    if clash:
+        yield "error", f"options and figure both have letters {', '.join(clash)}"
+    filler = Filler(one, lang)
+    found = [_PICTURE.fullmatch(plain(filler.sentence("options", name))) for _, name in options]
+    places = [int(match[1]) for match in found if match]
+    if len(places) == len(found) > 1 and places != list(range(1, len(found) + 1)):
+        yield "error", "numbered pictures are out of order: use in_order"

@@ -6,12 +6,11 @@ import math
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import Any
 
 from quizgen.bank.draw import Draw
-from quizgen.bank.pools import pairs_of, taken
-from quizgen.question.contract import Built
+from quizgen.bank.pools import holds, pairs_of, taken
 from quizgen.question.filling import Filler, plain
+from quizgen.question.kinds import build, choice, truth
 
 CLOSED = frozenset({"choice", "multi", "tf", "match", "order", "gap"})
 """Kinds whose answer is picked out of what is shown, or is a word that is known before."""
@@ -53,14 +52,23 @@ class Seen:
         """Entropy of the answers."""
         return entropy(self.answers.values())
 
-    def add(self, drawn: Draw, index: int, built: Built[Any], fillers: Sequence[Filler]) -> None:
+    @property
+    def most_bits(self) -> float:
+        """The same, and how far it may be off because the draws are few: two deviations."""
+        shares = [count / self.draws for count in self.answers.values()]
+        squares = sum(share * math.log2(share) ** 2 for share in shares)
+        return self.bits + 2 * math.sqrt(max(0.0, squares - self.bits**2) / self.draws)
+
+    def add(self, drawn: Draw, index: int, fillers: Sequence[Filler]) -> None:
         """Take a draw into account."""
         self.draws += 1
-        self.answers[answer_name(drawn, index, built)] += 1
         if self.kind not in {"choice", "multi"}:
+            self.answers[_answer(self.kind, drawn, index)] += 1
             return
-        right = {name for _, name in built.right}
-        names = [name for _, name in built.options]
+        names, right = choice.ordered(drawn, index)
+        if self.kind == "choice" and len(right) != 1:
+            build(drawn, index)  # says what is wrong
+        self.answers["+".join(sorted(right))] += 1
         self.shown.update(names)
         self.right.update(right)
         self.most = max(self.most, len(names))
@@ -77,18 +85,16 @@ def _longest(lengths: dict[str, int]) -> str:
     return name if lengths[name] >= CLEARLY * max(others, default=0) else ""
 
 
-def answer_name(drawn: Draw, index: int, built: Built[Any]) -> str:
-    """What a learner would have to know in this draw, whatever the letters are."""
-    if built.spec.kind in {"choice", "multi"}:
-        return "+".join(sorted(name for _, name in built.right))
-    if built.spec.kind == "tf":
-        return str(built.spec.correct)
+def _answer(kind: str, drawn: Draw, index: int) -> str:
+    """What a learner would have to know in this draw: words, pairs or an order."""
+    if kind == "tf":
+        return str(holds(drawn, truth.statement(drawn, index)[1].true))
     shown = taken(drawn, index)
     names = [*shown.names, *shown.extra]
-    if built.spec.kind == "match":
+    if kind == "match":
         pairs = pairs_of(drawn, index)
         names = [f"{name}={pairs.get(name, '')}" for name in names]
-    if built.spec.kind == "gap":
+    if kind == "gap":
         names = [drawn.words.get(name, name) for name in names]
         return "+".join(names if len({*shown.names}) == len(names) else sorted(names))
     return "+".join(sorted(names))

@@ -18,6 +18,7 @@ from quizgen.executors import in_order, workers
 from quizgen.outside import visible
 
 if TYPE_CHECKING:
+    from quizgen.audit.leaks import Heard
     from quizgen.audit.lint import Report
     from quizgen.audit.located import Problem
     from quizgen.bank.folder import Bank
@@ -55,7 +56,7 @@ class Options(BankOptions):
 @click.option(
     "--teach",
     is_flag=True,
-    help="Examine instead whether questions teach: answers that vary, reasons, letters.",
+    help="Show only what stands between questions and teaching, with notes, and count pools.",
 )
 @click.option(
     "--papers",
@@ -106,18 +107,20 @@ def _proved(
     bank: Bank, names: tuple[str, ...], options: Options
 ) -> tuple[list[tuple[str, ...]], list[Problem]]:
     """Rows of the table of templates, and all problems."""
-    from quizgen.audit.located import bank_problems
+    from quizgen.audit.located import bank_problems, told_problems
 
-    rows, broken = [], list(bank_problems(bank))
+    rows, broken, heard = [], list(bank_problems(bank)), list["Heard"]()
     examine = partial(_examined, bank, seeds=options["seeds"], debug=options["debug"])
     with (
         Progress("lint", len(names)) as progress,
         workers(_count(options, names)) as (executor, ahead),
     ):
         results = in_order(executor, examine, progress.over(names), ahead)
-        for name, (row, problems) in zip(names, results, strict=True):
+        for name, (row, problems, said) in zip(names, results, strict=True):
             rows.append((name, *row))
             broken += problems
+            heard += said
+    broken += told_problems(bank, heard)
     return rows, broken
 
 
@@ -196,8 +199,8 @@ def _count(options: Options, names: tuple[str, ...]) -> int:
 
 def _examined(
     bank: Bank, name: str, seeds: int, *, debug: bool = False
-) -> tuple[tuple[str, ...], list[Problem]]:
-    """Cells of a template's row, and its problems."""
+) -> tuple[tuple[str, ...], list[Problem], list[Heard]]:
+    """Cells of a template's row, its problems, and what it says and asks."""
     from quizgen.audit.lint import lint_template
     from quizgen.audit.located import located
     from quizgen.bank.formulas import missing_formulas, unnamed_formulas
@@ -217,8 +220,9 @@ def _examined(
             raise KeyboardInterrupt from error
         if debug:
             traceback.print_exception(error)
-        return NOTHING, [located(bank, name, _said(bank, error))]
-    return _cells(report), [located(bank, name, problem) for problem in report.problems]
+        return NOTHING, [located(bank, name, _said(bank, error))], []
+    problems = [located(bank, name, problem) for problem in report.problems]
+    return _cells(report), problems, report.heard
 
 
 def _said(bank: Bank, error: Exception) -> str:

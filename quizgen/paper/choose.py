@@ -114,9 +114,12 @@ def _slotted(bank: Bank, blueprint: Blueprint, seed: str) -> list[str]:
 
 def _gives_away(bank: Bank, name: str, chosen: list[str]) -> bool:
     """Whether a question and one already in the paper tell each other's answer."""
-    return any(
-        name in bank.rules(other).apart or other in bank.rules(name).apart for other in chosen
-    )
+    return any(apart(bank, name, other) for other in chosen)
+
+
+def apart(bank: Bank, one: str, other: str) -> bool:
+    """Whether one of two templates says that they may not stand in one paper."""
+    return one in bank.rules(other).apart or other in bank.rules(one).apart
 
 
 def _timed(bank: Bank, blueprint: Blueprint, seed: int | str) -> list[str]:

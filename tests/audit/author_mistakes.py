@@ -29,6 +29,20 @@ each mistake is made and its message compared.
 """
 
 
+CARDS = "templates/cards/vocabulary.toml"
+CARD = """
+[[entry]]
+id = "newton"
+number = 1
+topic = "forces"
+tier = "A"
+section = "1"
+group = "units"
+term.en = "Newton"
+meaning.en = "The force that accelerates 1 kg by 1 m/s²."
+"""
+
+
 def sound() -> dict[str, str]:
     """The files of the bank before any mistake: a computation, and one question of each other kind."""
     found = dict(FILES)
@@ -39,8 +53,8 @@ def sound() -> dict[str, str]:
 
 
 def spoilt(root: Path, row: dict[str, str]) -> Path:
-    """The bank with one mistake."""
-    files = sound()
+    """The bank with one mistake; cards, which have topics too, where it is about them."""
+    files = sound() | ({CARDS: CARD} if row["file"] == CARDS else {})
     assert row["find"] in files[row["file"]], row["what"]
     text = files[row["file"]].replace(row["find"], row["write"])
     return write(root, {**files, row["file"]: text})

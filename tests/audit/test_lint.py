@@ -18,7 +18,8 @@ b = { pick = [4, 5, 6] }
 [[part]]
 answer = { kind = "choice", options = { yes = "a < b", no = "a > b" } }
 """
-ENGLISH = "# T\nWe have {{ a }} and {{ b }}.\n\n## options\n- yes: Yes.\n- no: No.\n"
+OPTIONS = "\n\n## options\n- yes: Yes.\n- no: No.\n## reasons\n- yes: So.\n- no: Not so.\n"
+ENGLISH = f"# T\nWe have {{{{ a }}}} and {{{{ b }}}}.{OPTIONS}"
 
 
 def problems(folder, english, bangla):
@@ -44,8 +45,7 @@ def test_a_sound_template_has_no_problem(tmp_path):
     ids=["as many but others", "one twice", "one less"],
 )
 def test_languages_that_show_other_values_are_told_apart(tmp_path, english, bangla, odd):
-    rest = "\n\n## options\n- yes: Yes.\n- no: No.\n"
-    found = problems(tmp_path, f"# T\n{english}{rest}", f"# T\n{bangla}{rest}")
+    found = problems(tmp_path, f"# T\n{english}{OPTIONS}", f"# T\n{bangla}{OPTIONS}")
     assert found == [f"en.md and bn.md do not show the same values: {odd}"]
 
 

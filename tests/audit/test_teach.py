@@ -99,9 +99,9 @@ def test_few_claims_and_shared_names(tmp_path):
     said = [what for _, _, what in found(tmp_path, rules + options, prose)]
     assert said[:4] == [
         "6 different questions in 200 draws",
+        "there are 6 different questions, not 4",
         "2 claims for 1 parts, 8 are wanted",
         "claims and options share names, and so their reason: a",
-        "there are 6 different questions, not 4",
     ]
 
 

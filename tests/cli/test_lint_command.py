@@ -18,6 +18,10 @@ RULES = (
     '[[part]]\nanswer = {{ kind = "number", of = "b", exact = true }}\n'
 )
 PROSE = "# T\nGiven $a$ = {{ a }}.\n## steps\n- b: Twice.\n## check\nEven.\n"
+ONE_OF_TWO = '{ kind = "choice", options = { yes = true, no = false } }'
+ASKED = (
+    "# T\nIs it so?\n## options\n- yes: Yes.\n- no: No.\n## reasons\n- yes: So.\n- no: Not so.\n"
+)
 BROKEN = {
     "syntax": ("MODEL = (", "syntax.py:1: SyntaxError"),
     "names": ("x = 1\nMODEL = nothing", "names.py:2: NameError: name 'nothing' is not defined"),
@@ -35,9 +39,9 @@ def bank(tmp_path_factory):
         folder = root / "templates" / "x" / name
         folder.mkdir(parents=True)
         (folder / "template.toml").write_text(
-            'topic = "x"\ntier = "A"\n[[part]]\nanswer = { kind = "tf", true = true }\n'
+            f'topic = "x"\ntier = "A"\n[[part]]\nanswer = {ONE_OF_TWO}\n'
         )
-        (folder / "en.md").write_text("# T\nIs it so?\n## why\nIt is.\n")
+        (folder / "en.md").write_text(ASKED)
         if name in BROKEN:
             (folder / "template.toml").write_text(RULES.format(name=name))
             (folder / "en.md").write_text(PROSE)
@@ -107,9 +111,9 @@ def test_a_problem_says_where_and_what_to_do(tmp_path):
         'name = "b"\nlanguages = ["en", "bn"]\n[topics]\nx = { en = "X" }\n'
     )
     (folder / "template.toml").write_text(
-        'topic = "x"\ntier = "A"\n[[part]]\nanswer = { kind = "tf", true = true }\n'
+        f'topic = "x"\ntier = "A"\n[[part]]\nanswer = {ONE_OF_TWO}\n'
     )
-    (folder / "en.md").write_text("# T\nIs it so?\n## why\nIt is.\n")
+    (folder / "en.md").write_text(ASKED)
     done = lint(tmp_path)
     assert done.stderr == (
         f"{folder / 'bn.md'}: no bn.md; write it, or leave the language out of languages in "

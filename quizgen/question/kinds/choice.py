@@ -28,21 +28,27 @@ def build(drawn: Draw, index: int) -> Built[Spec]:
     return built
 
 
-def offered(drawn: Draw, index: int, control: Control) -> Built[Spec]:
-    """The options in a drawn order, with those that are right in this draw."""
+def ordered(drawn: Draw, index: int) -> tuple[list[str], list[str]]:
+    """Names of the options in a drawn order, and of those that are right in this draw."""
     conditions = answer_of(drawn, index)["options"]
     order = mixed(drawn, index, taken(drawn, index).names)
-    right = [place for place, name in enumerate(order, 1) if holds(drawn, conditions[name])]
+    return order, [name for name in order if holds(drawn, conditions[name])]
+
+
+def offered(drawn: Draw, index: int, control: Control) -> Built[Spec]:
+    """The options in a drawn order, with those that are right in this draw."""
+    order, right = ordered(drawn, index)
     filler = Filler(drawn, drawn.template.languages[0])
     wordings = [as_typed(filler.sentence("options", name)) for name in order]
     options = lettered(order)
-    given = {"options": wordings, "correct": right, "why": why(drawn, options)}
+    correct = [order.index(name) + 1 for name in right]
+    given = {"options": wordings, "correct": correct, "why": why(drawn, options)}
     return Built(
         specification(Spec, drawn, index, **given),
         control,
         options=options,
         reasons=reasoned(drawn, options),
-        right=tuple(("options", order[place - 1]) for place in right),
+        right=tuple(("options", name) for name in right),
     )
 
 

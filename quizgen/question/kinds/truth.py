@@ -8,25 +8,23 @@ from quizgen.bank.rules import ClaimRule, claim_of
 from quizgen.locale import word
 from quizgen.marking.kinds.choice import Spec
 from quizgen.marking.mark import show as printed
-from quizgen.question.contract import Built, Control, Named
+from quizgen.question.contract import Built, Control
 from quizgen.question.specs import answer_of, cited, reasoned, specification, why
 
 
-def build(drawn: Draw, index: int) -> Built[Spec]:
-    """True first, then false; the statement is the part's own, or one of the pool of claims."""
+def statement(drawn: Draw, index: int) -> tuple[str, ClaimRule]:
+    """Name of the statement, the part's own or one of the pool of claims, and when it is true."""
     answer = answer_of(drawn, index)
     if "from" in answer:
         name = claims(drawn)[index]
-        claim = claim_of(drawn.template.rules, name)
-        return _judged(drawn, index, name, claim, (("claims", name),))
+        return name, claim_of(drawn.template.rules, name)
     said = answer.get("claim", "")
-    return _judged(drawn, index, drawn.words.get(said, said), ClaimRule(answer["true"]))
+    return drawn.words.get(said, said), ClaimRule(answer["true"])
 
 
-def _judged(
-    drawn: Draw, index: int, name: str, claim: ClaimRule, asked: tuple[Named, ...] = ()
-) -> Built[Spec]:
-    """A statement whose one reason says why it is true, or why it is false."""
+def build(drawn: Draw, index: int) -> Built[Spec]:
+    """True first, then false; the statement's one reason says why it is as it is."""
+    name, claim = statement(drawn, index)
     told = reasoned(drawn, [("A", name), ("B", name)])
     spec = specification(
         Spec,
@@ -39,7 +37,7 @@ def _judged(
     return Built(
         spec,
         Control("truth"),
-        statements=asked,
+        statements=(("claims", name),) if "from" in answer_of(drawn, index) else (),
         right=(("reasons", name),) if told else (),
         source=claim.source,
     )

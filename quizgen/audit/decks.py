@@ -1,0 +1,63 @@
+"""Flashcards of a bank: whether its files can be read, and what is on them can be printed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from quizgen.bank.entries import Entry
+from quizgen.bank.folder import Bank
+from quizgen.cards.content import KINDS as FILES
+from quizgen.cards.content import entries
+from quizgen.cards.kinds import KINDS
+from quizgen.cards.versions import FILE, registry
+from quizgen.cards.wish import Wish
+from quizgen.errors import QuizgenError
+
+DRAWN = "question"
+"""The kind that is made of templates, which are examined by themselves."""
+
+
+def card_problems(bank: Bank) -> Iterator[str]:
+    """What is wrong with the files of ``templates/cards``, with file and entry."""
+    if not bank.cards:
+        return
+    for name, file in bank.cards.items():
+        if name not in {*FILES, FILE}:
+            yield f"{file}: no cards are made of this file; there are {', '.join(FILES)}"
+    read = [problem for kind in FILES.values() for problem in _misread(bank, kind)]
+    yield from read or _unmade(bank)
+    try:
+        stale = [key for key in registry(bank) if _stale(bank, key)]
+    except QuizgenError as error:
+        yield str(error)
+        return
+    yield from (f"{bank.cards[FILE]}: {key!r} is of no template" for key in stale)
+
+
+def _misread(bank: Bank, kind: type[Entry]) -> Iterator[str]:
+    """Why a file cannot be read, or which of its topics there are not."""
+    try:
+        found = entries(bank, kind)
+    except QuizgenError as error:
+        yield str(error)
+        return
+    known = ", ".join(bank.topics)
+    for entry in found:
+        if entry.topic not in bank.topics:
+            yield f"{entry.place}: topic {entry.topic!r} is not in bank.toml ({known})"
+
+
+def _unmade(bank: Bank) -> Iterator[str]:
+    """Why the notes of a kind cannot be made."""
+    wish = Wish(bank.languages, bank=bank)
+    for name, notes in KINDS.items():
+        try:
+            for _ in notes(wish) if name != DRAWN else ():
+                pass
+        except QuizgenError as error:
+            yield str(error)
+
+
+def _stale(bank: Bank, key: str) -> bool:
+    kind, _, name = key.partition("/")
+    return kind == DRAWN and name not in {bank.origin(one) for one in bank.paths}
