@@ -39,10 +39,11 @@ class Effort:
     scalars: int
     repeats: int
     papers: int
+    places: int
 
 
-FULL = Effort(inputs=400, scalars=60, repeats=7, papers=7)
-QUICK = Effort(inputs=60, scalars=8, repeats=3, papers=3)
+FULL = Effort(inputs=400, scalars=60, repeats=7, papers=7, places=41)
+QUICK = Effort(inputs=60, scalars=8, repeats=3, papers=3, places=21)
 
 
 @dataclass(frozen=True)

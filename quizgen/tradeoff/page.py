@@ -36,12 +36,14 @@ from quizgen.tradeoff.plot import (
     Mark,
     accuracy_panel,
     document,
+    script,
     style,
     time_text,
     work_panel,
 )
 from quizgen.tradeoff.product import ROUND, Counted, Product
 from quizgen.tradeoff.report import FamilyReport, Peer, Report
+from quizgen.tradeoff.slider import ORDER, lost, places, sweep_panel
 from quizgen.tradeoff.solving import FAULTS
 
 HALF_PIXEL = 0.5 / 255
@@ -51,6 +53,8 @@ def write(report: Report, folder: Path, command: str) -> list[Path]:
     """Write the page, its data and tables, one SVG per plot and the overview as PNG as well."""
     plots = {family.name: document(family_panels(family, "en"), family.name)
              for family in report.families}  # fmt: skip
+    plots |= {f"{family.name}-input": document([input_panel(family, "en")], family.name)
+              for family in report.families}  # fmt: skip
     plots |= {key: knob_plot(key, curves, "en") for key, curves in report.knobs}
     plots["overview"] = document(overview_panels(report, "en"), words("en")["overview"]["title"])
     made = {f"{name}.svg": svg for name, svg in plots.items()}
@@ -72,7 +76,9 @@ def html(report: Report, command: str) -> str:
     frame = (files("quizgen.tradeoff") / "pages" / "tradeoff.css").read_text("utf-8")
     page = _layouts().get_template("tradeoff.html.j2")
     there = {lang: language(lang) for lang in languages()}
-    made = page.render(report=report, command=command, style=frame + style(), languages=there)
+    made = page.render(
+        report=report, command=command, style=frame + style(), script=script(), languages=there
+    )
     return made + "\n"
 
 
@@ -100,6 +106,13 @@ def _layouts() -> jinja2.Environment:
         slower=slower,
         family_panels=family_panels,
         faults=FAULTS,
+        input_panel=input_panel,
+        places=lambda family, lang: places(
+            family.sweep, words(lang)["sweep"], words(lang)["page"]["failed"]
+        ),
+        start=start,
+        order=ORDER,
+        lost=lost,
         counted=counted,
         product_sentence=product_sentence,
         knob_plot=knob_plot,
@@ -185,6 +198,16 @@ def family_panels(family: FamilyReport, lang: str) -> list[str]:
         accuracy_panel(page[which], _marks(family.rungs, which), rules, _axes(lang))
         for which in overview.INPUTS
     ]
+
+
+def start(family: FamilyReport) -> int:
+    """The place where a slider stands first: two thirds of the way to the hard end."""
+    return 2 * len(family.sweep.places) // 3
+
+
+def input_panel(family: FamilyReport, lang: str) -> str:
+    """Digits against the input."""
+    return sweep_panel(family.sweep, _axes(lang), words(lang)["sweep"], start(family))
 
 
 def _marks(rungs: tuple[Measured, ...], which: str) -> list[Mark]:

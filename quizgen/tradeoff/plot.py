@@ -25,9 +25,17 @@ STYLE = """
 .tp .front{stroke:#0b62c4;stroke-width:2;fill:none}
 .tp .on{fill:#0b62c4;stroke:#0b62c4}.tp .off{fill:none;stroke:currentColor;opacity:.65}
 .tp .second{stroke:#b3470a;fill:#b3470a}.tp .third{stroke:#3f7d20;fill:#3f7d20}
-.tp .line{fill:none;stroke-width:1.6}.tp .small{font-size:11px}.tp .head{font-weight:600}
+.tp polyline.line{fill:none}.tp .line{stroke-width:1.6}
+.tp .small{font-size:11px}.tp .head{font-weight:600}
+.tp .float64{stroke-dasharray:7 3}.tp .float32{stroke-dasharray:2 3}
+.tp .cursor{stroke:currentColor;stroke-width:1.5;opacity:.8}
 .tp .thin{stroke-width:.8;opacity:.45;fill:none}.tp .arrow{stroke-width:2.6;fill:none}
 """
+
+
+def script() -> str:
+    """What moves the sliders."""
+    return (files("quizgen.tradeoff") / "pages" / "tradeoff.js").read_text("utf-8")
 
 
 def style() -> str:
@@ -100,11 +108,16 @@ def time_text(nanoseconds: float) -> str:
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
+def raised(power: int) -> str:
+    """An exponent as it is written above the line."""
+    return str(power).translate(_RAISED)
+
+
 def power_text(value: float) -> str:
     """A power of ten: written out from 0.01 to 1000, else as 10⁻⁵."""
     if 1e-2 <= value <= 1e3:
         return f"{value:g}"
-    return "10" + str(round(math.log10(value))).translate(_RAISED)
+    return "10" + raised(round(math.log10(value)))
 
 
 def text(x: float, y: float, said: str, anchor: str = "middle", kind: str = "small") -> str:

@@ -28,6 +28,7 @@ from quizgen.tradeoff.measure import (
 )
 from quizgen.tradeoff.peers import peers
 from quizgen.tradeoff.product import Product, measure_product, today
+from quizgen.tradeoff.sweeps import Sweep, sweep
 
 Progress = Callable[[str], None]
 """Told the name of what is measured next."""
@@ -69,6 +70,8 @@ class FamilyReport:
         Time per value of looking at every argument once, which no rung needs for its digits.
     one_line : bool
         Whether the stable way is one plain line of NumPy.
+    sweep : Sweep
+        Its digits along a path of inputs.
     """
 
     name: str
@@ -78,6 +81,7 @@ class FamilyReport:
     peers: tuple[Peer, ...]
     checks: Timing
     one_line: bool
+    sweep: Sweep
 
 
 @dataclass(frozen=True)
@@ -139,7 +143,7 @@ def _family(family: Family, effort: Effort, progress: Progress) -> FamilyReport:
     others = tuple(_peer(bench, label, call) for label, call in peers(family.name).items())
     return FamilyReport(
         family.name, _formula(family), family.tolerance, tuple(bench.run()), others,
-        bench.checks(), family.one_line,
+        bench.checks(), family.one_line, sweep(family, effort.places),
     )  # fmt: skip
 
 

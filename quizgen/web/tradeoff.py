@@ -13,7 +13,7 @@ from starlette.routing import Route
 from quizgen.bank.folder import Bank
 from quizgen.locale import languages, table
 from quizgen.shapes import decoded
-from quizgen.tradeoff.plot import style
+from quizgen.tradeoff.plot import script, style
 from quizgen.web.made import Html
 from quizgen.web.site import Site
 from quizgen.web.views import lang_of, page
@@ -57,4 +57,13 @@ async def style_sheet(_request: Request) -> Response:
     return Response(style(), media_type="text/css")
 
 
-ROUTES = [Route("/tradeoff", tradeoff), Route("/static/tradeoff.css", style_sheet)]
+async def moves(_request: Request) -> Response:
+    """What moves its sliders."""
+    return Response(script(), media_type="text/javascript")
+
+
+ROUTES = [
+    Route("/tradeoff", tradeoff),
+    Route("/static/tradeoff.css", style_sheet),
+    Route("/static/tradeoff.js", moves),
+]

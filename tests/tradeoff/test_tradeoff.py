@@ -196,8 +196,10 @@ def test_command_writes_page_plots_and_data(tmp_path):
     assert done.exit_code == 0, done.output
     page = (tmp_path / "tradeoff.html").read_text("utf-8")
     assert "http" not in page.replace("http://www.w3.org/2000/svg", "")
-    assert "<script" not in page
-    panels = 2 * 2  # overview and family, on exam and on hard inputs
+    assert "src=" not in page.replace("src:url(data:", "").replace("src=data:", "")
+    panels = (
+        2 * 2 + 1
+    )  # overview and family, on exam and on hard inputs; the family along its input
     assert page.count("<svg") == panels * len(languages())
     data = json.loads((tmp_path / "tradeoff.json").read_text("utf-8"))
     assert [rung["key"] for rung in data["families"][0]["rungs"]][:3] == [
@@ -207,7 +209,7 @@ def test_command_writes_page_plots_and_data(tmp_path):
     ]
     assert data["date"]
     assert data["effort"]["repeats"] == 3
-    for name in ("thin-lens", "overview"):
+    for name in ("thin-lens", "thin-lens-input", "overview"):
         svg = ET.parse(tmp_path / f"{name}.svg").getroot()
         assert svg.find("{http://www.w3.org/2000/svg}title").text
     assert (tmp_path / "overview.png").read_bytes().startswith(b"\x89PNG")

@@ -1,0 +1,103 @@
+"""The page as a person meets it: by axe, on a phone, in the dark, with the slider moved by keys."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import re
+from dataclasses import replace
+
+import pytest
+
+from quizgen.locale import languages
+from quizgen.tradeoff.knobs import KNOBS
+from quizgen.tradeoff.measure import QUICK
+from quizgen.tradeoff.page import html
+from quizgen.tradeoff.product import measure_product
+from quizgen.tradeoff.report import measure
+
+BOXES = """() => [...document.querySelectorAll('svg')].filter(svg => svg.checkVisibility()).map(
+  svg => [...svg.querySelectorAll('text')].map(text => {
+    const box = text.getBBox();
+    return [text.textContent, box.x, box.y + 0.2 * box.height, box.x + box.width,
+            box.y + 0.8 * box.height];  // a line is higher than its letters
+  }))"""
+
+
+@pytest.fixture(scope="module")
+def page_file(tmp_path_factory):
+    report = measure(["gaussian-tail", "thin-lens", "inverse-distortion", "hue"], quick=True)
+    crowded = [knob for knob in KNOBS if knob.key in {"photons", "iterations"}]
+    knobs = tuple((knob.key, tuple(knob.measure(QUICK))) for knob in crowded)
+    product = measure_product(0, 1, lambda _: None)
+    file = tmp_path_factory.mktemp("page") / "tradeoff.html"
+    file.write_text(
+        html(replace(report, knobs=knobs, product=product), "quizgen tradeoff"), "utf-8"
+    )
+    return file
+
+
+@pytest.fixture
+def opened(browser, page_file):
+    def page(width, scheme="light"):
+        made = browser.new_page(viewport={"width": width, "height": 900}, color_scheme=scheme)
+        made.goto(page_file.as_uri())
+        return made
+
+    return page
+
+
+@pytest.mark.parametrize(("width", "scheme"), [(400, "light"), (900, "dark")])
+def test_axe_finds_no_violation(opened, barriers, width, scheme):
+    page = opened(width, scheme)
+    for lang in languages():
+        page.check(f"#{lang}")
+        assert barriers(page) == []
+    page.close()
+
+
+def test_no_label_of_a_plot_covers_another_one(opened):
+    page = opened(900)
+    for lang in languages():
+        page.check(f"#{lang}")
+        plots = page.evaluate(BOXES)
+        assert len(plots) == 2 + 4 * 3 + 2
+        for (one, *a), (other, *b) in itertools.chain.from_iterable(
+            itertools.combinations(boxes, 2) for boxes in plots
+        ):
+            across = min(a[2], b[2]) - max(a[0], b[0])
+            along = min(a[3], b[3]) - max(a[1], b[1])
+            assert across < 1 or along < 1, (lang, one, other)
+    page.close()
+
+
+def test_letters_on_a_phone_are_not_smaller_than_nine_pixels(opened):
+    page = opened(400)
+    shown = page.evaluate(
+        "() => { const svg = document.querySelector('svg');"
+        "return 11 * svg.getBoundingClientRect().width / svg.viewBox.baseVal.width }"
+    )
+    assert shown >= 9
+    page.close()
+
+
+def test_the_slider_moves_by_keys_and_digits_vanish(opened):
+    page = opened(400)
+    box = page.locator("#gaussian-tail-en .sweep")
+    slider = box.locator("input")
+    slider.focus()
+    seen = {}
+    for key in ("Home", *["ArrowRight"] * 20):
+        page.keyboard.press(key)
+        k = float(re.fullmatch(r"k = ([\d.]+)", box.locator("output").inner_text())[1])
+        float64 = box.locator("tr").nth(1)
+        seen[k] = len(float64.locator("b").inner_text()) if float64.locator("b").count() else 0
+        exact = box.locator("tr").nth(0).locator("td").inner_text().replace("·10", "e")
+        number = exact.translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789"))
+        assert float(number) == pytest.approx(math.erfc(k / math.sqrt(2)), rel=2e-4 * k * k)
+    assert min(seen) == 1
+    assert max(seen) == 12
+    assert seen[1] > 15
+    assert all(right == 0 for k, right in seen.items() if k > 8.5)
+    assert slider.get_attribute("aria-valuetext") == "k = 12: float64 as printed has 0 right digits"
+    page.close()
