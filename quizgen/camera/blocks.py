@@ -6,13 +6,16 @@ Pieces do not depend on how many cores share them, so neither do the results.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from time import perf_counter
 
 import numpy as np
 from numpy.typing import NDArray
 
 Image = NDArray[np.float32]
+Work = Callable[[Image, int], None]
+"""Changes a flat piece of a picture in place; also gets the piece's number."""
 
 BLOCK = 3 << 13
 """Values per piece: whole colours, 96 KiB."""
@@ -47,22 +50,60 @@ def for_pieces(length: int, piece: int, size: int, work: Callable[[int, int], No
         list(pool.map(share, range(cores)))
 
 
-def pointwise(values: Image, work: Callable[[Image, Image], None]) -> Image:
-    """Fill a new picture piece by piece.
+def in_turn(
+    values: Image, works: Sequence[Work], *, own: bool = False
+) -> tuple[Image, NDArray[np.float64]]:
+    """Change a picture piece by piece, every piece by all works while it is in the cache.
 
     Parameters
     ----------
     values : numpy.ndarray
         float32, any shape.
-    work : callable
-        Gets a flat piece of the values (to be left alone) and the piece of the result to fill.
-        Pieces begin with a whole colour when the values do.
+    works : sequence of callable
+        In this order.
+    own : bool
+        Whether nobody else needs the values, so that they may be written over.
+
+    Returns
+    -------
+    numpy.ndarray
+        The picture.
+    numpy.ndarray
+        Seconds that each work took.
     """
     flat = np.ascontiguousarray(values, np.float32).reshape(-1)
-    result = np.empty_like(flat)
+    result = flat if own else np.empty_like(flat)
+    clock: list[list[float]] = []
 
     def one(start: int, stop: int) -> None:
-        work(flat[start:stop], result[start:stop])
+        piece, ticks = result[start:stop], [perf_counter()]
+        if not own:
+            piece[...] = flat[start:stop]
+        for work in works:
+            work(piece, start // BLOCK)
+            ticks.append(perf_counter())
+        clock.append(ticks)
 
     for_pieces(flat.size, BLOCK, flat.size, one)
-    return result.reshape(values.shape)
+    return result.reshape(values.shape), np.diff(clock, axis=1).sum(axis=0)
+
+
+def times(factor: float) -> Work:
+    """Multiply everything."""
+
+    def work(part: Image, _: int) -> None:
+        part *= np.float32(factor)
+
+    return work
+
+
+def at_pixels(factors: Image) -> Work:
+    """Multiply every pixel's three channels by a factor of its own."""
+    flat, pixels = factors.reshape(-1), BLOCK // 3
+
+    def work(part: Image, piece: int) -> None:
+        own = flat[piece * pixels :][: part.size // 3]
+        for channel in range(3):
+            part[channel::3] *= own
+
+    return work

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quizgen import png
+from quizgen.camera.filters import opencv
 
 if TYPE_CHECKING:
     from PIL.Image import Exif
@@ -67,6 +68,14 @@ def _upright(pixels: png.Codes, exif: Exif) -> png.Codes:
     return pixels if turn is None else turn(pixels)
 
 
+def _png_file(codes: NDArray[np.uint8]) -> bytes:
+    """By OpenCV, which takes half the time, or else by Pillow."""
+    cv2 = opencv()
+    if cv2 is None:
+        return png.compact(codes)
+    return bytes(cv2.imencode(".png", cv2.cvtColor(codes, cv2.COLOR_RGB2BGR))[1])
+
+
 def _jpeg_file(codes: NDArray[np.uint8]) -> bytes:
     from PIL import Image
 
@@ -76,7 +85,7 @@ def _jpeg_file(codes: NDArray[np.uint8]) -> bytes:
 
 
 WRITERS: dict[str, Callable[[NDArray[np.uint8]], bytes]] = {
-    ".png": png.compact,
+    ".png": _png_file,
     ".jpg": _jpeg_file,
     ".jpeg": _jpeg_file,
 }

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
+from quizgen.camera.blocks import Work, in_turn
 from quizgen.camera.draw import Layer, Stack, composite
 from quizgen.camera.facts import NO_ERROR, Error, Facts
 from quizgen.camera.scene import Image, Scene
@@ -60,6 +61,25 @@ def on_picture(work: Callable[[Image, View, str], Image]) -> Run:
 
 
 @dataclass(frozen=True, slots=True)
+class PointByPoint:
+    """A run in which every value depends on its own pixel alone.
+
+    Such effects in a row share one pass over the picture.
+
+    Parameters
+    ----------
+    work : callable
+        ``work(view, rung)`` gives what changes a piece in place, see `quizgen.camera.blocks`.
+    """
+
+    work: Callable[[View, str], Work]
+
+    def __call__(self, stack: Stack, view: View, rung: str = "") -> Stack:
+        """Run it alone."""
+        return (Layer(in_turn(composite(stack), [self.work(view, rung)])[0]),)
+
+
+@dataclass(frozen=True, slots=True)
 class Rung:
     """A cheaper way to compute an effect: its name and how far it is from the exact way."""
 
@@ -84,7 +104,7 @@ class Effect:
     present : callable
         Whether the camera's settings differ from the identity.
     run : callable
-        ``run(stack, view, rung) -> stack``; see `on_picture`.
+        ``run(stack, view, rung) -> stack``; see `on_picture` and `PointByPoint`.
     cost : callable
         ``cost(view, rung, opencv_used)``, predicted time in ms of a view in px.
     skipped : callable

@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from quizgen.camera.blocks import BLOCK, pointwise
+from quizgen.camera.blocks import BLOCK, Work, in_turn
 from quizgen.camera.filters import opencv
 from quizgen.camera.scene import Image
 
@@ -27,10 +27,10 @@ def rgb_to_hsv(image: Image) -> Image:
     if cv2 is not None and image.ndim == 3:
         return np.asarray(cv2.cvtColor(np.ascontiguousarray(image), cv2.COLOR_RGB2HSV))
 
-    def work(part: Image, out: Image) -> None:
-        out.reshape(-1, 3)[...] = _hsv_part(part.reshape(-1, 3))
+    def work(part: Image, _: int) -> None:
+        part.reshape(-1, 3)[...] = _hsv_part(part.reshape(-1, 3))
 
-    return pointwise(image, work)
+    return in_turn(image, [work])[0]
 
 
 def _hsv_part(colours: Image) -> Image:
@@ -77,12 +77,17 @@ def edit_hsv(image: Image, hue: float = 0.0, saturation: float = 1.0, value: flo
         Factors; results are clipped to 1. Value stays when only hue or saturation change, the
         luminance does not (errata E04, E05).
     """
+    return in_turn(image, [hsv_work(hue, saturation, value)])[0]
+
+
+def hsv_work(hue: float, saturation: float, value: float) -> Work:
+    """`edit_hsv` of a piece."""
     steps = (
         _colours(1.0, saturation, value),
         _colours(math.fmod(math.fmod(hue, 360.0) + 360.0, 360.0), 0.0, 0.0),
         _colours(math.inf, 1.0, 1.0),
     )
-    return pointwise(image, lambda part, out: _edit_part(part, out, steps))
+    return lambda part, _: _edit_part(part, steps)
 
 
 def _colours(first: float, second: float, third: float) -> Image:
@@ -90,7 +95,7 @@ def _colours(first: float, second: float, third: float) -> Image:
     return np.tile(np.asarray([first, second, third], np.float32), BLOCK // 3)
 
 
-def _edit_part(part: Image, out: Image, steps: tuple[Image, Image, Image]) -> None:
+def _edit_part(part: Image, steps: tuple[Image, Image, Image]) -> None:
     colours = np.clip(part, np.float32(0.0), np.float32(1.0)).reshape(1, -1, 3)
     edited = rgb_to_hsv(colours)
     flat = edited.reshape(-1)
@@ -98,4 +103,4 @@ def _edit_part(part: Image, out: Image, steps: tuple[Image, Image, Image]) -> No
     flat *= factors
     flat += shift
     np.minimum(flat, most, out=flat)
-    out[...] = _to_rgb(edited).reshape(-1)
+    part[...] = _to_rgb(edited).reshape(-1)

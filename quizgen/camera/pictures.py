@@ -8,14 +8,15 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from quizgen.camera.blocks import in_turn
 from quizgen.camera.camera import Camera
 from quizgen.camera.codes import histogram, rounded
 from quizgen.camera.effects import demosaicing, mosaic
-from quizgen.camera.effects.gaussian_noise import add_gaussian
-from quizgen.camera.effects.impulse_noise import add_impulses
+from quizgen.camera.effects.gaussian_noise import gaussian
+from quizgen.camera.effects.impulse_noise import impulses
 from quizgen.camera.effects.normalisation import stretch_range
 from quizgen.camera.hsv import edit_hsv
-from quizgen.camera.noise import stream
+from quizgen.camera.noise import luck
 from quizgen.camera.scene import Image, Scene
 from quizgen.camera.view import View
 
@@ -41,8 +42,9 @@ def noisy(image: Image, sigma: float, share: float, seed: int) -> tuple[Image, I
     """Clean, with Gaussian noise, with salt and pepper; each noise has its own stream."""
     height, width = image.shape[:2]
     view = View(Scene(width, height, image=image, seed=seed), Camera())
-    gaussian = add_gaussian(image, sigma, stream(view, "gaussian noise"))
-    return image, gaussian, add_impulses(image, share, stream(view, "impulse noise"))
+    grainy = gaussian(sigma, luck(view, "gaussian noise"))
+    spotted = impulses(share, luck(view, "impulse noise"))
+    return image, in_turn(image, [grainy])[0], in_turn(image, [spotted])[0]
 
 
 def bayer(image: Image, phase: str = "RGGB") -> tuple[Image, Image, Image]:

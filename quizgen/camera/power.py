@@ -16,7 +16,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from quizgen.camera.blocks import pointwise
+from quizgen.camera.blocks import Work, in_turn
 
 Image = NDArray[np.float32]
 
@@ -69,15 +69,25 @@ def _curve(gamma: str | float) -> tuple[Image, Image]:
     return offsets.astype(np.float32), slopes.astype(np.float32)
 
 
-def _along(part: Image, out: Image, curve: tuple[Image, Image]) -> None:
-    """Offset plus slope times value (every cell exists: ``wrap`` is the fastest check)."""
-    offsets, slopes = curve
-    values = np.clip(part, _ZERO, _ONE)
-    cell = np.right_shift(values.view(np.int32), _SHIFT).astype(np.intp)
-    np.take(slopes, cell, out=out, mode="wrap")
-    out *= values
-    np.take(offsets, cell, out=values, mode="wrap")
-    out += values
+def by_lines(gamma: str | float) -> Work:
+    """`encode`: offset plus slope times value (all cells exist: ``wrap`` is the fastest check)."""
+    if gamma == "linear":
+        return _clip
+    offsets, slopes = _curve(gamma)
+
+    def work(part: Image, _: int) -> None:
+        values = np.clip(part, _ZERO, _ONE)
+        cell = np.right_shift(values.view(np.int32), _SHIFT).astype(np.intp)
+        np.take(slopes, cell, out=part, mode="wrap")
+        part *= values
+        np.take(offsets, cell, out=values, mode="wrap")
+        part += values
+
+    return work
+
+
+def _clip(part: Image, _: int) -> None:
+    np.clip(part, _ZERO, _ONE, out=part)
 
 
 def encode(values: Image, gamma: str | float) -> Image:
@@ -91,10 +101,7 @@ def encode(values: Image, gamma: str | float) -> Image:
         ``srgb`` (IEC 61966-2-1: 12.92 x below 0.0031308, else 1.055 x^(1/2.4) - 0.055), or an
         exponent g >= 1 for x^(1/g).
     """
-    if gamma == "linear":
-        return np.clip(values, np.float32(0.0), np.float32(1.0))
-    curve = _curve(gamma)
-    return pointwise(values, lambda part, out: _along(part, out, curve))
+    return in_turn(values, [by_lines(gamma)])[0]
 
 
 TABLE = 65535
@@ -106,17 +113,17 @@ def _tone_table(gamma: str | float) -> Image:
     return encode((np.arange(TABLE + 1) / TABLE).astype(np.float32), gamma)
 
 
-def encode_by_table(values: Image, gamma: str | float) -> Image:
+def by_table(gamma: str | float) -> Work:
     """`encode` after rounding the linear values to 16 bits."""
     table, top = _tone_table(gamma), np.float32(TABLE)
 
-    def work(part: Image, out: Image) -> None:
+    def work(part: Image, _: int) -> None:
         scaled = np.clip(part, _ZERO, _ONE)
         scaled *= top
         scaled += np.float32(0.5)
-        np.take(table, scaled.astype(np.intp), out=out, mode="wrap")
+        np.take(table, scaled.astype(np.intp), out=part, mode="wrap")
 
-    return pointwise(values, work)
+    return work
 
 
 def encode_number(value: float, gamma: str | float) -> float:

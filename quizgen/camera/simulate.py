@@ -5,18 +5,21 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import groupby
 from time import perf_counter
 
 import numpy as np
 from numpy.typing import NDArray
 
 from quizgen.camera import effects
+from quizgen.camera.blocks import BLOCK, for_pieces, in_turn
 from quizgen.camera.camera import Camera
 from quizgen.camera.codes import rounded
-from quizgen.camera.draw import Sheet, Stack, composite, sheets
+from quizgen.camera.draw import Layer, Sheet, Stack, composite, sheets
+from quizgen.camera.effect import PointByPoint
 from quizgen.camera.facts import EXCEEDED
 from quizgen.camera.filters import warm_up
-from quizgen.camera.plan import GREY_LEVELS, Plan, Prepared, everything, plan
+from quizgen.camera.plan import GREY_LEVELS, Plan, Prepared, Step, everything, plan
 from quizgen.camera.scene import Image, Scene
 from quizgen.outside import located
 
@@ -49,7 +52,14 @@ class Photo:
 
     def pixels(self) -> NDArray[np.uint8]:
         """8-bit codes, halves rounded upward."""
-        return rounded(self.values * np.float32(GREY_LEVELS))
+        flat = self.values.reshape(-1)
+        codes = np.empty(flat.shape, np.uint8)
+
+        def work(start: int, stop: int) -> None:
+            codes[start:stop] = rounded(flat[start:stop] * np.float32(GREY_LEVELS))
+
+        for_pieces(flat.size, BLOCK, flat.size, work)
+        return codes.reshape(self.values.shape)
 
 
 def silent(name: str) -> None:
@@ -73,15 +83,43 @@ def run(prepared: Prepared, what: Plan, told: Callable[[str], None] = silent) ->
 def _run(prepared: Prepared, what: Plan, told: Callable[[str], None]) -> Photo:
     if what.steps:
         warm_up()
-    stack = prepared.stack
-    times: dict[str, float] = {}
-    for step in what.steps:
-        told(step.effect)
-        started = perf_counter()
-        stack = effects.by_name(step.effect).run(stack, prepared.view, step.rung)
-        spent = (perf_counter() - started) * 1e3
-        times[step.effect] = spent + prepared.prepared_ms.get(step.effect, 0.0)
+    stack, times = prepared.stack, dict[str, float]()
+    for together, group in groupby(what.steps, key=_point_by_point):
+        steps = tuple(group)
+        if together:
+            stack = _in_one_pass(stack, prepared, steps, times, told)
+            continue
+        for step in steps:
+            told(step.effect)
+            started = perf_counter()
+            stack = effects.by_name(step.effect).run(stack, prepared.view, step.rung)
+            spent = (perf_counter() - started) * 1e3
+            times[step.effect] = spent + prepared.prepared_ms.get(step.effect, 0.0)
     return Photo(composite(stack), what, times, prepared.drawn_ms)
+
+
+def _point_by_point(step: Step) -> bool:
+    return isinstance(effects.by_name(step.effect).run, PointByPoint)
+
+
+def _in_one_pass(
+    stack: Stack,
+    prepared: Prepared,
+    steps: tuple[Step, ...],
+    times: dict[str, float],
+    told: Callable[[str], None],
+) -> Stack:
+    """Effects that look at one pixel only, while a piece of the picture is at hand."""
+    told(", ".join(step.effect for step in steps))
+    started, picture = perf_counter(), composite(stack)
+    runs = [(effects.by_name(step.effect).run, step.rung) for step in steps]
+    works = [run.work(prepared.view, rung) for run, rung in runs if isinstance(run, PointByPoint)]
+    fresh = all(picture is not layer.colour for layer in prepared.stack)
+    result, clock = in_turn(picture, works, own=fresh)
+    spent = (perf_counter() - started) * 1e3
+    shares = clock / clock.sum()  # several cores have shared the time
+    times.update(zip((step.effect for step in steps), (spent * shares).tolist(), strict=True))
+    return (Layer(result),)
 
 
 def simulate(

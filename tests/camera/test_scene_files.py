@@ -330,11 +330,12 @@ def test_another_ending_of_a_comparison_is_refused(tmp_path):
 
 
 def test_what_takes_long_says_what_it_does(monkeypatch):
-    """Each step is told as it begins; the terminal decides when to show it."""
+    """Steps are told as they begin, those of one pass at once; the terminal decides when."""
     told = []
     monkeypatch.setattr(Progress, "__call__", lambda _, name: told.append(name))
     ran = json.loads(invoke("landscape", "--json"))["ran"]
-    assert told == ["reading", "planning", *ran]
+    assert told[:2] == ["reading", "planning"]
+    assert ", ".join(told[2:]) == ", ".join(ran)
 
 
 def test_a_broken_promise_is_said_with_exit_code_1(monkeypatch):

@@ -7,11 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from quizgen.camera.blocks import Work
 from quizgen.camera.body import NEEDS_FULL_WELL, SHUTTER
 from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, on_picture
+from quizgen.camera.effect import Effect, PointByPoint
 from quizgen.camera.facts import Error, Facts
-from quizgen.camera.noise import bands, electrons_at_white, noisier, poisson_gap, stream
+from quizgen.camera.noise import WORDS, electrons_at_white, luck, noisier, poisson_gap
 from quizgen.camera.scene import Image
 from quizgen.camera.settings import NOT_NEGATIVE, SHARE, Rule, Setting, Settings
 from quizgen.camera.values import quantity
@@ -38,31 +39,33 @@ def dark_electrons(view: View) -> float:
     return view.camera[DARK_CURRENT] * view.camera[SHUTTER]
 
 
-def _poisson(mean: float, shape: tuple[int, ...], source: np.random.Generator) -> Image:
-    """Poisson counts of one mean, by looking uniform numbers up in the distribution's table."""
+def _poisson(mean: float) -> Image:
+    """Poisson counts of one mean in the middle of equal probabilities."""
+    if not mean:
+        return np.zeros(WORDS, np.float32)
     first = max(0, math.floor(mean - 12.0 * math.sqrt(mean) - 20.0))
     last = math.ceil(mean + 12.0 * math.sqrt(mean) + 40.0)
     chances = [
         math.exp(count * math.log(mean) - mean - math.lgamma(count + 1.0))
         for count in range(first, last)
     ]
-    below, counts = np.cumsum(chances), np.empty(shape, np.float32)
-    for rows in bands(shape):
-        counts[rows] = np.searchsorted(below, source.random(counts[rows].shape), side="right")
-    return counts + np.float32(first)
+    middles = (np.arange(WORDS) + 0.5) / WORDS
+    return (np.searchsorted(np.cumsum(chances), middles, side="right") + first).astype(np.float32)
 
 
-def run(image: Image, view: View, rung: str = "") -> Image:
+def work(view: View, rung: str = "") -> Work:
     """Add the dark charge and its own shot noise; hot pixels are stuck at full well."""
-    source, result = stream(view, "dark current"), image
-    electrons = dark_electrons(view)
-    if electrons:
-        share = np.float32(1.0 / electrons_at_white(view))
-        result = image + _poisson(electrons, image.shape, source) * share
-    if view.camera[HOT_PIXELS]:
-        hot = source.random(image.shape[:2]) < view.camera[HOT_PIXELS]
-        result = np.where(hot[..., None], np.float32(1.0), result)
-    return result
+    charge, stuck = luck(view, "dark current"), luck(view, "hot pixels")
+    electrons, share = dark_electrons(view), view.camera[HOT_PIXELS]
+    signals = _poisson(electrons) * np.float32(1.0 / electrons_at_white(view))
+
+    def darkened(part: Image, piece: int) -> None:
+        if electrons:
+            part += charge.pick(signals, piece, part.size)
+        if share:
+            part.reshape(-1, 3)[stuck.uniform(piece, part.size // 3) < share] = np.float32(1.0)
+
+    return darkened
 
 
 def _noise(view: View) -> Error:
@@ -101,7 +104,7 @@ EFFECT = Effect(
     decides=("dark current", "hot pixels", "noise", "snr", "histogram"),
     settings=(DARK_CURRENT, HOT_PIXELS),
     present=lambda view: dark_electrons(view) > 0.0 or view.camera[HOT_PIXELS] > 0.0,
-    run=on_picture(run),
+    run=PointByPoint(work),
     cost=measured((22, 1050)),
     skipped=skipped,
     after=after,

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from quizgen.camera.blocks import in_turn, times
 from quizgen.camera.body import NEEDS_FULL_WELL
 from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, on_picture
@@ -15,7 +16,7 @@ from quizgen.camera.effects.dark_current import dark_electrons
 from quizgen.camera.effects.gain import gain
 from quizgen.camera.effects.read_noise import READ_NOISE
 from quizgen.camera.facts import Error, Facts
-from quizgen.camera.noise import add_normal, electrons_at_white, noisier, stream
+from quizgen.camera.noise import electrons_at_white, luck, noisier, normal_noise
 from quizgen.camera.scene import Image
 from quizgen.camera.settings import Setting, between
 from quizgen.camera.values import whole
@@ -44,8 +45,9 @@ def _left(view: View) -> float:
 def master(shape: tuple[int, ...], view: View) -> Image:
     """Mean of the dark frames, shape (H, W, 3)."""
     dark = np.float32(dark_electrons(view) / electrons_at_white(view))
-    frame = fixed_pattern.offsets(np.full((*shape[:2], 3), dark, np.float32), view)
-    return add_normal(frame * np.float32(gain(view)), _left(view), stream(view, "dark frame"))
+    left = normal_noise(_left(view), luck(view, "dark frame"))
+    works = [fixed_pattern.work(view), times(gain(view)), left]
+    return in_turn(np.full((*shape[:2], 3), dark, np.float32), works, own=True)[0]
 
 
 def run(image: Image, view: View, rung: str = "") -> Image:

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
+from quizgen.camera.blocks import Work, times
 from quizgen.camera.body import SHUTTER, aperture
 from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, on_picture
+from quizgen.camera.effect import Effect, PointByPoint
 from quizgen.camera.facts import Error, Facts
-from quizgen.camera.scene import Image
 from quizgen.camera.settings import Rule, Setting, Settings, between
 from quizgen.camera.values import number, quantity
 from quizgen.camera.view import View
@@ -48,9 +46,9 @@ def factor(view: View) -> float:
     return float(2.0**stops)
 
 
-def run(image: Image, view: View, rung: str = "") -> Image:
+def work(view: View, rung: str = "") -> Work:
     """Multiply by light, time and correction."""
-    return image * np.float32(factor(view))
+    return times(factor(view))
 
 
 def skipped(facts: Facts, view: View) -> Error:
@@ -74,7 +72,7 @@ EFFECT = Effect(
     decides=("exposure", "aperture", "shutter"),
     settings=(EXPOSURE, LIGHT_VALUE),
     present=lambda view: factor(view) != 1.0,
-    run=on_picture(run),
+    run=PointByPoint(work),
     cost=measured((0.0786, 18)),
     skipped=skipped,
     carried=carried,

@@ -6,11 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from quizgen.camera.blocks import Work
 from quizgen.camera.body import NEEDS_FULL_WELL
 from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, on_picture
+from quizgen.camera.effect import Effect, PointByPoint
 from quizgen.camera.facts import Error, Facts
-from quizgen.camera.noise import add_normal, electrons_at_white, noisier, stream
+from quizgen.camera.noise import electrons_at_white, luck, noisier, normal_noise
 from quizgen.camera.scene import Image
 from quizgen.camera.settings import NOT_NEGATIVE, Setting
 from quizgen.camera.values import quantity
@@ -27,19 +28,18 @@ def level(view: View) -> float:
     return view.camera[BIAS] / electrons_at_white(view)
 
 
-def offsets(image: Image, view: View) -> Image:
-    """A picture with pedestal and offsets added: they do not depend on the scene's seed."""
-    sigma = view.camera[FIXED_PATTERN] / electrons_at_white(view)
-    lifted = image + np.float32(level(view))
-    if not sigma:
-        return lifted
+def work(view: View, rung: str = "") -> Work:
+    """Add pedestal and offsets: they do not depend on the scene's seed."""
     camera = replace(view, scene=replace(view.scene, seed=0))
-    return add_normal(lifted, sigma, stream(camera, "fixed pattern"))
+    sigma = view.camera[FIXED_PATTERN] / electrons_at_white(view)
+    spread, bias = normal_noise(sigma, luck(camera, "fixed pattern")), np.float32(level(view))
 
+    def lifted(part: Image, piece: int) -> None:
+        part += bias
+        if sigma:
+            spread(part, piece)
 
-def run(image: Image, view: View, rung: str = "") -> Image:
-    """Add pedestal and offsets."""
-    return offsets(image, view)
+    return lifted
 
 
 def skipped(facts: Facts, view: View) -> Error:
@@ -61,7 +61,7 @@ EFFECT = Effect(
     decides=("fixed pattern", "dark frame", "noise"),
     settings=(FIXED_PATTERN, BIAS),
     present=lambda view: view.camera[FIXED_PATTERN] > 0.0 or view.camera[BIAS] > 0.0,
-    run=on_picture(run),
+    run=PointByPoint(work),
     cost=measured((7.3, 300)),
     skipped=skipped,
     after=after,

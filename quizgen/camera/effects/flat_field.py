@@ -6,8 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from quizgen.camera.blocks import Work, at_pixels
 from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, on_picture
+from quizgen.camera.effect import Effect, PointByPoint
 from quizgen.camera.effects.vignetting import corner_light, fall_off_map, steepest_fall_off
 from quizgen.camera.effects.vignetting import present as vignettes
 from quizgen.camera.facts import Error, Facts
@@ -19,10 +20,9 @@ from quizgen.camera.view import View
 FLAT_FIELD = Setting("flat_field", truth, False)
 
 
-def run(image: Image, view: View, rung: str = "") -> Image:
+def work(view: View, rung: str = "") -> Work:
     """Divide out the vignetting of an even picture: linear data, mean brightness kept (E31)."""
-    flat = fall_off_map(view)
-    return correct_flat(image, flat, np.float32(0.0))
+    return at_pixels(_factors(fall_off_map(view)))
 
 
 def correct_flat(raw: Image, flat: Image, dark: Image | np.float32) -> Image:
@@ -38,10 +38,14 @@ def correct_flat(raw: Image, flat: Image, dark: Image | np.float32) -> Image:
     ValueError
         If a flat pixel is not brighter than its dark value (a dead pixel has no correction).
     """
-    light = flat - dark
+    return (raw - dark) * _factors(flat - dark)
+
+
+def _factors(light: Image) -> Image:
+    """Mean of an even picture over its values."""
     if light.min() <= 0:
         raise ValueError("a flat pixel is not brighter than the dark frame")
-    return (raw - dark) * (np.float32(light.mean(dtype=np.float64)) / light)
+    return np.float32(light.mean(dtype=np.float64)) / light
 
 
 def _gain(view: View) -> tuple[float, float]:
@@ -77,7 +81,7 @@ EFFECT = Effect(
     decides=("flat field", "vignetting"),
     settings=(FLAT_FIELD,),
     present=lambda view: view.camera[FLAT_FIELD] and vignettes(view),
-    run=on_picture(run),
+    run=PointByPoint(work),
     cost=measured((1.34, 88.2)),
     skipped=skipped,
     carried=carried,

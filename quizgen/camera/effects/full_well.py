@@ -7,17 +7,22 @@ from dataclasses import replace
 
 import numpy as np
 
+from quizgen.camera.blocks import Work
 from quizgen.camera.body import FULL_WELL
 from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, on_picture
+from quizgen.camera.effect import Effect, PointByPoint
 from quizgen.camera.facts import Error, Facts
 from quizgen.camera.scene import Image
 from quizgen.camera.view import View
 
 
-def run(image: Image, view: View, rung: str = "") -> Image:
+def work(view: View, rung: str = "") -> Work:
     """A photosite holds no more than its full well."""
-    return np.minimum(image, np.float32(1.0))
+
+    def full(part: Image, _: int) -> None:
+        np.minimum(part, np.float32(1.0), out=part)
+
+    return full
 
 
 def skipped(facts: Facts, view: View) -> Error:
@@ -37,7 +42,7 @@ EFFECT = Effect(
     stage="sensor",
     decides=("clipping", "saturation", "dynamic range"),
     present=lambda view: view.camera[FULL_WELL] is not None,
-    run=on_picture(run),
+    run=PointByPoint(work),
     cost=measured((0.338, 25.9)),
     skipped=skipped,
     after=after,

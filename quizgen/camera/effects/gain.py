@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import numpy as np
-
+from quizgen.camera.blocks import Work, times
 from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, on_picture
+from quizgen.camera.effect import Effect, PointByPoint
 from quizgen.camera.facts import Error, Facts
-from quizgen.camera.scene import Image
 from quizgen.camera.settings import Setting, between
 from quizgen.camera.values import number
 from quizgen.camera.view import View
@@ -22,9 +20,9 @@ def gain(view: View) -> float:
     return view.camera[ISO] / BASE_ISO
 
 
-def run(image: Image, view: View, rung: str = "") -> Image:
+def work(view: View, rung: str = "") -> Work:
     """Multiply what the photosites hold and the noise of reading them."""
-    return image * np.float32(gain(view))
+    return times(gain(view))
 
 
 def skipped(facts: Facts, view: View) -> Error:
@@ -48,7 +46,7 @@ EFFECT = Effect(
     decides=("iso", "exposure", "noise", "snr"),
     settings=(ISO,),
     present=lambda view: gain(view) != 1.0,
-    run=on_picture(run),
+    run=PointByPoint(work),
     cost=measured((0.0786, 18)),
     skipped=skipped,
     carried=carried,

@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from quizgen.camera.blocks import Work
 from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, Rung, on_picture
+from quizgen.camera.effect import Effect, PointByPoint, Rung
 from quizgen.camera.facts import DEVIATIONS, Error, Facts
-from quizgen.camera.power import CURVE_ERROR, TABLE, encode, encode_by_table, encode_number
-from quizgen.camera.scene import Image
+from quizgen.camera.power import CURVE_ERROR, TABLE, by_lines, by_table, encode_number
 from quizgen.camera.settings import Rule, Setting, Settings
 from quizgen.camera.values import number
 from quizgen.camera.view import View
@@ -31,11 +31,9 @@ GAMMA = Setting[str | float](
 )
 
 
-def run(image: Image, view: View, rung: str = "") -> Image:
+def work(view: View, rung: str = "") -> Work:
     """Encode linear light for display; clips to [0, 1]. The rung ``table`` rounds to 16 bits."""
-    if rung == "table":
-        return encode_by_table(image, view.camera[GAMMA])
-    return encode(image, view.camera[GAMMA])
+    return (by_table if rung == "table" else by_lines)(view.camera[GAMMA])
 
 
 def _gap(width: float, bottom: float, view: View) -> float:
@@ -102,7 +100,7 @@ EFFECT = Effect(
     decides=("gamma",),
     settings=(GAMMA,),
     present=lambda view: view.camera[GAMMA] not in ("linear", 1.0),
-    run=on_picture(run),
+    run=PointByPoint(work),
     cost=measured((1.9, 92), table=(1.5, 76)),
     skipped=skipped,
     carried=carried,

@@ -7,10 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from quizgen.camera.blocks import Work
 from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, on_picture
+from quizgen.camera.effect import Effect, PointByPoint
 from quizgen.camera.facts import Error, Facts
-from quizgen.camera.noise import stream
+from quizgen.camera.noise import Luck, luck, normal_noise
 from quizgen.camera.scene import Image
 from quizgen.camera.settings import NOT_NEGATIVE, Setting
 from quizgen.camera.values import number
@@ -20,27 +21,30 @@ GAUSSIAN_NOISE = Setting("gaussian_noise", number, 0.0, (NOT_NEGATIVE,))
 """Standard deviation, 1 = white."""
 
 
-def add_gaussian(image: Image, sigma: float, source: np.random.Generator) -> Image:
-    """Add normal noise, then clip to [0, 1] (black gains 0.399 sigma on average, errata E39).
+def gaussian(sigma: float, source: Luck) -> Work:
+    """Normal noise on a picture in [0, 1], clipped to it.
+
+    Black gains 0.399 sigma on average (errata E39).
 
     Parameters
     ----------
-    image : numpy.ndarray
-        In [0, 1], float32.
     sigma : float
         Standard deviation, 1 = white.
-    source : numpy.random.Generator
-        Passed in, never shared between calls (errata EC5).
+    source : Luck
+        Passed in, never shared between effects (errata EC5).
     """
-    noise = source.standard_normal(image.shape, np.float32)
-    noise *= np.float32(sigma)
-    noise += image
-    return np.clip(noise, np.float32(0.0), np.float32(1.0), out=noise)
+    add = normal_noise(sigma, source)
+
+    def work(part: Image, piece: int) -> None:
+        add(part, piece)
+        np.clip(part, np.float32(0.0), np.float32(1.0), out=part)
+
+    return work
 
 
-def run(image: Image, view: View, rung: str = "") -> Image:
-    """`add_gaussian` with the camera's sigma."""
-    return add_gaussian(image, view.camera[GAUSSIAN_NOISE], stream(view, "gaussian noise"))
+def work(view: View, rung: str = "") -> Work:
+    """Add the camera's normal noise, then clip."""
+    return gaussian(view.camera[GAUSSIAN_NOISE], luck(view, "gaussian noise"))
 
 
 def skipped(facts: Facts, view: View) -> Error:
@@ -62,7 +66,7 @@ EFFECT = Effect(
     decides=("gaussian noise", "noise", "snr", "histogram"),
     settings=(GAUSSIAN_NOISE,),
     present=lambda view: view.camera[GAUSSIAN_NOISE] > 0.0,
-    run=on_picture(run),
+    run=PointByPoint(work),
     cost=measured((7.18, 302)),
     skipped=skipped,
     after=after,

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
+from quizgen.camera.blocks import Work
 from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, on_picture
+from quizgen.camera.effect import Effect, PointByPoint
 from quizgen.camera.facts import Error, Facts
-from quizgen.camera.hsv import edit_hsv
+from quizgen.camera.hsv import hsv_work
 from quizgen.camera.power import CURVE_ERROR
-from quizgen.camera.scene import Image
 from quizgen.camera.settings import NOT_NEGATIVE, Setting
 from quizgen.camera.values import number, quantity
 from quizgen.camera.view import View
@@ -30,10 +30,10 @@ def present(view: View) -> bool:
     return (_turn(view), view.camera[SATURATION], view.camera[VALUE]) != (0.0, 1.0, 1.0)
 
 
-def run(image: Image, view: View, rung: str = "") -> Image:
+def work(view: View, rung: str = "") -> Work:
     """`edit_hsv` with the camera's parameters."""
     camera = view.camera
-    return edit_hsv(image, math.degrees(camera[HUE]), camera[SATURATION], camera[VALUE])
+    return hsv_work(math.degrees(camera[HUE]), camera[SATURATION], camera[VALUE])
 
 
 def skipped(facts: Facts, view: View) -> Error:
@@ -76,7 +76,7 @@ EFFECT = Effect(
     decides=("hsv", "hue", "saturation edit"),
     settings=(HUE, SATURATION, VALUE),
     present=present,
-    run=on_picture(run),
+    run=PointByPoint(work),
     cost=measured((38.4, 1490), opencv=(1.5, 75)),
     skipped=skipped,
     carried=carried,

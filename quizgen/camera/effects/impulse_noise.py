@@ -7,10 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from quizgen.camera.blocks import Work
 from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, on_picture
+from quizgen.camera.effect import Effect, PointByPoint
 from quizgen.camera.facts import Error, Facts
-from quizgen.camera.noise import stream
+from quizgen.camera.noise import Luck, luck
 from quizgen.camera.scene import Image
 from quizgen.camera.settings import SHARE, Setting
 from quizgen.camera.values import quantity
@@ -20,27 +21,30 @@ IMPULSE_NOISE = Setting("impulse_noise", quantity("%"), 0.0, (SHARE,))
 """Share of pixels turned black or white (half each)."""
 
 
-def add_impulses(image: Image, share: float, source: np.random.Generator) -> Image:
+def impulses(share: float, source: Luck) -> Work:
     """Salt and pepper: each pixel turns black or white with probability share/2 each.
 
     Parameters
     ----------
-    image : numpy.ndarray
-        Shape (H, W, C); all channels of a pixel are hit together (errata EC6).
     share : float
-        In [0, 1]; more would let salt overwrite pepper.
-    source : numpy.random.Generator
+        In [0, 1]. All channels of a pixel are hit together (errata EC6).
+    source : Luck
     """
     if not 0.0 <= share <= 1.0:
         raise ValueError("the share of impulses lies in [0, 1]")
-    draw = source.random(image.shape[:2])[..., None]
-    pepper = np.where(draw < share / 2, np.float32(0.0), image)
-    return np.where(draw >= 1.0 - share / 2, np.float32(1.0), pepper)
+
+    def work(part: Image, piece: int) -> None:
+        draw = source.uniform(piece, part.size // 3)
+        pixels = part.reshape(-1, 3)
+        pixels[draw < share / 2] = np.float32(0.0)
+        pixels[draw >= 1.0 - share / 2] = np.float32(1.0)
+
+    return work
 
 
-def run(image: Image, view: View, rung: str = "") -> Image:
-    """`add_impulses` with the camera's share."""
-    return add_impulses(image, view.camera[IMPULSE_NOISE], stream(view, "impulse noise"))
+def work(view: View, rung: str = "") -> Work:
+    """`impulses` of the camera's share."""
+    return impulses(view.camera[IMPULSE_NOISE], luck(view, "impulse noise"))
 
 
 def skipped(facts: Facts, view: View) -> Error:
@@ -62,7 +66,7 @@ EFFECT = Effect(
     decides=("impulse noise", "noise", "snr", "histogram"),
     settings=(IMPULSE_NOISE,),
     present=lambda view: view.camera[IMPULSE_NOISE] > 0.0,
-    run=on_picture(run),
+    run=PointByPoint(work),
     cost=measured((4.13, 200)),
     skipped=skipped,
     after=after,

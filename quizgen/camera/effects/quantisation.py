@@ -7,8 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from quizgen.camera.blocks import Work
 from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, on_picture
+from quizgen.camera.effect import Effect, PointByPoint
 from quizgen.camera.facts import Error, Facts, LayerFacts
 from quizgen.camera.scene import Image
 from quizgen.camera.settings import Setting, between
@@ -23,15 +24,18 @@ def _largest_code(view: View) -> int:
     return int(2 ** (view.camera[BIT_DEPTH] or 16) - 1)
 
 
-def run(image: Image, view: View, rung: str = "") -> Image:
+def work(view: View, rung: str = "") -> Work:
     """Clip to [0, 1] and round to the converter's codes, halves upward."""
     top = np.float32(_largest_code(view))
-    scaled = image * top
-    scaled += np.float32(0.5)
-    np.floor(scaled, out=scaled)
-    np.clip(scaled, np.float32(0.0), top, out=scaled)
-    scaled /= top
-    return scaled
+
+    def coded(part: Image, _: int) -> None:
+        part *= top
+        part += np.float32(0.5)
+        np.floor(part, out=part)
+        np.clip(part, np.float32(0.0), top, out=part)
+        part /= top
+
+    return coded
 
 
 def _step(view: View) -> float:
@@ -72,7 +76,7 @@ EFFECT = Effect(
     decides=("quantisation", "bit depth"),
     settings=(BIT_DEPTH,),
     present=lambda view: view.camera[BIT_DEPTH] is not None,
-    run=on_picture(run),
+    run=PointByPoint(work),
     cost=measured((0.39, 38.4)),
     skipped=skipped,
     carried=carried,

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from quizgen.camera.blocks import Work
 from quizgen.camera.body import NEEDS_FULL_WELL
 from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, on_picture
+from quizgen.camera.effect import Effect, PointByPoint
 from quizgen.camera.facts import Error, Facts
-from quizgen.camera.noise import add_normal, electrons_at_white, noisier, stream
-from quizgen.camera.scene import Image
+from quizgen.camera.noise import electrons_at_white, luck, noisier, normal_noise
 from quizgen.camera.settings import NOT_NEGATIVE, Setting
 from quizgen.camera.values import quantity
 from quizgen.camera.view import View
@@ -20,9 +20,9 @@ def _sigma(view: View) -> float:
     return view.camera[READ_NOISE] / electrons_at_white(view)
 
 
-def run(image: Image, view: View, rung: str = "") -> Image:
+def work(view: View, rung: str = "") -> Work:
     """Add normal noise."""
-    return add_normal(image, _sigma(view), stream(view, "read noise"))
+    return normal_noise(_sigma(view), luck(view, "read noise"))
 
 
 def skipped(facts: Facts, view: View) -> Error:
@@ -41,7 +41,7 @@ EFFECT = Effect(
     decides=("read noise", "dynamic range", "noise", "snr", "histogram"),
     settings=(READ_NOISE,),
     present=lambda view: view.camera[READ_NOISE] > 0.0,
-    run=on_picture(run),
+    run=PointByPoint(work),
     cost=measured((7.16, 292)),
     skipped=skipped,
     after=after,

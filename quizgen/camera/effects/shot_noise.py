@@ -5,20 +5,14 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
+from quizgen.camera.blocks import Work
 from quizgen.camera.body import FULL_WELL
 from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, Rung, on_picture
+from quizgen.camera.effect import Effect, PointByPoint, Rung
 from quizgen.camera.facts import ODD, Error, Facts
-from quizgen.camera.layers import Field
-from quizgen.camera.noise import (
-    POISSON_GAP,
-    bands,
-    electrons_at_white,
-    noisier,
-    poisson_gap,
-    stream,
-)
+from quizgen.camera.noise import POISSON_GAP, electrons_at_white, luck, noisier, poisson_gap
 from quizgen.camera.scene import Image
 from quizgen.camera.settings import Setting
 from quizgen.camera.values import truth
@@ -27,11 +21,17 @@ from quizgen.camera.view import View
 SHOT_NOISE = Setting("shot_noise", truth, True)
 """Needs a full well; without one no electrons are counted."""
 
+Numbers = NDArray[np.floating]
+
 FEW_ELECTRONS = 16.18
 """Below this mean, counts are looked up one by one."""
 
 
-def poisson_quantiles(mean: Field, normal: Field) -> Field:
+_NEVER = 1e-30
+"""Chances are not followed into numbers so small that processors take long over them."""
+
+
+def poisson_quantiles(mean: Numbers, normal: Numbers) -> Numbers:
     """Poisson counts at the probabilities of standard normal values.
 
     One normal value per pixel makes the counts grow with the mean, so that a rounding error in one
@@ -40,7 +40,7 @@ def poisson_quantiles(mean: Field, normal: Field) -> Field:
     Parameters
     ----------
     mean, normal : numpy.ndarray
-        Same shape, float64; mean >= 0.
+        Same shape, same precision; mean >= 0.
 
     Returns
     -------
@@ -50,18 +50,29 @@ def poisson_quantiles(mean: Field, normal: Field) -> Field:
     """
     enough = np.maximum(mean, FEW_ELECTRONS)
     root, square = np.sqrt(enough), normal * normal
-    first = 1.0 / 3.0 + square / 6.0
-    second = normal * (-1.0 / 36.0 - square / 72.0)
-    third = -8.0 / 405.0 + square * (7.0 / 810.0 + square / 270.0)
-    counts = np.floor(enough + root * normal + first + (second + third / root) / root)
+    inverse = 1.0 / root
+    counts = square / 270.0  # the last term, then the one before
+    counts += 7.0 / 810.0
+    counts *= square
+    counts -= 8.0 / 405.0
+    counts *= inverse
+    counts += normal * (square * (-1.0 / 72.0) - 1.0 / 36.0)
+    counts *= inverse
+    counts += square * (1.0 / 6.0) + 1.0 / 3.0
+    root *= normal
+    counts += root
+    counts += enough
+    np.floor(counts, out=counts)
     np.maximum(counts, 0.0, out=counts)
     few = mean < FEW_ELECTRONS
+    if few.all():
+        return _counted(mean, normal)
     if few.any():
         counts[few] = _counted(mean[few], normal[few])
     return counts
 
 
-def _counted(mean: Field, normal: Field) -> Field:
+def _counted(mean: Numbers, normal: Numbers) -> Numbers:
     """How many steps of the distribution function lie below each probability."""
     below = _normal_below(normal)
     chance = np.exp(-mean)
@@ -71,12 +82,14 @@ def _counted(mean: Field, normal: Field) -> Field:
         if not more.any():
             break
         counts += more
-        chance *= mean / count
+        chance *= mean
+        chance *= 1.0 / count
+        np.maximum(chance, _NEVER, out=chance)
         reached += chance
     return counts
 
 
-def _normal_below(normal: Field) -> Field:
+def _normal_below(normal: Numbers) -> Numbers:
     """Normal distribution function within 1e-7 (Abramowitz and Stegun 26.2.17)."""
     t = 1.0 / (1.0 + 0.2316419 * np.abs(normal))
     series = 0.31938153 + t * (
@@ -86,28 +99,25 @@ def _normal_below(normal: Field) -> Field:
     return np.where(normal < 0.0, tail, 1.0 - tail)
 
 
-def run(image: Image, view: View, rung: str = "") -> Image:
+def work(view: View, rung: str = "") -> Work:
     """Electrons arrive at random: Poisson with mean (signal times full well).
 
-    Parameters
-    ----------
-    image : numpy.ndarray
-        Linear, >= 0.
-    view : View
-    rung : str
-        ``gaussian`` uses the normal law with the same mean and variance (errata E23).
+    The rung ``gaussian`` uses the normal law with the same mean and variance (errata E23).
     """
-    source, well = stream(view, "shot noise"), electrons_at_white(view)
-    result = np.empty_like(image)
-    for rows in bands(image.shape):
-        signal = np.maximum(image[rows], np.float32(0.0))
-        normal = source.standard_normal(signal.shape, np.float32)
-        if rung == "gaussian":
-            result[rows] = signal + np.sqrt(signal * np.float32(1.0 / well)) * normal
-        else:
-            mean = signal.astype(np.float64) * well
-            result[rows] = poisson_quantiles(mean, normal.astype(np.float64)) / well
-    return result
+    source, well = luck(view, "shot noise"), electrons_at_white(view)
+    to_electrons, to_signal = np.float32(well), np.float32(1.0 / well)
+
+    def counted(part: Image, piece: int) -> None:
+        np.maximum(part, np.float32(0.0), out=part)
+        part *= to_electrons
+        part[...] = poisson_quantiles(part, source.normal(piece, part.size))
+        part *= to_signal
+
+    def spread(part: Image, piece: int) -> None:
+        np.maximum(part, np.float32(0.0), out=part)
+        part += np.sqrt(part * to_signal) * source.normal(piece, part.size)
+
+    return spread if rung == "gaussian" else counted
 
 
 def skipped(facts: Facts, view: View) -> Error:
@@ -150,7 +160,7 @@ EFFECT = Effect(
     decides=("shot noise", "noise", "snr", "histogram"),
     settings=(SHOT_NOISE,),
     present=lambda view: view.camera[FULL_WELL] is not None and view.camera[SHOT_NOISE],
-    run=on_picture(run),
+    run=PointByPoint(work),
     cost=measured((15.5, 690), gaussian=(8.2, 330)),
     skipped=skipped,
     carried=carried,

@@ -12,9 +12,10 @@ from functools import lru_cache
 
 import numpy as np
 
+from quizgen.camera.blocks import Work, at_pixels
 from quizgen.camera.body import NEEDS_LENS
 from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, on_picture
+from quizgen.camera.effect import Effect, PointByPoint
 from quizgen.camera.facts import Error, Facts
 from quizgen.camera.layers import Field
 from quizgen.camera.scene import Image
@@ -85,9 +86,9 @@ def _fall_off_map(width: int, height: int, focal: float, mechanical: float) -> I
     return kept.astype(np.float32)[..., None]
 
 
-def run(image: Image, view: View, rung: str = "") -> Image:
+def work(view: View, rung: str = "") -> Work:
     """Multiply by the fall-off map."""
-    return image * fall_off_map(view)
+    return at_pixels(fall_off_map(view))
 
 
 def corner_light(view: View) -> float:
@@ -125,7 +126,7 @@ EFFECT = Effect(
     decides=("vignetting", "artefacts"),
     settings=(NATURAL, MECHANICAL),
     present=present,
-    run=on_picture(run),
+    run=PointByPoint(work),
     cost=measured((1.55, 115)),
     skipped=skipped,
     after=after,

@@ -6,8 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from quizgen.camera.blocks import BLOCK, Work
 from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, on_picture
+from quizgen.camera.effect import Effect, PointByPoint
 from quizgen.camera.facts import Error, Facts
 from quizgen.camera.scene import Colour, Image
 from quizgen.camera.settings import NOT_NEGATIVE, Rule, Setting, Settings
@@ -25,9 +26,14 @@ WHITE_BALANCE = Setting(
 """Gains of red, green and blue."""
 
 
-def run(image: Image, view: View, rung: str = "") -> Image:
+def work(view: View, rung: str = "") -> Work:
     """Multiply the channels by their gains."""
-    return image * np.asarray(view.camera[WHITE_BALANCE], np.float32)
+    gains = np.tile(np.asarray(view.camera[WHITE_BALANCE], np.float32), BLOCK // 3)
+
+    def balanced(part: Image, _: int) -> None:
+        part *= gains[: part.size]
+
+    return balanced
 
 
 def skipped(facts: Facts, view: View) -> Error:
@@ -59,7 +65,7 @@ EFFECT = Effect(
     decides=("white balance",),
     settings=(WHITE_BALANCE,),
     present=lambda view: view.camera[WHITE_BALANCE] != (1.0, 1.0, 1.0),
-    run=on_picture(run),
+    run=PointByPoint(work),
     cost=measured((1.55, 76.5)),
     skipped=skipped,
     carried=carried,
