@@ -231,10 +231,10 @@ def test_the_notes_bayer_means():
 def test_flat_field_of_the_notes():
     """K28 with rounding instead of truncation: 191.25 becomes 191 either way, the rest is exact."""
     image, even = np.float32([[50, 100], [255, 60]]), np.float32([[100, 200], [200, 100]])
-    corrected = flat_field.correct_flat(image, even, np.float32(0))
+    corrected = image * flat_field.factors(even, np.float32(0))
     assert corrected.tolist() == [[75.0, 75.0], [191.25, 90.0]]
     with pytest.raises(ValueError, match="dark frame"):
-        flat_field.correct_flat(image, np.float32([[0, 1], [1, 1]]), np.float32(0))
+        flat_field.factors(np.float32([[0, 1], [1, 1]]), np.float32(0))
 
 
 def test_flat_field_undoes_vignetting():

@@ -22,27 +22,23 @@ FLAT_FIELD = Setting("flat_field", truth, False)
 
 def work(view: View, rung: str = "") -> Work:
     """Divide out the vignetting of an even picture: linear data, mean brightness kept (E31)."""
-    return at_pixels(_factors(fall_off_map(view)))
+    return at_pixels(factors(fall_off_map(view), np.float32(0.0)))
 
 
-def correct_flat(raw: Image, flat: Image, dark: Image | np.float32) -> Image:
-    """Flat-field correction (raw - dark)/(flat - dark) times the mean of (flat - dark).
+def factors(flat: Image, dark: Image | np.float32) -> Image:
+    """Mean of (flat - dark) over its values: what flat-field correction multiplies by.
 
     Parameters
     ----------
-    raw, flat, dark : numpy.ndarray
-        Linear pictures of the scene, of an even surface, and with the lens covered.
+    flat, dark : numpy.ndarray
+        Linear pictures of an even surface, and with the lens covered.
 
     Raises
     ------
     ValueError
         If a flat pixel is not brighter than its dark value (a dead pixel has no correction).
     """
-    return (raw - dark) * _factors(flat - dark)
-
-
-def _factors(light: Image) -> Image:
-    """Mean of an even picture over its values."""
+    light = flat - dark
     if light.min() <= 0:
         raise ValueError("a flat pixel is not brighter than the dark frame")
     return np.float32(light.mean(dtype=np.float64)) / light
