@@ -33,7 +33,7 @@ from quizgen.maths.numbers import to_float
 from quizgen.question.compose import identity, put_into_words
 from quizgen.question.contract import Built
 from quizgen.question.kinds import build
-from quizgen.question.levels import LEVELS
+from quizgen.question.levels import LEVELS, level
 from quizgen.render.text import blocks
 
 COMPOSED = 6
@@ -272,8 +272,8 @@ def _marked(one: Draw, part: Built[AnySpec], label: str) -> Iterator[str]:
 def level_problems(one: Draw) -> list[str]:
     """Problems of the levels that are made from the chain: marked alike in every language."""
     found: list[str] = []
-    for name in (name for name, level in LEVELS.items() if name != EXAM and level.fits(one)):
-        asked = [LEVELS[name].asking(one, lang) for lang in one.template.languages]
+    for name in (name for name in LEVELS if name != EXAM and level(name).fits(one)):
+        asked = [level(name).asking(one, lang) for lang in one.template.languages]
         if len({tuple(map(repr, (part.spec for part in each.parts))) for each in asked}) > 1:
             found.append(f"seed {one.seed}: {name}: languages are not marked alike")
         for part in asked[0].parts:

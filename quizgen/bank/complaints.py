@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 from collections.abc import Iterable
 from typing import Any, get_args, get_origin, get_type_hints
@@ -70,7 +69,9 @@ def _what(text: str, kind: object) -> str:
 
 def _meant(name: str, known: Iterable[str]) -> str:
     allowed = sorted(known)
-    close = difflib.get_close_matches(name, allowed, 1)
+    from difflib import get_close_matches
+
+    close = get_close_matches(name, allowed, 1)
     meant = f"; did you mean {close[0]!r}?" if close else ""
     return f"{meant} (allowed: {', '.join(allowed)})" if allowed else meant
 

@@ -9,7 +9,6 @@ always safe to read. Solvers are Python, so a foreign bank runs its own only whe
 
 from __future__ import annotations
 
-import difflib
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cache, cached_property
@@ -296,7 +295,9 @@ class Bank:
         renamed = [known for known in self.paths if self.rules(known).formerly == name]
         if renamed:
             return f"; it is now called {renamed[0]!r}"
-        close = difflib.get_close_matches(name, self.paths, 3)
+        from difflib import get_close_matches
+
+        close = get_close_matches(name, self.paths, 3)
         if close:
             return f"; did you mean {', '.join(close)}?"
         return f" (there are {len(self.paths)}; quizgen templates lists them)"

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from contextlib import suppress
 from functools import cache
-from importlib.metadata import entry_points
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -29,6 +28,8 @@ _FILE = "trusted.json"
 @cache
 def installed() -> dict[str, Path]:
     """Name of each bank that a package brings to its folder."""
+    from importlib.metadata import entry_points  # it brings the parser of e-mail along
+
     found: dict[str, Path] = {}
     for entry in entry_points(group=GROUP):
         spec = find_spec(entry.value)

@@ -26,8 +26,7 @@ import tomllib
 import unicodedata
 from fractions import Fraction
 from functools import cache
-from importlib.resources import files
-from importlib.resources.abc import Traversable
+from pathlib import Path
 from typing import Any
 
 import msgspec
@@ -41,7 +40,7 @@ FIRST = "en"
 BOTH = "both"
 """The choice of every language of a bank at once."""
 
-PLACES: list[Traversable] = [files(__name__)]
+PLACES = [Path(__file__).parent]
 """Folders that hold languages; one from outside is made known by adding its folder."""
 
 
@@ -90,7 +89,7 @@ def chosen(choice: str, held: tuple[str, ...]) -> tuple[str, ...]:
 
 
 @cache
-def _found(places: tuple[Traversable, ...]) -> tuple[str, ...]:
+def _found(places: tuple[Path, ...]) -> tuple[str, ...]:
     found = {entry.name for place in places for entry in place.iterdir()
              if (entry / "language.toml").is_file()}  # fmt: skip
     return tuple(sorted(found, key=lambda lang: (lang != FIRST, language(lang).order, lang)))

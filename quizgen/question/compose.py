@@ -27,7 +27,8 @@ from quizgen.outside import located
 from quizgen.question.contract import Control
 from quizgen.question.filling import plain
 from quizgen.question.kinds import KINDS
-from quizgen.question.levels import LEVELS, level_of
+from quizgen.question.levels import level as at_level
+from quizgen.question.levels import level_of
 from quizgen.question.levels.asking import Asked, Choice
 from quizgen.question.markup import blocks, inline
 from quizgen.question.picture import pictured
@@ -217,7 +218,7 @@ def _worded(
     drawn: Draw, lang: str, number: str, level: str, *, figures: bool
 ) -> tuple[Question, Key]:
     template = drawn.template
-    asking = LEVELS[level].asking(drawn, lang)
+    asking = at_level(level).asking(drawn, lang)
     question = Question(
         template=template.id,
         number=number,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cache, partial
-from importlib.resources import files
+from pathlib import Path
 
 import jinja2
 from markupsafe import Markup
@@ -14,6 +14,8 @@ from quizgen.question.markup import OURS, Manner, blocks, display, inline
 from quizgen.render import fonts
 from quizgen.render.layouts import environment
 from quizgen.render.room import squares
+
+_HERE = Path(__file__).parent
 
 
 @cache
@@ -35,13 +37,13 @@ def _layouts(way: Manner = OURS) -> jinja2.Environment:
 
 @cache
 def _style() -> str:
-    page = (files("quizgen.render") / "pages" / "paper.css").read_text(encoding="utf-8")
+    page = (_HERE / "pages" / "paper.css").read_text(encoding="utf-8")
     return line_heights(":lang({})") + page
 
 
 def _board(name: str) -> Markup:
     """A file that a page needs to be drawn in."""
-    return Markup((files("quizgen.render") / "board" / name).read_text(encoding="utf-8"))
+    return Markup((_HERE / "board" / name).read_text(encoding="utf-8"))
 
 
 def page(layout: str, langs: tuple[str, ...], style: str = "", **content: object) -> bytes:

@@ -8,7 +8,6 @@ import unicodedata
 from collections.abc import Iterable, Mapping
 from datetime import UTC, datetime
 from functools import cache, singledispatch
-from importlib.resources import files
 from typing import Any, Final
 
 from quizgen import typeset
@@ -220,7 +219,7 @@ def _layout(name: str, package: str) -> bytes:
     before = '#import "common.typ": *'
     if name == "common.typ":
         before = f"#let bangla = ({''.join(f'{string(lang)},' for lang in in_script('Beng'))})"
-    text = (files(package) / "pages" / name).read_text(encoding="utf-8")
+    text = (fonts.folder(package) / "pages" / name).read_text(encoding="utf-8")
     return f"{before}\n{text}".encode()
 
 

@@ -36,11 +36,12 @@ def loaded(place, command, typed=""):
 
 def test_no_command_from_making_a_paper_to_marking_it_loads_sympy(place):
     made = loaded(place, "exam --blueprint trial --seed 3 --out paper")
-    assert not {"sympy", "matplotlib", "markdown_it"} & made
+    assert not {"sympy", "matplotlib", "markdown_it", "importlib.metadata"} & made
+    assert not {"quizgen.question.levels.guided", "quizgen.question.levels.transfer"} & made
     checked = loaded(place, "check paper/key.json paper/answers.toml")
     assert not ({"sympy", "typst", "markdown_it"} | DRAWING) & checked
     assert not {f"quizgen.{name}" for name in ("figures", "question", "typeset")} & checked
-    assert not {"subprocess", "importlib.metadata", "quizgen.bank.rules"} & checked
+    assert not {"subprocess", "importlib.metadata", "tempfile", "quizgen.bank.rules"} & checked
 
 
 @pytest.mark.parametrize("command", [

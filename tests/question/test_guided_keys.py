@@ -13,7 +13,7 @@ from quizgen.maths.constants import exact_value
 from quizgen.maths.numbers import key_text
 from quizgen.maths.units import factor
 from quizgen.question.compose import put_into_words
-from quizgen.question.levels import LEVELS
+from quizgen.question.levels import level
 from quizgen.question.levels.guided import stages
 from quizgen.question.levels.steps import wrong_ways
 
@@ -35,7 +35,7 @@ def template(request):
 def drawn(request, template):
     """One of a template that promises steps to ask for, and so has some in every draw."""
     found = draw(template, request.param)
-    assert LEVELS["guided"].fits(found)
+    assert level("guided").fits(found)
     return found
 
 

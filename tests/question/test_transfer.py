@@ -19,7 +19,7 @@ from quizgen.maths.scaling import power_of
 from quizgen.maths.units import factor
 from quizgen.question.compose import put_into_words
 from quizgen.question.filling import plain
-from quizgen.question.levels import LEVELS
+from quizgen.question.levels import level
 from quizgen.question.levels.changes import Changes, targets
 from quizgen.question.levels.comparing import compared
 from quizgen.question.levels.effects import effect
@@ -103,7 +103,7 @@ def test_the_first_wrong_step_is_the_first_that_the_model_does_not_take(draws):
 @pytest.mark.parametrize("lang", ["en", "bn"])
 def test_every_option_is_answered_and_every_mistake_named(draws, lang):
     for drawn in draws:
-        if not LEVELS["transfer"].fits(drawn):
+        if not level("transfer").fits(drawn):
             continue
         question, key = put_into_words(drawn, lang, level="transfer", figures=False)
         for part, solution, spec in zip(question.parts, key.solution.parts, key.specs, strict=True):

@@ -6,16 +6,33 @@ Must never know: an output, a paper.
 
 from __future__ import annotations
 
+from typing import get_args
+
 from quizgen.bank.draw import Draw
-from quizgen.bank.levels import CHOICES, EXAM, MIXED
+from quizgen.bank.levels import CHOICES, EXAM, MIXED, Made
 from quizgen.bank.plan import pick
 from quizgen.errors import one_of
-from quizgen.question.levels import exam, guided, transfer
+from quizgen.question.levels import exam
 from quizgen.question.levels.asking import Level
 from quizgen.question.levels.steps import key_of
 
-LEVELS: dict[str, Level] = {EXAM: exam, "guided": guided, "transfer": transfer}
-"""Level to its module."""
+LEVELS = (EXAM, *get_args(Made))
+"""The levels there are."""
+
+
+def level(name: str) -> Level:
+    """What asks at a level; those of learners are loaded for who learns."""
+    match one_of("level", name, LEVELS):
+        case "guided":
+            from quizgen.question.levels import guided
+
+            return guided
+        case "transfer":
+            from quizgen.question.levels import transfer
+
+            return transfer
+        case _:
+            return exam
 
 
 def level_of(drawn: Draw, wanted: str) -> str:
@@ -28,6 +45,6 @@ def level_of(drawn: Draw, wanted: str) -> str:
     """
     one_of("level", wanted, CHOICES)
     if wanted == MIXED:
-        found = [name for name, level in LEVELS.items() if level.fits(drawn)]
+        found = [name for name in LEVELS if level(name).fits(drawn)]
         return found[pick(f"{key_of(drawn)}/level", len(found))]
-    return wanted if LEVELS[wanted].fits(drawn) else EXAM
+    return wanted if level(wanted).fits(drawn) else EXAM
