@@ -8,11 +8,12 @@ from functools import cached_property
 
 from quizgen.bank.clashes import told_apart
 from quizgen.bank.folder import Bank, builtin
-from quizgen.cards.kinds import KINDS
+from quizgen.cards.kinds import KINDS, QUESTION
 from quizgen.cards.note import Note
 from quizgen.cards.versions import version_of
 from quizgen.cards.wish import SEED, Wish
 from quizgen.errors import BankError
+from quizgen.executors import in_order, workers
 
 
 @dataclass(frozen=True)
@@ -47,6 +48,7 @@ def build(
     kinds: tuple[str, ...] = (),
     seed: int = SEED,
     bank: Bank | None = None,
+    jobs: int = 1,
 ) -> Deck:
     """Make a deck.
 
@@ -60,6 +62,8 @@ def build(
         Fixes the numbers of the worked questions.
     bank : Bank, optional
         Where content and questions come from; the built-in bank if left out.
+    jobs : int
+        Processes that share the work; the deck is the same for any number.
 
     Raises
     ------
@@ -70,7 +74,7 @@ def build(
     _check(topics, bank.topics, "topic")
     _check(kinds, tuple(KINDS), "kind")
     wish = Wish(bank.chosen(lang), topics, seed, bank)
-    return Deck(tuple(_notes(wish, kinds or tuple(KINDS))), wish)
+    return Deck(tuple(_notes(wish, kinds or tuple(KINDS), jobs)), wish)
 
 
 def _check(names: tuple[str, ...], allowed: tuple[str, ...], what: str) -> None:
@@ -79,10 +83,21 @@ def _check(names: tuple[str, ...], allowed: tuple[str, ...], what: str) -> None:
             raise BankError(f"unknown {what} {name!r} (there are {', '.join(allowed)})")
 
 
-def _notes(wish: Wish, kinds: tuple[str, ...]) -> Iterator[Note]:
+def _notes(wish: Wish, kinds: tuple[str, ...], jobs: int) -> Iterator[Note]:
     banks = {part: replace(wish, bank=part) for part in wish.bank.parts}
-    for kind in KINDS:
-        found = {part: [*KINDS[kind](own)] if kind in kinds else [] for part, own in banks.items()}
+    pieces = [
+        (kind, piece)
+        for kind in KINDS
+        if kind in kinds
+        for own in banks.values()
+        for piece in _pieces(kind, own)
+    ]
+    made: dict[str, dict[Bank, list[Note]]] = {kind: {part: [] for part in banks} for kind in KINDS}
+    with workers(jobs) as (executor, ahead):
+        results = in_order(executor, _made, pieces, ahead)
+        for (kind, piece), notes in zip(pieces, results, strict=True):
+            made[kind][piece.bank] += notes
+    for found in made.values():
         keys = told_apart({part: [note.key for note in notes] for part, notes in found.items()})
         for part, notes in found.items():
             for note in notes:
@@ -93,3 +108,17 @@ def _notes(wish: Wish, kinds: tuple[str, ...]) -> Iterator[Note]:
                         version=version_of(note, part),
                         columns=banks[part].columns,
                     )
+
+
+def _pieces(kind: str, wish: Wish) -> Iterator[Wish]:
+    """What can be made apart: worked questions, the dear ones, template by template."""
+    if kind != QUESTION:
+        yield wish
+        return
+    for name in wish.bank.paths:
+        yield replace(wish, templates=(name,))
+
+
+def _made(piece: tuple[str, Wish]) -> list[Note]:
+    kind, wish = piece
+    return [*KINDS[kind](wish)]

@@ -27,12 +27,15 @@ class Wish:
         Fixes the numbers of the worked questions.
     bank : Bank
         Where content and questions come from.
+    templates : tuple of str
+        Only worked questions of these templates; of all if empty.
     """
 
     langs: tuple[str, ...] = (FIRST,)
     topics: tuple[str, ...] = ()
     seed: int = SEED
     bank: Bank = field(default_factory=builtin)
+    templates: tuple[str, ...] = ()
 
     @property
     def columns(self) -> tuple[str, ...]:

@@ -8,7 +8,16 @@ from typing import TYPE_CHECKING, Unpack
 
 import click
 
-from quizgen.cli.options import SEED, BankOptions, bank_options, checked, open_bank, split
+from quizgen.cli.options import (
+    SEED,
+    BankOptions,
+    bank_options,
+    checked,
+    jobs_option,
+    open_bank,
+    paying,
+    split,
+)
 from quizgen.locale import FIRST, choices
 
 if TYPE_CHECKING:
@@ -16,6 +25,8 @@ if TYPE_CHECKING:
 
 FORMATS = ("apkg", "tsv", "csv")
 NAME = "quizgen"
+A_TEMPLATE = 0.006
+"""Seconds that the worked questions of a template take, about."""
 
 
 class Options(BankOptions):
@@ -29,6 +40,7 @@ class Options(BankOptions):
     marks: Path | None
     blueprint: str | None
     out: Path
+    jobs: int | None
 
 
 @click.command()
@@ -46,6 +58,7 @@ class Options(BankOptions):
 @click.option("--blueprint", help="The paper's blueprint, if it is a file (with --from-marks).")
 @click.option("--out", type=click.Path(path_type=Path), default=Path("cards"), show_default=True,
               help="Folder to write to.")  # fmt: skip
+@jobs_option
 @bank_options
 def cards(**options: Unpack[Options]) -> None:
     """Make flashcards for Anki and other programs."""
@@ -79,6 +92,7 @@ def _deck(options: Options) -> Deck:
         kinds=split(options["kinds"]),
         seed=options["seed"],
         bank=bank,
+        jobs=paying(options["jobs"], len(bank.paths) * A_TEMPLATE),
     )
 
 

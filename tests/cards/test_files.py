@@ -239,3 +239,17 @@ def test_bad_wishes_get_one_clear_line(arguments, words, tmp_path):
     for word in words:
         assert word in message
     assert not (tmp_path / "out").exists()
+
+
+def test_any_number_of_processes_makes_the_same_deck(tmp_path):
+    for jobs in ("1", "2"):
+        done = CliRunner().invoke(group, ["cards", "--lang", "both", "--topic", "noise", "--seed", "7",
+            "--format", "apkg,tsv,csv", "--jobs", jobs, "--out", str(tmp_path / jobs)])  # fmt: skip
+        assert done.exit_code == 0, done.output
+    one, two = (
+        {path.relative_to(tmp_path / jobs): path.read_bytes()
+         for path in (tmp_path / jobs).rglob("*") if path.is_file()}
+        for jobs in ("1", "2")
+    )  # fmt: skip
+    assert one == two
+    assert len(one) > 3

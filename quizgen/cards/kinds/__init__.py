@@ -11,6 +11,9 @@ from collections.abc import Mapping
 from quizgen.cards.kinds import cheat, choice, figure, formulas, question, trap, truth, vocab
 from quizgen.cards.wish import CardKind
 
+QUESTION = "question"
+"""The kind that draws and solves."""
+
 KINDS: Mapping[str, CardKind] = {
     "vocab": vocab.notes,
     "formula": formulas.notes,
@@ -19,6 +22,6 @@ KINDS: Mapping[str, CardKind] = {
     "figure": figure.notes,
     "truth": truth.notes,
     "choice": choice.notes,
-    "question": question.notes,
+    QUESTION: question.notes,
 }
 """Kind to what makes its notes, in the order of learning."""

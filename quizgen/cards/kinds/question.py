@@ -26,8 +26,8 @@ Pair = tuple[Question, Key]
 
 
 def notes(wish: Wish) -> Iterator[Note]:
-    """Notes of every template of the bank that is written in the languages asked for."""
-    for name in wish.bank.paths:
+    """Notes of every template asked for that is written in the languages asked for."""
+    for name in wish.templates or wish.bank.paths:
         if wish.wants(wish.bank.rules(name).topic):
             template = wish.bank.template(name)
             if set(wish.langs) <= set(template.languages):
