@@ -81,7 +81,7 @@ class Mixed(Bank):
             if count > 1:
                 roots = " and ".join(str(part.root) for part in parts if part.name == name)
                 raise BankError(
-                    f"{roots}: both are called {name!r}; write another name into one's bank.toml"
+                    f"{roots}: both are called {name!r}; write another name into bank.toml of one"
                 )
 
     def __reduce__(self) -> tuple[object, ...]:
@@ -146,9 +146,10 @@ class Mixed(Bank):
         langs = chosen(choice, self.languages)
         for lang in langs:
             if lang not in self.languages:
-                common = ", ".join(self.languages)
+                common = " or ".join(self.languages)
                 raise BankError(
-                    f"not all of it is written in {lang!r}: {self._spoken} (all: {common})"
+                    f"not all of it is written in {lang!r}: {self._spoken} "
+                    f"(--lang {common}, or fewer banks)"
                 )
         return langs
 

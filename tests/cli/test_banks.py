@@ -119,3 +119,22 @@ def test_banks_are_listed_with_what_they_are(package):
     found.remember(package)
     assert "  runs  " in run("banks").output.splitlines()[-1]
     assert any(row[0] == "image-acquisition" for row in rows)
+
+
+def test_each_of_several_banks_is_asked_for(root, tmp_path, asked):
+    answers, questions = asked
+    second = write(tmp_path / "second")
+    about = second / "templates" / "bank.toml"
+    about.write_text(FILES["templates/bank.toml"].replace('"mechanics"', '"second"'), "utf-8")
+    (second / SOLVER).write_text(FILES[SOLVER] + "\n# another\n", "utf-8")
+    both = ("--bank", "image-acquisition", "--bank", root, "--bank", second)
+    answers += [True, False]
+    assert run("preview", "mechanics:push", *both).exit_code == 0
+    assert [str(one) in said for one, said in zip((root, second), questions, strict=True)] == [
+        True, True,
+    ]  # fmt: skip
+    assert (found.is_remembered(root), found.is_remembered(second)) == (True, False)
+    answers.append(False)
+    done = run("preview", "second:push", *both)
+    assert str(second) in str(done.exception)
+    assert len(questions) == 3
