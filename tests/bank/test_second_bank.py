@@ -120,9 +120,7 @@ def test_the_engine_names_no_topic_and_no_title():
         if path.relative_to(PACKAGE).parts[0] in SUBJECT | {"builtin"}:
             continue
         if path.suffix == ".py":
-            tree = ast.parse(path.read_text(encoding="utf-8"))
-            found = {node.value for node in ast.walk(tree) if isinstance(node, ast.Constant)}
-            assert not found & named, path
+            assert not _texts(path) & named, path
         elif path.suffix == ".toml":
             text = path.read_text(encoding="utf-8")
             assert not [name for name in named if f'"{name}"' in text], path
@@ -140,19 +138,32 @@ EXAMPLE = {"point-to-image-plane"}
 """The question that the examples of the Python interface ask."""
 
 
+SCENES = {"pinhole"}
+"""What the camera photographs, on a page of its own, and a figure as well."""
+
+
+def _texts(path: Path) -> set[object]:
+    """Texts, numbers and the like of a program."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    return {node.value for node in ast.walk(tree) if isinstance(node, ast.Constant)}
+
+
 def test_the_engine_names_no_template_no_solver_and_no_figure():
     """``figures`` holds what questions of any bank may show, as ``camera`` does what is photographed.
 
     So their names are the engine's own words there and in the words of each language, and nowhere
-    else: whoever asks for a figure or prints one never knows which it is. Names of a single word
-    (``noise``) are words of any language, and are left to the test above.
+    else: whoever asks for a figure or prints one never knows which it is. A name of a single word
+    (``noise``) may stand in a sentence, but is no text of a program by itself.
     """
     from quizgen.figures._table import FIGURES
 
     word = re.compile(r"[\w/-]+")
     named = {name for name in {*_chapter(), *FIGURES} - EXAMPLE if re.search("[-_/]", name)}
+    single = {name.rpartition("/")[2] for name in {*_chapter(), *FIGURES}} - SCENES
     for path in PACKAGE.rglob("*"):
         if path.relative_to(PACKAGE).parts[0] in SUBJECT | {"builtin", "locale"}:
             continue
         if path.suffix in {".py", ".toml", ".j2", ".js"}:
             assert not {*word.findall(path.read_text("utf-8"))} & named, path
+        if path.suffix == ".py":
+            assert not _texts(path) & single, path
