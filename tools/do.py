@@ -17,6 +17,7 @@ COMMANDS: dict[str, tuple[list[str], ...]] = {
     "speed": (
         [sys.executable, "benchmarks/bank.py"],
         [sys.executable, "benchmarks/papers.py"],
+        [sys.executable, "benchmarks/figures.py"],
         [sys.executable, "benchmarks/marking.py"],
         [sys.executable, "benchmarks/web.py"],
     ),

@@ -19,6 +19,7 @@ WIDTH, HEIGHT = 312.0, 170.0
 LABEL = 10.5
 """Size of labels in points."""
 
+_MOVE, _LINE, _CLOSE = int(_canvas.MOVE), int(_canvas.LINE), int(_canvas.CLOSE)
 _HEAD, _HALF = 7.0, 2.4
 _CIRCLE = [(cos(2 * pi * i / 24), sin(2 * pi * i / 24)) for i in range(24)]
 
@@ -48,27 +49,27 @@ class Pen:
 
     width: float = WIDTH
     height: float = HEIGHT
-    paths: dict[tuple[str, Style], list[tuple[np.ndarray, np.ndarray]]] = field(
-        default_factory=dict
-    )
+    paths: dict[tuple[str, Style], tuple[list[Point], list[int]]] = field(default_factory=dict)
     labels: list[Label] = field(default_factory=list)
 
-    def _add(self, part: str, style: Style, points: np.ndarray, codes: np.ndarray) -> None:
-        self.paths.setdefault((part, style), []).append((points, codes))
+    def _add(
+        self, part: str, style: Style, points: Sequence[Point] | np.ndarray, *, closed: bool
+    ) -> None:
+        path, codes = self.paths.setdefault((part, style), ([], []))
+        row = points.tolist() if isinstance(points, np.ndarray) else points
+        path += row
+        codes += [_MOVE, *[_LINE] * (len(row) - 1)]
+        if closed:
+            path.append(row[0])
+            codes.append(_CLOSE)
 
     def line(self, part: str, points: Sequence[Point] | np.ndarray, style: Style = LINE) -> None:
         """Draw a polyline."""
-        codes = np.full(len(points), _canvas.LINE, np.uint8)
-        codes[0] = _canvas.MOVE
-        self._add(part, style, np.asarray(points, float), codes)
+        self._add(part, style, points, closed=False)
 
     def area(self, part: str, points: Sequence[Point] | np.ndarray, style: Style = SHADE) -> None:
         """Fill a polygon, or outline it if the style is a line."""
-        closed = np.empty((len(points) + 1, 2))
-        closed[:-1], closed[-1] = points, points[0]
-        codes = np.full(len(closed), _canvas.LINE, np.uint8)
-        codes[0], codes[-1] = _canvas.MOVE, _canvas.CLOSE
-        self._add(part, style, closed, codes)
+        self._add(part, style, points, closed=True)
 
     def dot(self, part: str, at: Point, radius: float = 2.2, style: Style = INK) -> None:
         """Draw a disc."""
@@ -161,9 +162,8 @@ class Pen:
             Colour of the paper; without it the figure is transparent.
         """
         canvas.size(self.width, self.height, background)
-        for (part, style), pieces in self.paths.items():
-            points, codes = zip(*pieces, strict=True)
-            canvas.path(part, style, np.concatenate(points), np.concatenate(codes))
+        for (part, style), (points, codes) in self.paths.items():
+            canvas.path(part, style, np.array(points, float), np.array(codes, np.uint8))
         canvas.labels = self.labels
 
 

@@ -6,6 +6,7 @@ the map never folds over: its derivative 1 + 3 k1 r² + 5 k2 r⁴ stays above 0.
 
 from __future__ import annotations
 
+from functools import lru_cache
 from math import ceil, floor, hypot
 from typing import TYPE_CHECKING
 
@@ -91,11 +92,16 @@ def shown_extent(values: Values) -> float:
 
 def _folds(values: Values, extent: float) -> bool:
     """Whether the slope falls below the least one, where stronger coefficients fold over."""
+    corner = hypot(extent + abs(values["c_x"]), extent + abs(values["c_y"]))
+    return _fold_radius(*(values[name] / (1 - _LEAST_SLOPE) for name in ("k1", "k2"))) < corner
+
+
+@lru_cache(maxsize=64)
+def _fold_radius(k1: float, k2: float) -> float:
+    """Where the map folds over; a figure asks for it many times."""
     from quizgen.arrays.distortion import fold_radius
 
-    corner = hypot(extent + abs(values["c_x"]), extent + abs(values["c_y"]))
-    stronger = (values[name] / (1 - _LEAST_SLOPE) for name in ("k1", "k2"))
-    return bool(fold_radius(*stronger) < corner)
+    return float(fold_radius(k1, k2))
 
 
 def _lines(values: Values, extent: float) -> list[np.ndarray]:
