@@ -11,26 +11,11 @@ import numpy as np
 from quizgen.arrays import distortion, gaussian, luminosity, poisson
 from quizgen.arrays.double_double import Double
 from quizgen.tradeoff import plain
-from quizgen.tradeoff.measure import Effort, Timing, timed
+from quizgen.tradeoff.measure import Effort, timed
+from quizgen.tradeoff.photographs import photographs
 from quizgen.tradeoff.rung import Column
 from quizgen.tradeoff.special import fixed_point
-
-
-@dataclass(frozen=True)
-class Point:
-    """One setting: its label, the time of a fixed piece of work, and the error it leaves."""
-
-    label: str
-    time: Timing
-    error: float
-
-
-@dataclass(frozen=True)
-class Curve:
-    """One line of a work-precision plot."""
-
-    label: str
-    points: tuple[Point, ...]
+from quizgen.tradeoff.work import Curve, Point
 
 
 @dataclass(frozen=True)
@@ -182,6 +167,7 @@ def _wavelengths(effort: Effort) -> Iterator[Curve]:
 
 
 KNOBS = (
+    Knob("camera", photographs),
     Knob("iterations", _iterations),
     Knob("kernel", _kernel),
     Knob("supersampling", _supersampling),

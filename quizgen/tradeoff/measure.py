@@ -40,10 +40,12 @@ class Effort:
     repeats: int
     papers: int
     places: int
+    scenes: int
+    photos: int
 
 
-FULL = Effort(inputs=400, scalars=60, repeats=7, papers=7, places=41)
-QUICK = Effort(inputs=60, scalars=8, repeats=3, papers=3, places=21)
+FULL = Effort(inputs=400, scalars=60, repeats=7, papers=7, places=41, scenes=3, photos=3)
+QUICK = Effort(inputs=60, scalars=8, repeats=3, papers=3, places=21, scenes=1, photos=1)
 
 
 @dataclass(frozen=True)

@@ -29,7 +29,6 @@ from quizgen.tradeoff.data import (
     verdict_text,
     words,
 )
-from quizgen.tradeoff.knobs import Curve
 from quizgen.tradeoff.measure import Measured, Timing, pareto
 from quizgen.tradeoff.plot import (
     Axes,
@@ -45,6 +44,7 @@ from quizgen.tradeoff.product import ROUND, Counted, Product
 from quizgen.tradeoff.report import FamilyReport, Peer, Report
 from quizgen.tradeoff.slider import ORDER, lost, places, sweep_panel
 from quizgen.tradeoff.solving import FAULTS
+from quizgen.tradeoff.work import Curve
 
 HALF_PIXEL = 0.5 / 255
 
@@ -63,8 +63,8 @@ def write(report: Report, folder: Path, command: str) -> list[Path]:
     made["tradeoff.md"] = markdown(report, command)
     if report.product is not None:
         made["product.csv"] = product_csv(report.product)
-        counts = msgspec.toml.encode(report.product.counted)
-        made["counted.toml"] = counts.decode()
+        counts = msgspec.json.encode(report.product.counted)
+        made["counted.json"] = msgspec.json.format(counts).decode() + "\n"
     page = {"tradeoff.html": html(report, command).encode()}
     pictures = {"overview.png": png(plots["overview"].encode(), 560)}
     texts = {name: text.encode() for name, text in made.items()}

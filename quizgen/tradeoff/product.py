@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-import tomllib
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
@@ -18,7 +17,7 @@ from quizgen.marking.mark import mark, show
 from quizgen.maths.numbers import to_float
 from quizgen.maths.precision import working_precision
 from quizgen.maths.values import Values
-from quizgen.shapes import converted
+from quizgen.shapes import decoded
 from quizgen.tradeoff.measure import Timing, spread
 from quizgen.tradeoff.solving import ARITHMETICS, FAILURES, Arithmetic, faults, solved, specs
 
@@ -73,8 +72,7 @@ class Product:
 
 def recorded() -> Counted:
     """What was counted when it was last counted in full."""
-    kept = (files("quizgen.tradeoff") / "counted.toml").read_text("utf-8")
-    return converted(tomllib.loads(kept), Counted)
+    return decoded((files("quizgen.tradeoff") / "counted.json").read_bytes(), Counted)
 
 
 def measure_product(drawn: int, repeats: int, told: Callable[[str], None]) -> Product:

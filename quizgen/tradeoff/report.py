@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from quizgen.tradeoff.families import BY_NAME, FAMILIES, Family
-from quizgen.tradeoff.knobs import KNOBS, Curve, Knob
+from quizgen.tradeoff.knobs import KNOBS, Knob
 from quizgen.tradeoff.measure import (
     ARRAY,
     FULL,
@@ -29,6 +29,7 @@ from quizgen.tradeoff.measure import (
 from quizgen.tradeoff.peers import peers
 from quizgen.tradeoff.product import Product, measure_product, today
 from quizgen.tradeoff.sweeps import Sweep, sweep
+from quizgen.tradeoff.work import Curve
 
 Progress = Callable[[str], None]
 """Told the name of what is measured next."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import json
 import math
 import re
 from dataclasses import replace
@@ -12,9 +13,10 @@ import pytest
 from quizgen.locale import languages
 from quizgen.tradeoff.knobs import KNOBS
 from quizgen.tradeoff.measure import QUICK
-from quizgen.tradeoff.page import html
+from quizgen.tradeoff.page import write
 from quizgen.tradeoff.product import measure_product
 from quizgen.tradeoff.report import measure
+from quizgen.tradeoff.solving import ARITHMETICS
 
 BOXES = """() => [...document.querySelectorAll('svg')].filter(svg => svg.checkVisibility()).map(
   svg => [...svg.querySelectorAll('text')].map(text => {
@@ -30,11 +32,9 @@ def page_file(tmp_path_factory):
     crowded = [knob for knob in KNOBS if knob.key in {"photons", "iterations"}]
     knobs = tuple((knob.key, tuple(knob.measure(QUICK))) for knob in crowded)
     product = measure_product(0, 1, lambda _: None)
-    file = tmp_path_factory.mktemp("page") / "tradeoff.html"
-    file.write_text(
-        html(replace(report, knobs=knobs, product=product), "quizgen tradeoff"), "utf-8"
-    )
-    return file
+    folder = tmp_path_factory.mktemp("page")
+    write(replace(report, knobs=knobs, product=product), folder, "quizgen tradeoff")
+    return folder / "tradeoff.html"
 
 
 @pytest.fixture
@@ -45,6 +45,14 @@ def opened(browser, page_file):
         return made
 
     return page
+
+
+def test_the_whole_product_is_exported_too(page_file):
+    rows = (page_file.parent / "product.csv").read_text("utf-8").splitlines()
+    assert rows[0].startswith("arithmetic,drawing_ms,solving_ms")
+    assert [row.split(",")[0] for row in rows[1:]] == list(ARITHMETICS)
+    assert json.loads((page_file.parent / "counted.json").read_text("utf-8"))["drawn"] == 10_000
+    assert (page_file.parent / "photons.svg").exists()
 
 
 @pytest.mark.parametrize(("width", "scheme"), [(400, "light"), (900, "dark")])

@@ -177,6 +177,11 @@ def test_work_precision_curves_fall():
     inverse_z, in_z = curves["layers"]
     assert [round(p.error, -1) for p in inverse_z.points][:3] == [70, 30, 20]
     assert all(a.error < b.error for a, b in zip(inverse_z.points, in_z.points, strict=True))
+    (landscape,) = curves["camera"]
+    assert [p.label for p in landscape.points] == ["=", "0.1", "0.5", "2", "8", "32"]
+    for point in landscape.points[1:]:
+        assert point.error <= float(point.label)
+    assert len(landscape.points[0].note) > len(landscape.points[-1].note) > 0
     normal = [p.error for p in curves["photons"][0].points]
     assert normal == sorted(normal, reverse=True)
 
