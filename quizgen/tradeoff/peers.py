@@ -60,12 +60,6 @@ def _hue_opencv() -> dict[str, Peer]:
     return {"OpenCV float32": hue}
 
 
-def _hue_colour() -> dict[str, Peer]:
-    from colour.models import RGB_to_HSV
-
-    return {"colour RGB_to_HSV": lambda *rgb: 360 * RGB_to_HSV(np.stack(rgb, axis=-1))[:, 0]}
-
-
 def _poisson() -> dict[str, Peer]:
     from scipy.stats import poisson
 
@@ -88,7 +82,7 @@ def _normalise() -> dict[str, Peer]:
 _SOURCES: dict[str, tuple[Callable[[], dict[str, Peer]], ...]] = {
     "gaussian-tail": (_gaussian,),
     "inverse-distortion": (_inverse,),
-    "hue": (_hue_skimage, _hue_standard, _hue_opencv, _hue_colour),
+    "hue": (_hue_skimage, _hue_standard, _hue_opencv),
     "poisson": (_poisson,),
     "normalisation": (_normalise,),
 }
