@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Literal
 
@@ -26,6 +27,7 @@ from quizgen.cards.versions import template_version
 from quizgen.cards.wish import Wish
 from quizgen.errors import CodeError, KeyFileError
 from quizgen.outside import located, parse_json, read_text
+from quizgen.paper.banks import UsedBank, compared
 from quizgen.paper.blueprint import load_blueprint
 from quizgen.paper.code import parse_code
 from quizgen.paper.paper import Paper, rebuild
@@ -54,6 +56,7 @@ class Marked(msgspec.Struct, frozen=True):
 
     code: str
     parts: tuple[MarkedPart, ...]
+    banks: tuple[UsedBank, ...] = ()
 
 
 def read_marks(path: Path) -> tuple[Marked, ...]:
@@ -114,7 +117,7 @@ def from_marks(path: Path, lang: str, *, bank: Bank, blueprint: str | None = Non
     found: list[Missed] = []
     seed = 0
     for marked in read_marks(path):
-        with located(path, CodeError):
+        with located(path, CodeError), compared(partial(tuple, marked.banks), bank):
             code = parse_code(marked.code)
             paper = rebuild(bank, marked.code, own)
         seed = max(seed, 0 if code.is_reference else int(code.seed))

@@ -85,7 +85,7 @@ def check(**options: Unpack[Options]) -> None:
     _compare(paper, options["bank"])
     marked = list(_all_marked(paper, answers, lang, settle=not options["no_settle"]))
     if marked:
-        _print(marked, options, many=len(answers) > 1)
+        _print(marked, paper, options, many=len(answers) > 1)
     missing = len(answers) - len(marked)
     if missing:
         sys.exit(1 if marked else 2)
@@ -134,9 +134,9 @@ def _all_marked(
             click.echo(f"quizgen: {visible(' '.join(str(error).split()))}", err=True)
 
 
-def _print(marked: list[Marked], flags: Options, *, many: bool) -> None:
+def _print(marked: list[Marked], key: Key, flags: Options, *, many: bool) -> None:
     if flags["as_json"]:
-        _print_json(marked)
+        _print_json(marked, key)
     elif flags["as_csv"] or many:
         from quizgen.paper.report import class_csv
 
@@ -170,12 +170,14 @@ def _own(form: Answers, key: Key) -> str:
     return next((lang for lang in wished if lang in languages()), FIRST)
 
 
-def _print_json(marked: list[Marked]) -> None:
+def _print_json(marked: list[Marked], key: Key) -> None:
     import json
+
+    import msgspec
 
     tables = [
         {"file": one.file, "name": one.name, "matriculation": one.matriculation,
-         **one.result.as_json()}
+         **one.result.as_json(), "banks": msgspec.to_builtins(key.banks)}
         for one in marked
     ]  # fmt: skip
     shown = tables[0] if len(tables) == 1 else tables

@@ -35,6 +35,7 @@ from quizgen.paper.form import FORMS
 
 if TYPE_CHECKING:
     from quizgen.bank.folder import Bank
+    from quizgen.paper.banks import UsedBank
     from quizgen.paper.blueprint import Blueprint
     from quizgen.paper.paper import Paper
 
@@ -195,6 +196,7 @@ def _filled_in(form: Path, paper: str) -> bool:
 
 
 def _paper(options: Options, tell: Progress) -> Paper:
+    from quizgen.paper.banks import compared
     from quizgen.paper.paper import build, rebuild, reference_paper
 
     bank = open_bank(options)
@@ -206,24 +208,20 @@ def _paper(options: Options, tell: Progress) -> Paper:
         if options["topic"] is not None or options["minutes"] is not None:
             raise CodeError("--code already fixes the questions; leave --topic and --minutes out")
         given = _blueprint(options, bank) if options["blueprint"] else None
-        try:
+        with compared(partial(_banks_of, options), bank):
             return rebuild(bank, options["code"], given, progress=tell)
-        except CodeError as error:
-            raise CodeError(f"{error}{_others(options, bank)}") from error
     blueprint, lang = _levelled(options, bank), options["lang"] or FIRST
     if options["reference"]:
         return reference_paper(bank, blueprint, lang, progress=tell)
     return build(bank, blueprint, _first_seed(options), lang, progress=tell)
 
 
-def _others(options: Options, bank: Bank) -> str:
-    """Which banks are others than those of the paper, if its key is still in its folder."""
-    from quizgen.paper.banks import differing
+def _banks_of(options: Options) -> tuple[UsedBank, ...]:
+    """The banks that the paper of a code was made from, if its key is still in its folder."""
     from quizgen.paper.key import read_key
 
     key = (options["out"] or _home(str(options["code"]))) / KEY
-    told = differing(read_key(key).banks, bank.parts) if key.exists() else ""
-    return told and f"; {told}"
+    return read_key(key).banks if key.exists() else ()
 
 
 def _home(code: str) -> Path:

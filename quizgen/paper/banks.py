@@ -6,11 +6,14 @@ changed since is still the same one for it.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from functools import cache
 from typing import TYPE_CHECKING
 
 import msgspec
+
+from quizgen.errors import CodeError
 
 if TYPE_CHECKING:
     from quizgen.bank.folder import Bank
@@ -63,6 +66,23 @@ def _used(bank: Bank, templates: tuple[str, ...]) -> UsedBank:
 def differing(used: Iterable[UsedBank], banks: Iterable[Bank]) -> str:
     """How the banks here differ from those of a paper, in one line; empty if they do not."""
     return "; ".join(_differences(used, {bank.name: bank for bank in banks}))
+
+
+@contextmanager
+def compared(used: Callable[[], Iterable[UsedBank]], bank: Bank) -> Iterator[None]:
+    """Have the error of a paper that cannot be made again say which banks are others here.
+
+    Parameters
+    ----------
+    used : callable
+        Gives the banks of the paper, where they are asked for.
+    bank : Bank
+    """
+    try:
+        yield
+    except CodeError as error:
+        told = differing(used(), bank.parts)
+        raise CodeError(f"{error}{told and '; '}{told}") from error
 
 
 def _differences(used: Iterable[UsedBank], here: Mapping[str, Bank]) -> Iterator[str]:

@@ -133,6 +133,13 @@ def test_a_paper_that_cannot_be_made_again_says_which_bank_differs(root):
         "; mechanics: other files here than on the paper, of the same version"
     )
     assert "\n" not in str(again.exception)
+    marks = run("check", "paper/key.json", "paper/answers.toml", "--json").stdout
+    Path("marks.json").write_text(marks, "utf-8")
+    cards = run("cards", "--from-marks", "marks.json", "--blueprint", "both.toml",
+                "--bank", OURS, "--bank", root, "--trust")  # fmt: skip
+    assert str(cards.exception).endswith(
+        "; mechanics: other files here than on the paper, of the same version"
+    )
 
 
 def test_the_python_of_a_bank_that_nobody_trusts_never_runs(root, tmp_path):
