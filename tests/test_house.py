@@ -59,7 +59,6 @@ def used_in(node) -> set[str]:
 
 
 def test_every_public_function_has_a_caller_in_the_product():
-    """But for ``arrays``, whose functions are there to be called from outside (docs/accuracy.md)."""
     product = [path for path in FILES if path.is_relative_to(ROOT / "quizgen")]
     used = set(CALLED_FROM_OUTSIDE).union(*(used_in(tree(path)) for path in product))
     for page in (ROOT / "quizgen").rglob("*.j2"):
@@ -67,7 +66,6 @@ def test_every_public_function_has_a_caller_in_the_product():
     idle = [
         f"{path.relative_to(ROOT)}: {function.name}"
         for path in product
-        if path.parent.name != "arrays"
         for function in measure.functions(tree(path))
         if not function.name.startswith("_") and function.name not in used
     ]

@@ -7,8 +7,8 @@ One module per family of formulas, and below them:
 
 * ``aliases``: the types that pass between the functions
 * ``domain``: where there is an answer, and what happens where there is none
-* ``kernel``: how a formula is run over blocks, by the shortest way that keeps the digits
-* ``double_double``, ``rational``, ``decimals``, ``tables``, ...: more digits where they are needed
+* ``kernel``: how a formula is run over blocks, and by fractions where it is not to be trusted
+* ``double_double``, ``rational``, ``tables``, ...: more digits where they are needed
 
 The policy is the same everywhere, so the functions do not repeat it:
 

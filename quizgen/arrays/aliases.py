@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -19,17 +19,14 @@ Flags = npt.NDArray[np.bool_]
 Indices = npt.NDArray[np.intp]
 Counts = npt.NDArray[np.int64]
 
-Blocks = Sequence[Array]
-"""One block of every argument; a block of one element stands for all elements."""
-
 Values = Array | tuple[Array, ...]
 """A block of the result, or one block of every result."""
 
 Limits = tuple[float, float]
 """Least and largest value of a block (NaN when there is one)."""
 
-Formula = Callable[..., Array]
-"""A formula on blocks."""
+Formula = Callable[..., Values]
+"""A formula on blocks; a block of one element stands for all elements."""
 
 Exact = Callable[..., Any]
 """The same quantity for fractions; returns fractions, or floats that stand for themselves."""

@@ -17,13 +17,14 @@ import numpy as np
 
 from quizgen.arrays.aliases import Array, Counts
 from quizgen.arrays.double_double import SPLITTER, Pair, split, two_difference, two_sum
+from quizgen.arrays.kernel import lowest
 from quizgen.arrays.logarithm import log_pair
 from quizgen.arrays.polynomial import horner
 from quizgen.arrays.power import halves, raised
 
 _TOE = 2.0**-900
-REACH = 2.0**400
-"""Squares of values from 1/REACH to REACH neither overflow nor underflow."""
+_REACH = 2.0**400
+"""Squares of values from its inverse to it neither overflow nor underflow."""
 
 _WIDE = 0.85
 """From this d on, (1 - d)**e is computed as a power."""
@@ -130,7 +131,7 @@ class Gap:
     def __call__(self, a: Array, b: Array) -> Array:
         """Keep sums and products away from overflow and underflow by a power of two."""
         top = np.maximum(a, b)
-        if top.max() <= REACH and top.min() >= 1 / REACH:
+        if top.max() <= _REACH and lowest(top) >= 1 / _REACH:
             return self.moderate(a, b)
         shift = np.frexp(top)[1]
         return self.moderate(np.ldexp(a, -shift), np.ldexp(b, -shift)) * self.scale(shift)
@@ -197,10 +198,10 @@ class Gap:
         away = (d.high - _MIDST) + d.low
         smooth, error = two_sum(self.smooth_start.high, away * horner(self.smooth, away))
         x, below = two_sum(1 - d.high, -d.low)
-        x = np.maximum(x, _TOE)
-        curved = self.curved(x)
         constant, slope = _left_out(self.fraction)
-        lost = self.exponent[0] * ((curved + constant + slope * x) * (below / x)) - slope * below
+        curved = np.where(x > 0, self.curved(np.maximum(x, _TOE)), -constant)
+        tilt = below / np.maximum(x, _TOE)
+        lost = self.exponent[0] * ((curved + constant + slope * x) * tilt) - slope * below
         shape, rest = two_difference(smooth, curved / 2)
         return Pair(shape, rest + (error + self.smooth_start.low - lost / 2))
 

@@ -1,4 +1,4 @@
-"""Poisson probabilities and tails for any mean.
+"""Poisson probabilities and the lower tail for any mean.
 
 Sources: Loader (2000) for the probabilities (saddle point and the error of Stirling's formula);
 tails by summing terms away from the mean, and by Temme's uniform expansion (SIAM J. Math. Anal.
@@ -13,7 +13,7 @@ import numpy as np
 
 from quizgen.arrays.aliases import Array, Numbers, Result
 from quizgen.arrays.domain import NONNEGATIVE, Rule
-from quizgen.arrays.gaussian_kernels import mills
+from quizgen.arrays.gaussian import mills
 from quizgen.arrays.kernel import Kernel
 from quizgen.arrays.logarithm import ratio_excess
 from quizgen.arrays.polynomial import horner
@@ -104,8 +104,8 @@ def _sum_down(k: Array, lam: Array) -> Array:
     return total
 
 
-def _uniform(a: Array, x: Array, *, upper: bool) -> Array:
-    """Regularised incomplete gamma function of large a, upper or lower, from its smaller side.
+def _uniform(a: Array, x: Array) -> Array:
+    """Regularised upper incomplete gamma function of large a, from its smaller side.
 
     The exponential of the excess stands in front of Mills' ratio, so that its exponent is never
     squared from a rounded root.
@@ -123,45 +123,42 @@ def _uniform(a: Array, x: Array, *, upper: bool) -> Array:
     total = ratio + rest
     small = bell * total
     small -= small * (excess.low + skew * ratio / total)
-    return np.where(above == upper, small, 1 - small)
+    return np.where(above, small, 1 - small)
 
 
-def _tail(k: Array, lam: Array, *, upper: bool) -> Array:
-    """P(X >= k) or P(X <= k), each from its smaller side."""
+def _lower(k: Array, lam: Array) -> Array:
+    """P(X <= k), from its smaller side."""
     k, lam = np.broadcast_arrays(k, lam)
-    value = np.where(k > lam, 0.0, 1.0) if upper else np.where(k < lam, 0.0, 1.0)
-    inside = (k > 0) & (lam > 0) if upper else lam > 0
-    inside &= (lam < _LARGEST) & (k < _LARGEST) & (lam > k / _LARGEST) & (lam < _LARGEST * (k + 1))
-    a = k if upper else k + 1
+    value = np.where(k < lam, 0.0, 1.0)
+    inside = (lam > 0) & (lam < _LARGEST) & (k < _LARGEST) & (lam > k / _LARGEST)
+    a = k + 1
     uniform = inside & (a > _UNIFORM_FROM) & (np.abs(lam - a) < _UNIFORM_TO * a)
-    where = np.flatnonzero(uniform)
-    if where.size:
-        value[where] = _uniform(a.take(where), lam.take(where), upper=not upper)
     value[(k == lam) & (k >= _LARGEST)] = 0.5
-    where = np.flatnonzero(inside & ~uniform)
-    if where.size:
-        value[where] = _by_sum(k.take(where), lam.take(where), upper=upper)
+    for way, where in ((_uniform_lower, uniform), (_by_sum, inside & ~uniform)):
+        chosen = np.flatnonzero(where)
+        if chosen.size:
+            value[chosen] = way(k.take(chosen), lam.take(chosen))
     return value
 
 
-def _by_sum(k: Array, lam: Array, *, upper: bool) -> Array:
+def _uniform_lower(k: Array, lam: Array) -> Array:
+    return _uniform(k + 1, lam)
+
+
+def _by_sum(k: Array, lam: Array) -> Array:
     """Sum whichever side is the smaller one; the other is its complement."""
-    above = k > lam if upper else k >= lam
-    first = np.where(above, k + (not upper), k - upper)
-    start = _pmf(first, lam)
-    value = np.empty_like(k)
-    rising, falling = np.flatnonzero(above), np.flatnonzero(~above)
-    if rising.size:
-        value[rising] = start[rising] * _sum_up(first[rising], lam[rising])
-    if falling.size:
-        value[falling] = start[falling] * _sum_down(first[falling], lam[falling])
-    return np.where(above == upper, value, 1 - value)
+    above = k >= lam
+    first = np.where(above, k + 1, k)
+    value = _pmf(first, lam)
+    for ratio, where in ((_sum_up, above), (_sum_down, ~above)):
+        if where.any():
+            value[where] *= ratio(first[where], lam[where])
+    return np.where(above, 1 - value, value)
 
 
 _COUNT = Rule("not-a-count", lambda k, _lam: k != np.floor(k))
 _PMF = Kernel(_pmf, (NONNEGATIVE, NONNEGATIVE), (_COUNT,))
-_UPPER = Kernel(lambda k, lam: _tail(k, lam, upper=True), (NONNEGATIVE, NONNEGATIVE), (_COUNT,))
-_LOWER = Kernel(lambda k, lam: _tail(k, lam, upper=False), (NONNEGATIVE, NONNEGATIVE), (_COUNT,))
+_LOWER = Kernel(_lower, (NONNEGATIVE, NONNEGATIVE), (_COUNT,))
 
 
 def pmf(k: Numbers, lam: Numbers) -> Result:
@@ -185,11 +182,6 @@ def pmf(k: Numbers, lam: Numbers) -> Result:
         ``not-a-count``.
     """
     return _PMF(k, lam)
-
-
-def upper(k: Numbers, lam: Numbers) -> Result:
-    """Probability of k photons or more; arguments and errors as ``pmf``."""
-    return _UPPER(k, lam)
 
 
 def lower(k: Numbers, lam: Numbers) -> Result:

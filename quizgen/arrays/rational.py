@@ -1,30 +1,43 @@
-"""Doubles as the fractions they are, and back."""
+"""Doubles as the fractions they are, or as the decimals they print as, and back."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
-from fractions import Fraction
 from typing import SupportsIndex
+
+from flint import fmpq
 
 from quizgen.arrays.aliases import Array
 
+_DIGITS = 15
+"""No two decimals of so many digits share a double (Matula, Comm. ACM 11 (1968) 47)."""
 
-def nearest(value: Fraction | float) -> float:
-    """Round a rational (or a float that stands for itself) to the nearest float."""
+
+def nearest(value: fmpq | float) -> float:
+    """Round a fraction (or a float that stands for itself) to the nearest float."""
     if isinstance(value, float):
         return value
     try:
-        return value.numerator / value.denominator
+        return int(value.p) / int(value.q)
     except OverflowError:
-        return math.inf if value > 0 else -math.inf
+        return float("inf") if value > 0 else -float("inf")
 
 
-def read_decimal(value: float | Fraction) -> Fraction:
-    """Read a number as it is written: 2.2 is eleven fifths, not the nearest binary fraction."""
-    return Fraction(repr(value)) if isinstance(value, float) else Fraction(value)
+def fraction(value: float) -> fmpq:
+    """The fraction that a double is."""
+    return fmpq(*float(value).as_integer_ratio())
 
 
-def exactly(args: Sequence[Array], i: SupportsIndex) -> list[Fraction]:
+def decimal(value: float) -> fmpq:
+    """The decimal of at most fifteen digits whose nearest double this is, else the double."""
+    text = f"{value:.{_DIGITS - 1}e}"
+    if float(text) != value:
+        return fraction(value)
+    digits, power = text.split("e")
+    whole, ten = int(digits.replace(".", "")), int(power) - _DIGITS + 1
+    return fmpq(whole * 10 ** max(ten, 0), 10 ** max(-ten, 0))
+
+
+def exactly(args: Sequence[Array], i: SupportsIndex) -> list[fmpq]:
     """Element i of every argument; a single number stands for all elements."""
-    return [Fraction(float(arg[i if arg.size > 1 else 0])) for arg in args]
+    return [fraction(arg[i if arg.size > 1 else 0]) for arg in args]

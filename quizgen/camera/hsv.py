@@ -1,7 +1,6 @@
 """Hue, saturation and value of whole pictures in single precision.
 
-`quizgen.arrays.hsv` is the reference, in double precision and for any colour; a picture of 640x480
-takes it 93 ms, this 4 ms with OpenCV. The tests hold the two together.
+`quizgen.arrays.hsv` goes back, in double precision and for any colour; the tests hold the two together.
 """
 
 from __future__ import annotations

@@ -6,11 +6,11 @@ import math
 from dataclasses import dataclass, replace
 from functools import cache, lru_cache
 from itertools import accumulate
-from statistics import NormalDist
 
 import numpy as np
 from numpy.typing import NDArray
 
+from quizgen.arrays.gaussian import inverse_tail
 from quizgen.camera.blocks import Work
 from quizgen.camera.body import FULL_WELL
 from quizgen.camera.facts import REACH, Error, Facts
@@ -61,8 +61,7 @@ WORDS = 1 << 16
 @cache
 def _normals() -> Image:
     """Normal quantiles in the middle of 2^16 equal probabilities, scaled to variance 1."""
-    law, half = NormalDist(), WORDS // 2
-    lower = np.array([law.inv_cdf((n + 0.5) / WORDS) for n in range(half)])
+    lower = -np.asarray(inverse_tail((np.arange(WORDS // 2) + 0.5) / WORDS))
     lower /= math.sqrt(float(np.mean(lower * lower)))
     return np.concatenate([lower, -lower[::-1]]).astype(np.float32)
 
@@ -96,7 +95,7 @@ def poisson_gap(mean: float) -> float:
     for count in range(len(chances) - 1, 0, -1):
         beyond += chances[count]
         if _NEVER < beyond < 0.5:
-            luck = -NormalDist().inv_cdf(beyond)
+            luck = float(inverse_tail(beyond))
             gap = max(gap, count - mean - math.sqrt(mean) * luck)
     return gap
 

@@ -45,9 +45,9 @@ def marks(values: Values) -> tuple[float, ...]:
 
 def read(wavelength: float, *, night: bool) -> float:
     """V or V' at a wavelength in nm."""
-    from quizgen.arrays.luminosity import photopic, scotopic
+    from quizgen.arrays.luminosity import DAY, NIGHT, efficiency
 
-    return float((scotopic if night else photopic)(wavelength))
+    return float(efficiency(wavelength, NIGHT if night else DAY))
 
 
 def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
@@ -109,10 +109,10 @@ def _strip() -> bytes:
 
 @cache
 def _points(night: bool, logarithmic: bool) -> tuple[Point, ...]:
-    from quizgen.arrays.luminosity import photopic, scotopic
+    from quizgen.arrays.luminosity import DAY, NIGHT, efficiency
 
     grid = [FIRST + 2.5 * step for step in range(161)]
-    heights = (scotopic if night else photopic)(grid)
+    heights = efficiency(grid, NIGHT if night else DAY)
     # A logarithmic curve leaves through the floor of the axis: nothing is drawn along it.
     return tuple(
         (_x(x), _y(float(v), logarithmic=logarithmic))

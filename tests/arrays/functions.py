@@ -2,22 +2,38 @@
 
 from __future__ import annotations
 
-import importlib
+from quizgen.arrays import (
+    depth_of_field,
+    distortion,
+    gamma,
+    gaussian,
+    hsv,
+    luminosity,
+    poisson,
+    projection,
+)
 
-_PARTS = {
-    "distortion.distort_x": ("distortion", lambda m, *args: m.distort(*args)[0]),
-    "projection.project_x": ("projection", lambda m, f, x, z: m.project(f, x, 0.0, z).x),
-    "hsv.red": ("hsv", lambda m, *args: m.to_rgb(*args)[0]),
-    "hsv.green": ("hsv", lambda m, *args: m.to_rgb(*args)[1]),
-    "hsv.blue": ("hsv", lambda m, *args: m.to_rgb(*args)[2]),
+FUNCTIONS = {
+    "gaussian.upper_tail": gaussian.upper_tail,
+    "gaussian.two_sided_tail": gaussian.two_sided_tail,
+    "gaussian.inverse_tail": gaussian.inverse_tail,
+    "poisson.pmf": poisson.pmf,
+    "poisson.lower": poisson.lower,
+    "distortion.distort_x": lambda *args: distortion.distort(*args)[0],
+    "distortion.fold_radius": distortion.fold_radius,
+    "distortion.inverse_radius": distortion.inverse_radius,
+    "depth_of_field.far_limit": depth_of_field.far_limit,
+    "projection.pixel": projection.pixel,
+    "gamma.gap": gamma.gap,
+    "gamma.srgb_decode": gamma.srgb_decode,
+    "hsv.red": lambda *args: hsv.to_rgb(*args)[0],
+    "hsv.green": lambda *args: hsv.to_rgb(*args)[1],
+    "hsv.blue": lambda *args: hsv.to_rgb(*args)[2],
+    "luminosity.efficiency": luminosity.efficiency,
 }
+"""By the name of the formula's family."""
 
 
 def function(name):
     """Callable for ``family.function``."""
-    family, short = name.split(".")
-    if name in _PARTS:
-        family, call = _PARTS[name]
-        module = importlib.import_module(f"quizgen.arrays.{family}")
-        return lambda *args: call(module, *args)
-    return getattr(importlib.import_module(f"quizgen.arrays.{family}"), short)
+    return FUNCTIONS[name]

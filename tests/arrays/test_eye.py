@@ -5,10 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from quizgen.arrays.luminosity import photopic, scotopic
+from quizgen.arrays.luminosity import DAY, NIGHT, Curve, efficiency
 
-DAY = "CIE 1924 Photopic Standard Observer"
-NIGHT = "CIE 1951 Scotopic Standard Observer"
+STANDARDS = {
+    "day": (DAY, "CIE 1924 Photopic Standard Observer", 360, 830),
+    "night": (NIGHT, "CIE 1951 Scotopic Standard Observer", 380, 780),
+}
 
 
 @pytest.fixture(scope="module")
@@ -19,29 +21,32 @@ def standards():
     return colour.SDS_LEFS
 
 
-@pytest.mark.parametrize(
-    ("curve", "name", "first", "last"),
-    [(photopic, DAY, 360, 830), (scotopic, NIGHT, 380, 780)],
-)
+@pytest.mark.parametrize(("curve", "name", "first", "last"), STANDARDS.values(), ids=STANDARDS)
 def test_a_curve_is_the_standard_at_every_table_point(standards, curve, name, first, last):
     standard = standards[name]
     at = np.arange(first, last + 1, 5.0)
-    np.testing.assert_allclose(curve(at), [standard[nm] for nm in at], rtol=4e-15)
-    np.testing.assert_array_equal(curve(np.array([0.0, first - 0.01, last + 0.01])), 0.0)
+    np.testing.assert_allclose(efficiency(at, curve), [standard[nm] for nm in at], rtol=4e-15)
+    np.testing.assert_array_equal(efficiency([0.0, first - 0.01, last + 0.01], curve), 0.0)
 
 
-@pytest.mark.parametrize(("curve", "name"), [(photopic, DAY), (scotopic, NIGHT)])
-def test_straight_lines_between_them_miss_little(standards, curve, name):
+@pytest.mark.parametrize(("curve", "name", "first", "last"), STANDARDS.values(), ids=STANDARDS)
+def test_straight_lines_between_them_miss_little(standards, curve, name, first, last):
     standard = standards[name]
     every = np.array(standard.wavelengths)
-    np.testing.assert_allclose(curve(every), standard.values, atol=0.0025)
-    assert curve(every).sum() == pytest.approx(np.sum(standard.values), rel=1e-4)
+    np.testing.assert_allclose(efficiency(every, curve), standard.values, atol=0.0025)
+    assert efficiency(every, curve).sum() == pytest.approx(np.sum(standard.values), rel=1e-4)
 
 
 def test_peaks_of_day_and_night():
-    assert photopic(555.0) == scotopic(507.0) == 1.0
+    assert efficiency(555.0) == efficiency(507.0, NIGHT) == 1.0
 
 
 def test_deep_red_looks_244_times_darker_than_green():
     """V(700) = 0.004102."""
-    assert 1 / photopic(700.0) == pytest.approx(243.8, abs=0.05)
+    assert 1 / efficiency(700.0) == pytest.approx(243.8, abs=0.05)
+
+
+def test_any_table_can_be_handed_in():
+    assert efficiency([399.0, 400.0, 402.5, 420.0, 421.0], Curve(400, 10, np.array([0, 1, 0]))).tolist() == [
+        0.0, 0.0, 0.25, 0.0, 0.0,
+    ]  # fmt: skip

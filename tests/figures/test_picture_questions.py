@@ -67,8 +67,8 @@ def test_the_object_in_focus_is_the_one_of_the_key(bank, seed):
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_brighter_laser_is_the_higher_on_the_curve(bank, seed):
     given, key = _drawn(bank, "two-lasers-from-curves", seed)
-    curve = luminosity.scotopic if given["dark"] else luminosity.photopic
-    heights = [float(curve(given[name])) for name in ("l_1", "l_2")]
+    curve = luminosity.NIGHT if given["dark"] else luminosity.DAY
+    heights = [float(luminosity.efficiency(given[name], curve)) for name in ("l_1", "l_2")]
     assert [given["h_1"], given["h_2"]] == pytest.approx(heights, rel=0.01)
     assert heights[("first", "second").index(key)] == max(heights)
 
@@ -85,10 +85,12 @@ def test_spikes_stand_where_the_limits_cut(bank, seed):
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_order_of_five_lights_is_that_of_the_curves(bank, seed):
     given, key = _drawn(bank, "order-wavelengths-by-brightness", seed, part=1)
-    by_day = [float(luminosity.photopic(given[f"n_{k}"])) for k in range(1, 6)]
+    by_day = [float(luminosity.efficiency(given[f"n_{k}"])) for k in range(1, 6)]
     assert by_day == sorted(by_day, reverse=True)
     assert [given[f"V_{k}"] for k in range(1, 6)] == pytest.approx(by_day, rel=0.01)
-    by_night = [float(luminosity.scotopic(given[name])) for name in ("m_1", "m_2")]
+    by_night = [
+        float(luminosity.efficiency(given[name], luminosity.NIGHT)) for name in ("m_1", "m_2")
+    ]
     assert [given["W_1"], given["W_2"]] == pytest.approx(by_night, rel=0.01)
     assert by_night[("short", "long").index(key)] == max(by_night)
 
@@ -97,8 +99,9 @@ def test_the_order_of_five_lights_is_that_of_the_curves(bank, seed):
 def test_the_lamps_have_the_heights_of_both_curves(bank, seed):
     given = {k: float(v) for k, v in draw(bank.template(LAMPS), seed).shown.items()}
     for k in "12":
-        assert given[f"V_{k}"] == pytest.approx(luminosity.photopic(given[f"l_{k}"]), abs=0.001)
-        assert given[f"V'_{k}"] == pytest.approx(luminosity.scotopic(given[f"l_{k}"]), abs=0.001)
+        assert given[f"V_{k}"] == pytest.approx(luminosity.efficiency(given[f"l_{k}"]), abs=0.001)
+        by_night = luminosity.efficiency(given[f"l_{k}"], luminosity.NIGHT)
+        assert given[f"V'_{k}"] == pytest.approx(by_night, abs=0.001)
 
 
 @pytest.mark.parametrize("seed", SEEDS)
@@ -107,11 +110,19 @@ def test_the_curve_is_as_high_at_the_wavelength_beyond_the_peak(bank, seed):
         k: float(v)
         for k, v in draw(bank.template("power-for-equal-brightness"), seed).shown.items()
     }
-    curve = luminosity.scotopic if given["dark"] else luminosity.photopic
-    assert float(curve(given["l_1"])) == pytest.approx(given["h_1"], abs=0.002)
-    assert float(curve(given["l_2"])) == pytest.approx(given["h_2"], abs=0.002)
-    assert float(curve(given["lambda_3"])) == pytest.approx(given["h_s"], abs=0.002)
-    assert float(curve(given["lambda_3"] + given["w"])) == pytest.approx(given["h_s"], abs=0.008)
+    curve = luminosity.NIGHT if given["dark"] else luminosity.DAY
+    assert float(luminosity.efficiency(given["l_1"], curve)) == pytest.approx(
+        given["h_1"], abs=0.002
+    )
+    assert float(luminosity.efficiency(given["l_2"], curve)) == pytest.approx(
+        given["h_2"], abs=0.002
+    )
+    assert float(luminosity.efficiency(given["lambda_3"], curve)) == pytest.approx(
+        given["h_s"], abs=0.002
+    )
+    assert float(luminosity.efficiency(given["lambda_3"] + given["w"], curve)) == pytest.approx(
+        given["h_s"], abs=0.008
+    )
 
 
 @pytest.mark.parametrize("seed", SEEDS)

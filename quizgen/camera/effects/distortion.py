@@ -8,7 +8,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from quizgen.arrays.distortion import displacement, fold_radius, inverse_radius
+from quizgen.arrays.distortion import fold_radius, inverse_radius
 from quizgen.camera.body import NEEDS_LENS, aperture
 from quizgen.camera.costs import at_least_a_call, at_size, sampling
 from quizgen.camera.draw import Layer, Stack, sheets
@@ -136,8 +136,8 @@ def check(view: View) -> None:
 
 def largest_displacement(view: View) -> float:
     """Bound on how far distortion moves any point of the picture, px: |k1| r^3 + |k2| r^5."""
-    k1, k2 = view.camera[K1], view.camera[K2]
-    return view.focal * float(displacement(_top_radius(view), -abs(k1), -abs(k2)))
+    k1, k2, top = view.camera[K1], view.camera[K2], _top_radius(view)
+    return view.focal * top**3 * (abs(k1) + abs(k2) * top**2)
 
 
 def magnification(view: View) -> float:
