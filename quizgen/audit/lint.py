@@ -27,6 +27,7 @@ from quizgen.bank.prose import Text, slots
 from quizgen.bank.template import Template
 from quizgen.bank.traps import answer_names
 from quizgen.errors import QuizgenError
+from quizgen.locale import language, numbers_in
 from quizgen.marking.mark import mark, show
 from quizgen.marking.specs import AnySpec
 from quizgen.maths.numbers import to_float
@@ -34,6 +35,7 @@ from quizgen.question.compose import identity, put_into_words
 from quizgen.question.contract import Built
 from quizgen.question.kinds import build
 from quizgen.question.levels import LEVELS, level
+from quizgen.question.notation import in_notation
 from quizgen.render.text import blocks
 
 COMPOSED = 6
@@ -48,6 +50,8 @@ VARIED = 4
 """Different questions whose answers cannot all be the same by chance."""
 LEVELLED = 1
 """Instances that are asked at every level, and typed back likewise."""
+VERBATIM = frozenset({"code", "sketch"})
+"""Kinds whose key is printed as a program writes it."""
 
 
 @dataclass
@@ -263,10 +267,16 @@ def _marked(one: Draw, part: Built[AnySpec], label: str) -> Iterator[str]:
     for lang in one.template.languages:
         where = f"seed {one.seed}, {lang}, part {label or '1'}"
         for trap, spec in (("", part.spec), *part.mistakes.items()):
-            typed = show(spec, lang)
+            typed = _typed(spec, lang)
             if (trap, typed) not in seen:
                 seen.add((trap, typed))
                 yield from _problems(part.spec, trap, typed, where, lang)
+
+
+def _typed(spec: AnySpec, lang: str) -> str:
+    """The key as it is printed in a language; what stands there as program text is in none."""
+    shown = show(spec, lang)
+    return shown if spec.kind in VERBATIM else numbers_in(lang, shown)
 
 
 def level_problems(one: Draw) -> list[str]:
@@ -279,8 +289,8 @@ def level_problems(one: Draw) -> list[str]:
         for part in asked[0].parts:
             where = f"seed {one.seed}, {name}, part {part.label or '1'}"
             lang = asked[0].solution.lang
-            typed = [("", show(part.spec, lang))]
-            mistakes = part.solved.mistakes  # of a drawing they are only told
+            typed = [("", _typed(part.spec, lang))]
+            mistakes = in_notation(lang, part.solved).mistakes  # of a drawing they are only told
             typed += [(mistake.name, mistake.value) for mistake in mistakes if mistake.value]
             found += [
                 p for trap, text in typed for p in _problems(part.spec, trap, text, where, lang)
@@ -289,7 +299,8 @@ def level_problems(one: Draw) -> list[str]:
 
 
 def _problems(spec: AnySpec, trap: str, typed: str, where: str, lang: str) -> Iterator[str]:
-    verdict = mark(spec, typed, lang=lang, decimal="point")
+    comma = language(lang).decimal == "," and spec.kind not in VERBATIM
+    verdict = mark(spec, typed, lang=lang, decimal="comma" if comma else "point")
     if trap and verdict.note != f"trap:{trap}":
         yield f"{where}: trap {trap!r} typed as {typed!r} is {verdict.verdict} ({verdict.note})"
     if not trap and verdict.verdict != "correct" and not verdict.self_marked:

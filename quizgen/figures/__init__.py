@@ -18,7 +18,7 @@ from quizgen.errors import BankError
 from quizgen.figures._board import Board, Drawing, Line
 from quizgen.figures._figure import Figure
 from quizgen.figures._parameters import Parameter, complete
-from quizgen.locale import languages
+from quizgen.locale import languages, numbers_in
 from quizgen.maths.notation import people
 
 if TYPE_CHECKING:
@@ -108,7 +108,7 @@ def _module(name: str, own: ModuleType | None) -> FigureModule:
 
 
 def _words(module: FigureModule, values: Mapping[str, float], lang: str, *, quiz: bool) -> str:
-    return people.names_in(module.alt(values, lang, quiz=quiz))
+    return numbers_in(lang, people.names_in(module.alt(values, lang, quiz=quiz)))
 
 
 @lru_cache(maxsize=256)
@@ -116,7 +116,7 @@ def _render(
     module: FigureModule, items: tuple[tuple[str, float], ...], quiz: bool, lang: str
 ) -> Figure:
     words = _words(module, dict(items), lang, quiz=quiz)
-    return Figure(_drawn(module, items, quiz), words, lang, module.DARK)
+    return Figure(_drawn(module, items, quiz).written_in(lang), words, lang, module.DARK)
 
 
 @lru_cache(maxsize=256)

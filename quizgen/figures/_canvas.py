@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quizgen.figures._letters import outline
+from quizgen.locale import numbers_in
 from quizgen.png import encode
 
 MOVE, LINE, CURVE, CLOSE = (np.uint8(code) for code in (1, 2, 3, 79))
@@ -92,6 +93,16 @@ class Canvas:
     def flipped(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Points as SVG counts them, in hundredths."""
         return _flipped(points, self.height)
+
+    def written_in(self, lang: str) -> Canvas:
+        """The same with the decimal sign of a language in its labels; itself if they are alike."""
+        labels = [label._replace(text=numbers_in(lang, label.text)) for label in self.labels]
+        if labels == self.labels:
+            return self
+        found = Canvas()
+        found.size(self.width, self.height, self.background)
+        found.pictures, found.strokes, found.labels = self.pictures, self.strokes, labels
+        return found
 
     @cached_property
     def inside(self) -> str:

@@ -22,6 +22,7 @@ A template has one ``<lang>.md`` besides.
 
 from __future__ import annotations
 
+import re
 import tomllib
 import unicodedata
 from fractions import Fraction
@@ -40,6 +41,9 @@ FIRST = "en"
 BOTH = "both"
 """The choice of every language of a bank at once."""
 
+_POINT = re.compile(r"(?<=[0-9])\.(?=[0-9])")
+"""A decimal point; there is one in every number until it is written in a language."""
+
 PLACES = [Path(__file__).parent]
 """Folders that hold languages; one from outside is made known by adding its folder."""
 
@@ -49,7 +53,7 @@ class Language(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 
     ``name`` is the language in itself, ``english`` in English, ``order`` its place in lists,
     ``script`` the ISO 15924 code of its letters, ``line_height`` the lines that its letters need on
-    pages where they need other lines than the page has.
+    pages where they need other lines than the page has, ``decimal`` the sign in its numbers.
     """
 
     name: str
@@ -57,6 +61,7 @@ class Language(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     order: int
     script: str
     line_height: float | None = None
+    decimal: str = "."
 
 
 def languages() -> tuple[str, ...]:
@@ -105,6 +110,18 @@ def language(lang: str) -> Language:
         If there is no such language.
     """
     return converted(table(lang, "language"), Language)
+
+
+def numbers_in(lang: str, text: str) -> str:
+    """A text for people with the decimal sign of a language in its numbers.
+
+    Examples
+    --------
+    >>> numbers_in("de", "3 Punkte: 27.25 mm"), numbers_in("en", "27.25 mm")
+    ('3 Punkte: 27,25 mm', '27.25 mm')
+    """
+    sign = language(lang).decimal
+    return text if sign == "." else _POINT.sub(sign, text)
 
 
 def in_script(script: str) -> tuple[str, ...]:

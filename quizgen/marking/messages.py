@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
-from quizgen.locale import known, table
+from quizgen.locale import known, numbers_in, table
 from quizgen.marking.echo import safe
 from quizgen.maths.notation import people
 
@@ -65,7 +65,7 @@ def _field(lang: str, key: str, value: object) -> str:
         value = tuple(people.name(str(item)) for item in value)
     elif key in _NAMES:
         value = people.formula(str(value))
-    return _shown(lang, value)
+    return numbers_in(lang, _shown(lang, value))
 
 
 def _known(clause: str, shown: Mapping[str, str]) -> str:

@@ -17,7 +17,7 @@ from quizgen.bank.levels import EXAM
 from quizgen.bank.prose import Block, CodeBlock
 from quizgen.bank.template import Template
 from quizgen.errors import BlueprintError, CodeError
-from quizgen.locale import word
+from quizgen.locale import numbers_in, word
 from quizgen.maths.notation import people
 from quizgen.outside import located
 from quizgen.paper.banks import UsedBank, used_banks
@@ -132,7 +132,7 @@ class Paper:
         """The number of possible papers, short: 40, or 3.1·10²⁷."""
         if self.variety < 10**6:
             return people.number(str(self.variety))
-        return people.number(f"{Decimal(self.variety):.1e}")
+        return numbers_in(self.langs[0], people.number(f"{Decimal(self.variety):.1e}"))
 
     @property
     def minutes(self) -> int:

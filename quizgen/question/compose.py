@@ -31,6 +31,7 @@ from quizgen.question.levels import level as at_level
 from quizgen.question.levels import level_of
 from quizgen.question.levels.asking import Asked, Choice
 from quizgen.question.markup import blocks, inline
+from quizgen.question.notation import in_notation
 from quizgen.question.picture import pictured
 from quizgen.question.shown import listed, pieces
 from quizgen.question.solution import Solution
@@ -227,8 +228,8 @@ def _worded(
         topic=template.rules.topic,
         title=template.texts[lang].title,
         minutes=Fraction(template.minutes),
-        stem=asking.stem,
-        parts=tuple(_part(part, lang, number) for part in asking.parts),
+        stem=in_notation(lang, asking.stem),
+        parts=in_notation(lang, tuple(_part(part, lang, number) for part in asking.parts)),
         figure=pictured(drawn, lang, quiz=True) if figures else None,
     )
     key = Key(
@@ -236,7 +237,7 @@ def _worded(
         number=number,
         identity=identity(drawn, level),
         specs=tuple(part.spec for part in asking.parts),
-        solution=asking.solution,
+        solution=in_notation(lang, asking.solution),
         chain=chain_table(drawn),
         draw=drawn,
         figure=pictured(drawn, lang, quiz=False) if figures else None,

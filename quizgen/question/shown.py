@@ -9,7 +9,7 @@ from functools import lru_cache
 
 from quizgen import typeset
 from quizgen.bank.prose import Inline, Words
-from quizgen.locale import word
+from quizgen.locale import FIRST, numbers_in, word
 from quizgen.maths.notation import people
 from quizgen.maths.notation.names import NAME
 from quizgen.typeset.nodes import Word
@@ -17,15 +17,16 @@ from quizgen.typeset.nodes import Word
 
 @dataclass(frozen=True, slots=True)
 class Maths:
-    """A formula ready for printing: its layout, and how it would be typed."""
+    """A formula ready for printing: its layout, how it would be typed, and in which language."""
 
     node: typeset.Node
     typed: str
+    lang: str = FIRST
 
     @property
     def text(self) -> str:
         """How it is written in plain text, for people."""
-        return people.formula(self.typed)
+        return numbers_in(self.lang, people.formula(self.typed))
 
 
 Shown = str | tuple[Inline, ...]

@@ -13,6 +13,7 @@ from quizgen.bank.draw import Draw
 from quizgen.bank.plan import shuffled
 from quizgen.bank.traps import answer_names
 from quizgen.errors import BankError, FormulaError
+from quizgen.locale import numbers_in
 from quizgen.marking.mark import show
 from quizgen.marking.specs import AnySpec, Measured
 from quizgen.maths.constants import Scalar
@@ -126,7 +127,7 @@ def notes(drawn: Draw, traps: Iterable[str]) -> dict[str, dict[str, str]]:
     """What to tell whoever fell into a trap, as plain text in every language."""
     fillers = {lang: Filler(drawn, lang) for lang in drawn.template.texts}
     return {
-        lang: {trap: plain(filler.sentence("traps", trap)) for trap in traps}
+        lang: {trap: numbers_in(lang, plain(filler.sentence("traps", trap))) for trap in traps}
         for lang, filler in fillers.items()
     }
 
@@ -152,7 +153,9 @@ def why(drawn: Draw, names: Iterable[Named]) -> dict[str, dict[str, str]]:
     found = reasoned(drawn, names)
     fillers = {lang: Filler(drawn, lang) for lang in drawn.template.texts} if found else {}
     return {
-        lang: {mark: plain(filler.sentence("reasons", name)) for mark, name in found}
+        lang: {
+            mark: numbers_in(lang, plain(filler.sentence("reasons", name))) for mark, name in found
+        }
         for lang, filler in fillers.items()
     }
 

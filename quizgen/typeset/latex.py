@@ -10,6 +10,7 @@ import re
 from functools import lru_cache, singledispatch
 
 from quizgen.errors import RenderError
+from quizgen.locale import numbers_in
 from quizgen.typeset import nodes as n
 from quizgen.typeset.names import GREEK, KNOWN
 from quizgen.typeset.tables import known
@@ -97,8 +98,9 @@ def _emit(node: n.Node, lang: str) -> str:
 
 
 @_emit.register
-def _number(node: n.Number, _lang: str) -> str:
-    return re.sub(r"\s", r"\\,", node.text)
+def _number(node: n.Number, lang: str) -> str:
+    text = numbers_in(lang, node.text).replace(",", "{,}")  # no blank behind a decimal comma
+    return re.sub(r"\s", r"\\,", text)
 
 
 @_emit.register

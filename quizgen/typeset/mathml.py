@@ -7,6 +7,7 @@ from functools import lru_cache, singledispatch
 from html import escape
 
 from quizgen.errors import RenderError
+from quizgen.locale import numbers_in
 from quizgen.typeset import nodes as n
 from quizgen.typeset.names import GREEK_LETTERS
 from quizgen.typeset.tables import known
@@ -90,8 +91,8 @@ def _emit(node: n.Node, lang: str) -> str:
 
 
 @_emit.register
-def _number(node: n.Number, _lang: str) -> str:
-    return f"<mn>{node.text.replace(' ', chr(0x202F))}</mn>"
+def _number(node: n.Number, lang: str) -> str:
+    return f"<mn>{numbers_in(lang, node.text).replace(' ', chr(0x202F))}</mn>"
 
 
 @_emit.register

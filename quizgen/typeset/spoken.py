@@ -10,6 +10,7 @@ import re
 from functools import lru_cache, singledispatch
 
 from quizgen.errors import RenderError
+from quizgen.locale import numbers_in
 from quizgen.typeset import nodes as n
 from quizgen.typeset.names import GREEK
 from quizgen.typeset.tables import known
@@ -77,8 +78,8 @@ def _say(node: n.Node, lang: str) -> str:
 
 
 @_say.register
-def _number(node: n.Number, _lang: str) -> str:
-    return "".join(node.text.split())
+def _number(node: n.Number, lang: str) -> str:
+    return "".join(numbers_in(lang, node.text).split())
 
 
 def letter(char: str, lang: str) -> str:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from functools import lru_cache, singledispatch
 
 from quizgen.errors import RenderError
+from quizgen.locale import numbers_in
 from quizgen.typeset import nodes as n
 from quizgen.typeset.names import KNOWN
 from quizgen.typeset.tables import known
@@ -82,8 +83,8 @@ def _emit(node: n.Node, lang: str) -> str:
 
 
 @_emit.register
-def _number(node: n.Number, _lang: str) -> str:
-    text = node.text.replace(" ", "\u202f")
+def _number(node: n.Number, lang: str) -> str:
+    text = numbers_in(lang, node.text).replace(" ", "\u202f")
     return text if text.replace(".", "", 1).isdigit() and text.isascii() else quoted(text)
 
 

@@ -1,0 +1,83 @@
+"""Numbers of a question, as its language writes them: 1/11 = 0.09091, 1/24 = 0.04167."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from quizgen.bank.draw import draw
+from quizgen.bank.folder import Bank
+from quizgen.bank.prose import Code, Paragraph, Words
+from quizgen.figures import render
+from quizgen.locale import language
+from quizgen.marking.mark import mark
+from quizgen.question.compose import compose
+from quizgen.question.notation import in_notation
+from quizgen.render.text import blocks, inline
+from quizgen.typeset import latex, mathml, number, spoken, typst
+
+FILTERING = Bank(Path(__file__).parents[2] / "examples" / "filtering", trusted=True)
+
+
+def spectrum(lang):
+    return compose(FILTERING.template("spectrum-of-a-mean"), 0, lang)
+
+
+def test_only_german_has_a_comma():
+    assert [language(lang).decimal for lang in ("en", "bn", "de")] == [".", ".", ","]
+
+
+@pytest.mark.parametrize(
+    ("lang", "line", "answer"),
+    [
+        ("en", "f₀ = 1/n = 1/(11 px) = 1/11 cycle/px ≈ 0.09091 cycle/px", "0.689"),
+        ("de", "f₀ = 1/n = 1/(11 px) = 1/11 cycle/px ≈ 0,09091 cycle/px", "0,689"),
+    ],
+)
+def test_solutions_have_the_sign_of_their_language(lang, line, answer):
+    question, key = spectrum(lang)
+    first, second = key.solution.parts
+    assert inline(first.lines[0].maths).replace("\u00a0", " ") == line
+    assert second.answer == answer
+    assert key.solution.parts[1].mistakes[0].value == answer.replace("689", "991")
+    hints = " ".join(inline(part.field.hint) for part in question.parts).replace("\u00a0", " ")
+    assert ("0,5 %" in hints, "0.5 %" in hints) == (lang == "de", lang == "en")
+    check = " ".join(blocks(key.solution.check))
+    assert ("0,6886" in check, "0.6886" in check) == (lang == "de", lang == "en")
+
+
+@pytest.mark.parametrize("typed", ["0,689", "0.689", "0,965", "0.965"])
+def test_either_sign_is_read(typed):
+    """0.965 is what comes of forgetting pi; the message has a comma, too."""
+    spec = spectrum("de")[1].specs[1]
+    verdict = mark(spec, typed, lang="de")
+    assert verdict.verdict == ("correct" if "689" in typed else "wrong")
+    assert verdict.note == ("" if "689" in typed else "trap:pi-forgotten")
+
+
+def test_formulas_have_it_in_every_medium():
+    shown = number("57.25")
+    assert [write(shown, "de") for write in (latex, mathml, typst, spoken)] == [
+        "57{,}25",
+        mathml(shown, "en").replace("57.25", "57,25"),
+        '"57,25"',
+        "57,25",
+    ]
+    assert [write(shown, "en") for write in (latex, typst)] == ["57.25", "57.25"]
+
+
+def test_programs_and_sentences_of_other_languages_stay():
+    said = (Paragraph((Words("2.5 mm, 2. Teil, "), Code("x = 2.5"))),)
+    assert in_notation("bn", said) is said
+    assert in_notation("de", said) == (Paragraph((Words("2,5 mm, 2. Teil, "), Code("x = 2.5"))),)
+
+
+def test_figures_have_it_in_labels_and_in_words():
+    drawn = {lang: render("thin_lens", {"f": 52.5, "z": 200}, quiz=False, lang=lang)
+             for lang in ("en", "de")}  # fmt: skip
+    for lang, sign in (("en", "."), ("de", ",")):
+        labels = " ".join(label.text for label in drawn[lang].canvas.labels)
+        assert f"52{sign}5" in labels
+        assert f"52{sign}5" in drawn[lang].alt
+    assert draw(FILTERING.template("spectrum-of-a-mean"), 0).shown["n"] == 11
