@@ -44,12 +44,17 @@ def find(kind: str, key: str) -> bytes | None:
     key : str
         Digest of all that it follows from.
     """
-    for folder in (SHIPPED, own()):
-        if folder is not None:
-            with contextlib.suppress(OSError), (folder / kind / key).open("rb") as stream:
-                found = stream.read(LARGEST + _SUM + 1)
-                if found[:_SUM] == _sum(kind, key, found[_SUM:]):
-                    return found[_SUM:]
+    found = _read(SHIPPED, kind, key)
+    if found is None and (home := own()) is not None:
+        found = _read(home, kind, key)
+    return found
+
+
+def _read(folder: Path, kind: str, key: str) -> bytes | None:
+    with contextlib.suppress(OSError), (folder / kind / key).open("rb") as stream:
+        found = stream.read(LARGEST + _SUM + 1)
+        if found[:_SUM] == _sum(kind, key, found[_SUM:]):
+            return found[_SUM:]
     return None
 
 

@@ -33,6 +33,12 @@ def test_what_is_kept_is_found_again(cache):
     assert kept.find("other", KEY) is None
 
 
+def test_what_a_wheel_brings_is_found_before_anybody_asks_for_a_cache(cache, monkeypatch):
+    kept.write(kept.SHIPPED, "kind", KEY, b"said")
+    monkeypatch.setattr(kept, "own", lambda: pytest.fail("asked"))
+    assert kept.find("kind", KEY) == b"said"
+
+
 @pytest.mark.parametrize("change", [
     lambda data: data[:0], lambda data: data[:-1], lambda data: data + b" ",
     lambda data: data.replace(b"said", b"sold"), lambda data: bytes(len(data)),

@@ -13,7 +13,6 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import msgspec
-from platformdirs import user_data_path
 
 from quizgen.bank.folder import Bank, builtin, builtin_root
 from quizgen.errors import BankError
@@ -88,6 +87,8 @@ def _remembered() -> dict[str, str]:
 
 
 def _place() -> Path:
+    from platformdirs import user_data_path
+
     return user_data_path("quizgen", ensure_exists=True)
 
 
