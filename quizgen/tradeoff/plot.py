@@ -241,7 +241,7 @@ def work_panel(curves: Sequence[tuple[str, Sequence[Setting]]], unit: str, time:
     seconds = [max(p[1], 1e-9) for p in points]
     errors = [p[2] for p in points if p[2] > 0] or [1.0]
     floor = max(min(errors) / 10, 1e-18)
-    x = Scale(_below(min(seconds) / 1.5), _above(max(seconds) * 1.5), LEFT + 8, RIGHT, log=True)
+    x = Scale(_below(min(seconds) / 1.5), _above(max(seconds) * 1.5), LEFT + 8, RIGHT - 8, log=True)
     y = Scale(floor, max(errors) * 3, HEIGHT - BOTTOM, TOP + 14, log=True)
     parts = [frame(x, y), text(4, 15, unit, "start", "head")]
     parts.append(text(x.end, HEIGHT - 8, time, "end"))
