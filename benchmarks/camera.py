@@ -1,16 +1,23 @@
 """Eager against planned photographs, and every effect beside the copy bandwidth of the same run.
 
-``python benchmarks/camera.py [--quick] [--chains] [--calibrate] [--photos [N]]``; best of several
-runs, ms. ``--photos`` plans and runs N (60) ordinary photographs with ordinary cameras.
+``python benchmarks/camera.py [--quick] [--chains] [--calibrate] [--photos [N]] [--files]``; best of
+several runs, ms. ``--photos`` plans and runs N (60) ordinary photographs with ordinary cameras,
+``--files`` photographs the shipped scenes at 12 megapixels from file to file.
 """
 
 # ruff: noqa: SLF001 - caches are emptied between runs
 
 from __future__ import annotations
 
+import json
+import os
+import re
+import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from functools import partial
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from time import perf_counter, process_time
 from typing import Any
 
@@ -23,6 +30,7 @@ from quizgen.camera.effects import distortion, lateral_colour, mosaic, vignettin
 from quizgen.camera.kernels import disc
 from quizgen.camera.plan import Plan, Prepared, everything, plan
 from quizgen.camera.simulate import is_broken, run
+from quizgen.cli.simulate import SCENES
 
 SIZES = {"640x480": (640, 480), "12 MP": (4000, 3000)}
 
@@ -91,7 +99,7 @@ def primitives(size: tuple[int, int], repeats: int) -> dict[str, float]:
         "(copy)": image.copy,
         "SAMPLE": lambda: filters.sample(image, x, y),
         "NEAREST": lambda: filters.sample_nearest(image, x, y),
-        "LATERAL": lambda: lateral_colour.run((Layer(image),), look),
+        "LATERAL": lambda: lateral_colour.work(Layer(image), look),
         "SMALL": lambda: filters.convolve(image, small),
         "LARGE": lambda: filters.convolve(image, large),
     }
@@ -294,10 +302,43 @@ def photos(count: int) -> None:
         )
 
 
+def enlarged(text: str, times: float) -> str:
+    """A shipped scene, 640 pixels wide, with all lengths on the sensor so much larger."""
+
+    def more(match: re.Match[str]) -> str:
+        return f"{float(match[0]) * times:g}"
+
+    text = re.sub(r"(?<=^width = )640$|(?<=^height = )480$", more, text, flags=re.MULTILINE)
+    text = re.sub(r'(?<=")[-.\d]+(?= px)', more, text)
+    rows = re.compile(r"(?<=^points = ).*", re.MULTILINE)
+    text = rows.sub(lambda row: re.sub(r"[-.\d]+", more, row[0]), text)
+    times = 1.0 / times
+    return re.sub(r'(?<=pixel_pitch = ")[.\d]+|(?<=row_time = ")[.\d]+', more, text)
+
+
+def files() -> None:
+    """Processor time and memory of whole processes."""
+    with TemporaryDirectory() as folder:
+        for path in sorted(SCENES.glob("*.toml")):
+            file = Path(folder, path.name)
+            file.write_text(enlarged(path.read_text("utf-8"), 6.25), "utf-8")
+            target = file.with_suffix(".png")
+            words = [sys.executable, "-m", "quizgen", "simulate", str(file), "--out", str(target)]
+            process = subprocess.Popen([*words, "--json"], stdout=subprocess.PIPE, text=True)
+            report = json.load(process.stdout)
+            _, _, used = os.wait4(process.pid, 0)
+            busy_s = used.ru_utime + used.ru_stime
+            spent = "  ".join(f"{name} {ms:.0f}" for name, ms in report["times_ms"].items())
+            print(f"{path.stem:10} {busy_s:5.1f} s CPU {used.ru_maxrss / 1e3:6.0f} MB  ms: {spent}")
+
+
 def main() -> None:
     filters.warm_up()
     if "--calibrate" in sys.argv:
         calibrate()
+        return
+    if "--files" in sys.argv:
+        files()
         return
     if "--photos" in sys.argv:
         number = sys.argv[-1]

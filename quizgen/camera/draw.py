@@ -59,20 +59,51 @@ class Layer:
     depth: float | Image = math.inf
     motion: Motion = STILL
 
+    @property
+    def even(self) -> bool:
+        """Whether it has a single colour and covers everything."""
+        first = self.colour[0, 0]
+        whole = self.cover is None and bool((self.colour[0] == first).all())
+        return whole and all(bool((row == first).all()) for row in self.colour)
+
 
 Stack = tuple[Layer, ...]
+Box = tuple[slice, slice]
+"""Rows and columns."""
 
 
 def composite(stack: Stack) -> Image:
     """Lay the layers over each other, farthest first; one opaque layer is returned as it is."""
-    picture = stack[0].colour
+    if len(stack) == 1:
+        return stack[0].colour
+    picture = stack[0].colour.copy()
     for layer in stack[1:]:
-        picture = layer.colour if layer.cover is None else _over(layer, picture)
+        picture = lay_over(layer, picture)
     return picture
 
 
-def _over(layer: Layer, behind: Image) -> Image:
-    return layer.colour + (np.float32(1.0) - np.asarray(layer.cover)) * behind
+def lay_over(layer: Layer, picture: Image) -> Image:
+    """Lay a layer over a picture that nobody else needs."""
+    cover = layer.cover
+    if cover is None:
+        return layer.colour
+    rows, columns = content(cover)
+    height = max(1, _BAND // max(1, columns.stop - columns.start))
+    for start in range(rows.start, rows.stop, height):
+        part = slice(start, min(start + height, rows.stop)), columns
+        behind = picture[part]
+        behind *= np.float32(1.0) - cover[part]
+        behind += layer.colour[part]
+    return picture
+
+
+def content(cover: Image) -> Box:
+    """Where a cover is not empty: the smallest box, none at all if there is nothing."""
+    rows = np.flatnonzero(cover.any(axis=(1, 2)))
+    if not rows.size:
+        return slice(0, 0), slice(0, 0)
+    columns = np.flatnonzero(cover[rows[0] : rows[-1] + 1].any(axis=(0, 2)))
+    return slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
 
 
 def _box(thing: Thing, x: Plane, y: Plane) -> Plane:
@@ -247,13 +278,14 @@ def _own_axes(thing: Thing, view: View, part: tuple[slice, slice]) -> tuple[Plan
 
 def _draw_part(thing: Thing, view: View, part: tuple[slice, slice]) -> tuple[Image, Image]:
     x, y = _own_axes(thing, view, part)
-    cover = np.clip(0.5 - SHAPES[thing.shape](thing, x, y), 0.0, 1.0)[..., None]
-    texture = TEXTURES[thing.texture]
-    colour = np.asarray(thing.colour)
-    if texture is not None:
-        share = texture(thing, x, y)[..., None]
-        colour = (1.0 - share) * colour + share * np.asarray(thing.other)
-    return (cover * colour).astype(np.float32), cover.astype(np.float32)
+    distance = SHAPES[thing.shape](thing, x, y)
+    cover = np.clip(0.5 - distance, 0.0, 1.0).astype(np.float32)[..., None]
+    texture, colour = TEXTURES[thing.texture], np.asarray(thing.colour, np.float32)
+    if texture is None:
+        return cover * colour, cover
+    share = texture(thing, x, y).astype(np.float32)[..., None]
+    other = np.asarray(thing.other, np.float32)
+    return cover * ((np.float32(1.0) - share) * colour + share * other), cover
 
 
 def reach(thing: Thing) -> float:
@@ -286,13 +318,17 @@ def sheets(view: View) -> tuple[Sheet, ...]:
     scene = view.scene
     behind = scene.background_depth if scene.image is None else scene.depth
     base = None if isinstance(behind, np.ndarray) else behind
-    found = [Sheet(base, STILL, (), opaque=True)]
+    bare = Sheet(base, STILL, (), opaque=True)
+    found = [bare]
     ordered = sorted(scene.things, key=lambda thing: -thing.depth)
     for (depth, moves), group in groupby(ordered, key=lambda thing: _key(thing, view)):
-        if len(found) == 1 and moves.still and depth in (base, None):
-            found[0] = Sheet(base, STILL, tuple(group), opaque=True)
+        things = tuple(group)
+        if found == [bare] and moves.still and depth in (base, None):
+            found[0] = Sheet(base, STILL, things, opaque=True)
+        elif scene.image is None and any(thing.shape == "full" for thing in things):
+            found = [Sheet(depth, moves, things, opaque=True)]  # nothing behind it is seen
         else:
-            found.append(Sheet(depth, moves, tuple(group), opaque=False))
+            found.append(Sheet(depth, moves, things, opaque=False))
     return tuple(found)
 
 
@@ -300,14 +336,15 @@ def _key(thing: Thing, view: View) -> tuple[float | None, Motion]:
     return (thing.depth if aperture(view.camera) is not None else None), motion(thing, view)
 
 
-def _background(view: View, *, kept: bool) -> Layer:
+def _background(view: View, sheet: Sheet) -> Layer:
     """What stands behind everything; a picture that is not kept will be drawn upon."""
     scene = view.scene
     if scene.image is not None:
-        return Layer(scene.image if kept else scene.image.copy(), depth=scene.depth)
+        image = scene.image.copy() if sheet.things else scene.image
+        return Layer(image, depth=scene.depth)
     flat = np.empty((scene.height, scene.width, 3), np.float32)
     flat[:] = scene.background
-    return Layer(flat, depth=scene.background_depth)
+    return Layer(flat, depth=math.inf if sheet.depth is None else sheet.depth, motion=sheet.motion)
 
 
 def _add(layer: Layer, thing: Thing, view: View) -> None:
@@ -315,9 +352,11 @@ def _add(layer: Layer, thing: Thing, view: View) -> None:
     for part in _parts(thing, view):
         colour, cover = _draw_part(thing, view, part)
         keep = np.float32(1.0) - cover
-        if layer.cover is not None:
-            layer.cover[part] = cover + keep * layer.cover[part]
-        layer.colour[part] = colour + keep * layer.colour[part]
+        for drawn, image in ((layer.cover, cover), (layer.colour, colour)):
+            if drawn is not None:
+                behind = drawn[part]
+                behind *= keep
+                behind += image
 
 
 def draw(view: View) -> Stack:
@@ -339,7 +378,7 @@ def draw(view: View) -> Stack:
 
 
 def _draw_sheet(sheet: Sheet, view: View) -> Layer:
-    layer = _background(view, kept=not sheet.things) if sheet.opaque else _empty(view, sheet)
+    layer = _background(view, sheet) if sheet.opaque else _empty(view, sheet)
     for thing in sheet.things:
         _add(layer, thing, view)
     return layer

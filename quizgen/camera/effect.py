@@ -61,6 +61,26 @@ def on_picture(work: Callable[[Image, View, str], Image]) -> Run:
 
 
 @dataclass(frozen=True, slots=True)
+class LayerByLayer:
+    """A run that takes averages of each layer's values, and looks at no other layer.
+
+    Such effects in a row are finished for one layer before the next is looked at, and an even
+    layer, whose averages are all the same, is left as it is.
+
+    Parameters
+    ----------
+    work : callable
+        ``work(layer, view, rung)`` gives the layer afterwards.
+    """
+
+    work: Callable[[Layer, View, str], Layer]
+
+    def __call__(self, stack: Stack, view: View, rung: str = "") -> Stack:
+        """Run it alone."""
+        return tuple(self.work(layer, view, rung) for layer in stack)
+
+
+@dataclass(frozen=True, slots=True)
 class PointByPoint:
     """A run in which every value depends on its own pixel alone.
 
@@ -126,6 +146,8 @@ class Effect:
         ``prepare(scene, view) -> scene``, before anything is drawn.
     reason : str
         Why it runs whatever the budget; empty where the budget decides.
+    needs : str
+        What its settings do nothing without.
     """
 
     name: str
@@ -144,3 +166,4 @@ class Effect:
     check: Check = _possible
     prepare: Callable[[Scene, View], Scene] | None = None
     reason: str = ""
+    needs: str = ""

@@ -7,26 +7,91 @@ the range times the cover's; `LayerFacts` hold steps weighted in exactly that wa
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from quizgen.camera.body import VELOCITY
-from quizgen.camera.draw import Layer, Motion, Sheet, sheets
+from quizgen.camera.draw import Box, Layer, Motion, Sheet, content, sheets
 from quizgen.camera.facts import Error, Facts, LayerFacts
-from quizgen.camera.filters import sample
+from quizgen.camera.filters import convolve, sample
+from quizgen.camera.kernels import Kernel
 from quizgen.camera.scene import Image
 from quizgen.camera.view import View
 
 Field = NDArray[np.float64]
 
 
-def resampled(layer: Layer, work: Callable[[Image], Image]) -> Layer:
-    """A layer whose colour and cover went the same way."""
-    cover = None if layer.cover is None else work(layer.cover)
-    return replace(layer, colour=work(layer.colour), cover=cover)
+def resampled(layer: Layer, work: Callable[[Image, Box], Image], reach: float) -> Layer:
+    """A layer whose colour and cover went the same way.
+
+    Parameters
+    ----------
+    layer : Layer
+    work : callable
+        Gets an image and which part of the result is wanted.
+    reach : float
+        How far anything may get, px: beyond it an empty place stays empty, so that only what is
+        near the content is computed.
+    """
+    box = _reached(layer, reach)
+    if layer.cover is None:
+        return replace(layer, colour=work(layer.colour, box))
+    if not box[0].stop:
+        return layer
+    return _within_box(layer, box, work(layer.colour, box), work(layer.cover, box))
+
+
+def blurred(layer: Layer, kernel: Kernel) -> Layer:
+    """A layer convolved with a kernel; colour and cover go through it together."""
+    if kernel.size == 1:
+        return layer
+    if layer.cover is None:
+        return replace(layer, colour=convolve(layer.colour, kernel))
+    reach = max(kernel.shape) // 2
+    rows, columns = _reached(layer, reach)
+    colour, cover = np.zeros_like(layer.colour), np.zeros_like(layer.cover)
+    band = max(_BAND, 64 * reach)
+    for start in range(rows.start, rows.stop, band):
+        stop, first = min(start + band, rows.stop), max(start - reach, 0)
+        seen = slice(first, stop + reach), columns
+        both = convolve(np.concatenate([layer.colour[seen], layer.cover[seen]], axis=2), kernel)
+        inner, part = both[start - first :][: stop - start], (slice(start, stop), columns)
+        colour[part], cover[part] = inner[..., : colour.shape[2]], inner[..., colour.shape[2] :]
+    return replace(layer, colour=colour, cover=cover)
+
+
+_BAND = 256
+"""Rows blurred at once, so that copies stay small."""
+
+
+def _within_box(layer: Layer, box: Box, colour: Image, cover: Image) -> Layer:
+    """A layer that is empty but for a box."""
+    parts = []
+    for part in (colour, cover):
+        parts.append(np.zeros((*layer.colour.shape[:2], part.shape[2]), np.float32))
+        parts[-1][box] = part
+    return replace(layer, colour=parts[0], cover=parts[1])
+
+
+def _reached(layer: Layer, reach: float) -> Box:
+    """Where anything of a layer may get."""
+    shape = layer.colour.shape
+    if layer.cover is None:
+        return slice(0, shape[0]), slice(0, shape[1])
+    return _wider(content(layer.cover), math.ceil(min(reach, sum(shape))) + 1, shape)
+
+
+def _wider(box: Box, far: int, shape: tuple[int, ...]) -> Box:
+    if not box[0].stop:
+        return box
+    rows, columns = (
+        slice(max(part.start - far, 0), min(part.stop + far, length))
+        for part, length in zip(box, shape, strict=False)
+    )
+    return rows, columns
 
 
 def each(facts: Facts, view: View) -> Iterator[tuple[LayerFacts, Sheet, float]]:
@@ -91,11 +156,61 @@ def chord(motion: Motion, view: View, time: float) -> float:
     return 2.0 * rim(motion, view) * turn + rounding(view)
 
 
-def turned(image: Image, view: View, motion: Motion, angle: float | Field) -> Image:
-    """Rotate a layer about its pivot; an angle per row for the rolling shutter."""
-    x = np.arange(view.width)[None, :] - motion.pivot[0]
-    y = np.arange(view.height)[:, None] - motion.pivot[1]
-    cosine, sine = np.cos(angle), np.sin(angle)
-    column = cosine * x + sine * y + motion.pivot[0]
-    row = cosine * y - sine * x + motion.pivot[1]
-    return sample(image, column.astype(np.float32), row.astype(np.float32))
+def turned(layer: Layer, angles: Sequence[float | Field], reach: float) -> Layer:
+    """Mean of a layer rotated about its pivot; an angle per row for the rolling shutter.
+
+    Parameters
+    ----------
+    layer : Layer
+    angles : sequence
+        Of numbers, or arrays of shape (H, 1).
+    reach : float
+        Farthest that anything gets by these angles, px.
+    """
+    images = [layer.colour] if layer.cover is None else [layer.colour, layer.cover]
+    results = [np.zeros_like(image) for image in images]
+    for tile in _filled(layer, reach):
+        for result, mean in zip(results, _turned(images, tile, layer.motion, angles), strict=True):
+            result[tile] = mean
+    return replace(layer, colour=results[0], cover=None if layer.cover is None else results[1])
+
+
+_TILE, _CELL = 128, 32
+"""Sides of the squares that are turned at once, and of those that are empty or not."""
+
+
+def _filled(layer: Layer, reach: float) -> Iterator[Box]:
+    """Tiles that content may reach."""
+    height, width = layer.colour.shape[:2]
+    lines = [np.arange(0, length, _CELL) for length in (height, width)]
+    there = np.ones((len(lines[0]), len(lines[1])), bool)
+    if layer.cover is not None:
+        rows = np.logical_or.reduceat(layer.cover.any(axis=2), lines[0], axis=0)
+        there = np.logical_or.reduceat(rows, lines[1], axis=1)
+    far, cells = math.ceil(min(reach, height + width) / _CELL), _TILE // _CELL
+    for y in range(0, len(there), cells):
+        for x in range(0, there.shape[1], cells):
+            near = slice(max(0, y - far), y + cells + far), slice(max(0, x - far), x + cells + far)
+            if there[near].any():
+                yield _square(y * _CELL), _square(x * _CELL)
+
+
+def _square(start: int) -> slice:
+    return slice(start, start + _TILE)
+
+
+def _turned(
+    images: list[Image], tile: Box, motion: Motion, angles: Sequence[float | Field]
+) -> list[Image]:
+    height, width = images[0].shape[:2]
+    x = np.arange(width)[None, tile[1]] - motion.pivot[0]
+    y = np.arange(height)[tile[0], None] - motion.pivot[1]
+    totals = [np.zeros((y.size, x.size, image.shape[2]), np.float32) for image in images]
+    for angle in angles:
+        by_row = angle if isinstance(angle, float) else angle[tile[0]]
+        cosine, sine = np.cos(by_row), np.sin(by_row)
+        column = (cosine * x + sine * y + motion.pivot[0]).astype(np.float32)
+        row = (cosine * y - sine * x + motion.pivot[1]).astype(np.float32)
+        for place, image in enumerate(images):
+            totals[place] += sample(image, column, row)
+    return [total * np.float32(1.0 / len(angles)) for total in totals]

@@ -15,8 +15,8 @@ from quizgen.camera import effects
 from quizgen.camera.blocks import BLOCK, for_pieces, in_turn
 from quizgen.camera.camera import Camera
 from quizgen.camera.codes import rounded
-from quizgen.camera.draw import Layer, Sheet, Stack, composite, sheets
-from quizgen.camera.effect import PointByPoint
+from quizgen.camera.draw import Layer, Sheet, Stack, composite, lay_over, sheets
+from quizgen.camera.effect import Effect, LayerByLayer, PointByPoint
 from quizgen.camera.facts import EXCEEDED
 from quizgen.camera.filters import warm_up
 from quizgen.camera.plan import GREY_LEVELS, Plan, Prepared, Step, everything, plan
@@ -66,7 +66,9 @@ def silent(name: str) -> None:
     """Nobody wants to know what is done now."""
 
 
-def run(prepared: Prepared, what: Plan, told: Callable[[str], None] = silent) -> Photo:
+def run(
+    prepared: Prepared, what: Plan, told: Callable[[str], None] = silent, *, last: bool = False
+) -> Photo:
     """Run the steps of a plan on a scene.
 
     Parameters
@@ -74,52 +76,97 @@ def run(prepared: Prepared, what: Plan, told: Callable[[str], None] = silent) ->
     prepared : Prepared
     what : Plan
     told : callable
-        Gets the name of each effect before it runs.
+        Gets the names of effects before they run.
+    last : bool
+        Whether the drawn layers are not needed afterwards: each is let go once it is photographed.
     """
     with located(prepared.given.scene.file):
-        return _run(prepared, what, told)
+        if what.steps:
+            warm_up()
+        return _Run(prepared, told, last=last).photo(what)
 
 
-def _run(prepared: Prepared, what: Plan, told: Callable[[str], None]) -> Photo:
-    if what.steps:
-        warm_up()
-    stack, times = prepared.stack, dict[str, float]()
-    for together, group in groupby(what.steps, key=_point_by_point):
-        steps = tuple(group)
-        if together:
-            stack = _in_one_pass(stack, prepared, steps, times, told)
-            continue
-        for step in steps:
-            told(step.effect)
-            started = perf_counter()
-            stack = effects.by_name(step.effect).run(stack, prepared.view, step.rung)
-            spent = (perf_counter() - started) * 1e3
-            times[step.effect] = spent + prepared.prepared_ms.get(step.effect, 0.0)
-    return Photo(composite(stack), what, times, prepared.drawn_ms)
+class _Run:
+    """One run of a plan: the layers, whether the picture may be written over, and the times."""
+
+    def __init__(self, prepared: Prepared, told: Callable[[str], None], *, last: bool) -> None:
+        self.view, self.told = prepared.view, told
+        self.times = dict(prepared.prepared_ms)
+        self.stack = list(prepared.stack)
+        self.drawn_ms = prepared.drawn_ms
+        self.kept = [self.view.scene.image, *(() if last else (x.colour for x in self.stack))]
+        if last:
+            del prepared.stack
+
+    def photo(self, what: Plan) -> Photo:
+        for kind, group in groupby(what.steps, key=_kind):
+            steps = tuple(group)
+            if kind is LayerByLayer:
+                self._layer_by_layer(steps)
+            elif kind is PointByPoint:
+                self._in_one_pass(steps)
+            else:
+                for step in steps:
+                    self._one(step)
+        times = {step.effect: self.times.get(step.effect, 0.0) for step in what.steps}
+        return Photo(composite(tuple(self.stack)), what, times, self.drawn_ms)
+
+    def _count(self, step: Step, started: float) -> None:
+        spent = (perf_counter() - started) * 1e3
+        self.times[step.effect] = self.times.get(step.effect, 0.0) + spent
+
+    def _one(self, step: Step) -> None:
+        self.told(step.effect)
+        started = perf_counter()
+        self.stack = list(_effect(step).run(tuple(self.stack), self.view, step.rung))
+        self._count(step, started)
+
+    def _layer_by_layer(self, steps: tuple[Step, ...]) -> None:
+        """Finish each layer and lay it over those behind, so that few are there at a time."""
+        self.told(_names(steps))
+        picture: Image | None = None
+        while self.stack:
+            layer = self.stack.pop(0)
+            for step in () if layer.even else steps:
+                started = perf_counter()
+                (layer,) = _effect(step).run((layer,), self.view, step.rung)
+                self._count(step, started)
+            picture = self._over(layer, picture)
+        self.stack = [Layer(picture)] if picture is not None else []
+
+    def _over(self, layer: Layer, behind: Image | None) -> Image:
+        if behind is None:
+            return layer.colour
+        return lay_over(layer, behind if self._ours(behind) else behind.copy())
+
+    def _ours(self, picture: Image) -> bool:
+        return all(picture is not other for other in self.kept)
+
+    def _in_one_pass(self, steps: tuple[Step, ...]) -> None:
+        """Effects that look at one pixel only, while a piece of the picture is at hand."""
+        self.told(_names(steps))
+        started, picture = perf_counter(), composite(tuple(self.stack))
+        self.stack = []
+        runs = [(_effect(step).run, step.rung) for step in steps]
+        works = [run.work(self.view, rung) for run, rung in runs if isinstance(run, PointByPoint)]
+        result, clock = in_turn(picture, works, own=self._ours(picture))
+        spent = (perf_counter() - started) * 1e3
+        shares = clock / clock.sum()  # several cores have shared the time
+        names = (step.effect for step in steps)
+        self.times.update(zip(names, (spent * shares).tolist(), strict=True))
+        self.stack = [Layer(result)]
 
 
-def _point_by_point(step: Step) -> bool:
-    return isinstance(effects.by_name(step.effect).run, PointByPoint)
+def _effect(step: Step) -> Effect:
+    return effects.by_name(step.effect)
 
 
-def _in_one_pass(
-    stack: Stack,
-    prepared: Prepared,
-    steps: tuple[Step, ...],
-    times: dict[str, float],
-    told: Callable[[str], None],
-) -> Stack:
-    """Effects that look at one pixel only, while a piece of the picture is at hand."""
-    told(", ".join(step.effect for step in steps))
-    started, picture = perf_counter(), composite(stack)
-    runs = [(effects.by_name(step.effect).run, step.rung) for step in steps]
-    works = [run.work(prepared.view, rung) for run, rung in runs if isinstance(run, PointByPoint)]
-    fresh = all(picture is not layer.colour for layer in prepared.stack)
-    result, clock = in_turn(picture, works, own=fresh)
-    spent = (perf_counter() - started) * 1e3
-    shares = clock / clock.sum()  # several cores have shared the time
-    times.update(zip((step.effect for step in steps), (spent * shares).tolist(), strict=True))
-    return (Layer(result),)
+def _kind(step: Step) -> type:
+    return type(_effect(step).run)
+
+
+def _names(steps: tuple[Step, ...]) -> str:
+    return ", ".join(step.effect for step in steps)
 
 
 def simulate(
@@ -140,13 +187,13 @@ def simulate(
         Grey levels, see `quizgen.camera.plan.plan`.
     """
     prepared = Prepared(scene, camera)
-    return run(prepared, plan(prepared, question=question, budget=budget))
+    return run(prepared, plan(prepared, question=question, budget=budget), last=True)
 
 
 def simulate_everything(scene: Scene, camera: Camera) -> Photo:
     """Run every present effect exactly, for comparison."""
     prepared = Prepared(scene, camera)
-    return run(prepared, everything(prepared))
+    return run(prepared, everything(prepared), last=True)
 
 
 def photographs(scene: Scene, *cameras: Camera) -> tuple[Photo, ...]:

@@ -51,6 +51,8 @@ class Shot:
     photo: Photo
     whole: Photo | None
     seed: int
+    idle: dict[str, str]
+    """Settings that do nothing, and what they need."""
     really: dict[str, float]
     """What each effect really changes, where that was asked."""
     times: dict[str, float]
@@ -115,6 +117,7 @@ def simulate(scene: str | None, **options: Unpack[Options]) -> None:
 
 
 def _shoot(scene: str, options: Options, told: Progress) -> Shot:
+    from quizgen.camera import effects
     from quizgen.camera.compare import really
     from quizgen.camera.plan import Prepared, everything, plan
     from quizgen.camera.reading import load
@@ -127,11 +130,13 @@ def _shoot(scene: str, options: Options, told: Progress) -> Shot:
     told("planning")
     what = plan(prepared, question=options["question"] or None, budget=options["budget"])
     planned = (perf_counter() - started) * 1e3 - read - prepared.drawn_ms
-    photo = run(prepared, what, told)
+    again = options["everything"] or options["compare"] is not None
+    photo = run(prepared, what, told, last=not again)
     times = {"read": read, "planned": planned, "drawn": photo.drawn_ms}
     title, seed = prepared.given.scene.title or scene, prepared.given.scene.seed
-    shot = Shot(title, photo, None, seed, {}, {**times, "effects": photo.measured_ms})
-    if options["everything"] or options["compare"] is not None:
+    idle = effects.idle(prepared.given)
+    shot = Shot(title, photo, None, seed, idle, {}, {**times, "effects": photo.measured_ms})
+    if again:
         shot.whole = run(prepared, everything(prepared), told)
     if options["compare"] is not None:
         shot.really = really(prepared, photo, told)
@@ -188,6 +193,7 @@ def summary(shot: Shot) -> dict[str, Any]:
         "steps": [_step(step, shot) for step in what.steps],
         "skipped": [_skip(item, shot) for item in what.skipped],
         "absent": list(what.absent),
+        "idle": shot.idle,
         "seed": shot.seed,
         "budget_dn": what.budget,
         "predicted_error_dn": what.predicted_error_dn,
@@ -263,6 +269,8 @@ def _print_totals(shot: Shot, report: dict[str, Any]) -> None:
     tell("; ".join(f"{name} {spent:.0f} ms" for name, spent in shot.times.items()))
     if what.absent:
         tell(f"not in this camera: {', '.join(what.absent)}")
+    for name, need in shot.idle.items():
+        tell(f"{name} does nothing without {need}")
     if whole is not None:
         tell(
             f"everything: {report['everything_ms']:.1f} ms, "

@@ -82,7 +82,7 @@ def test_a_turning_spot_becomes_an_arc_without_gaps():
         image, image[..., :1], motion=Motion(spin=angle / 0.1, pivot=(40.0, 40.0), reach=27.0)
     )
     view = View(Scene(size, size), Camera(shutter=0.1))
-    (blurred,) = motion_blur.run((layer,), view)
+    (blurred,) = motion_blur.EFFECT.run((layer,), view, "")
     along = np.linspace(-angle / 2 + 0.1, angle / 2 - 0.1, 200)
     near = [
         blurred.colour[

@@ -84,7 +84,7 @@ def test_a_sharp_front_keeps_its_edge_before_a_blurred_background():
     front = Layer(edge() * 0.5, edge()[..., :1], 2.0)
     back = Layer(np.random.default_rng(0).random((8, 80, 3)).astype(np.float32), None, 50.0)
     view = View(Scene(80, 8), Camera(0.05, 5e-6, 2.0, 2.0))
-    picture = composite(defocus.run((back, front), view))
+    picture = composite(defocus.EFFECT.run((back, front), view))
     assert (picture[:, 40:] == 0.5).all()
 
 
@@ -92,7 +92,7 @@ def test_a_blurred_front_lets_the_background_through():
     front = Layer(np.zeros((8, 80, 3), np.float32), edge()[..., :1], 1.0)
     back = Layer(np.ones((8, 80, 3), np.float32), None, 2.0)
     view = View(Scene(80, 8), Camera(0.05, 5e-6, 8.0, 2.0))
-    picture = composite(defocus.run((back, front), view))[4, :, 0]
+    picture = composite(defocus.EFFECT.run((back, front), view))[4, :, 0]
     radius = abs(view.blur_diameter(1.0)) / 2
     expected = [1 - edge_behind_a_disc(pixel + 0.5 - 40, radius) for pixel in range(20, 60)]
     assert np.abs(picture[20:60] - expected).max() < 2e-3
@@ -135,7 +135,7 @@ def test_lateral_colour_moves_red_out_and_blue_in():
     image = np.zeros((101, 101, 3), np.float32)
     image[90, 90] = 1
     view = View(Scene(101, 101), Camera(lateral_colour=1.0))
-    split = lateral_colour.run((Layer(image),), view)[0].colour
+    split = lateral_colour.EFFECT.run((Layer(image),), view)[0].colour
     places = np.arange(101)
     centres = [(split[..., c].sum(axis=0) * places).sum() / split[..., c].sum() for c in range(3)]
     share = 40 / 50 / math.sqrt(2)
@@ -171,7 +171,7 @@ def test_a_propeller_turns_by_spin_times_row_time():
     image = np.zeros((101, 101, 3), np.float32)
     image[:, 49:52] = 1
     layer = Layer(image, image[..., :1], 1.0, Motion((0.0, 0.0), 20.0, (50.0, 50.0), 50.0))
-    bent = rolling_shutter.run((layer,), view)[0].colour[..., 0]
+    bent = rolling_shutter.EFFECT.run((layer,), view)[0].colour[..., 0]
     for row in (20, 35, 65, 80):
         place = (bent[row] * np.arange(101)).sum() / bent[row].sum()
         angle = 20.0 * (row - 50) * 1e-3

@@ -338,6 +338,27 @@ def test_what_takes_long_says_what_it_does(monkeypatch):
     assert ", ".join(told[2:]) == ", ".join(ran)
 
 
+IDLE = {
+    "dark_current": ('dark_current = "3 e-/s"\nfull_well = "1000 e-"', "shutter"),
+    "velocity": ('velocity = ["3 px/s", "0 px/s"]', "shutter or row_time"),
+    "row_time": ('row_time = "1 us"', "something that moves"),
+    "flat_field": ("flat_field = true", "vignetting"),
+}
+
+
+@pytest.mark.parametrize("setting", IDLE)
+def test_a_setting_that_does_nothing_is_named(setting, tmp_path):
+    path, (camera, need) = tmp_path / "still.toml", IDLE[setting]
+    path.write_text(f"[scene]\nwidth = 8\nheight = 6\n[camera]\n{camera}\n", "utf-8")
+    said = CliRunner().invoke(simulate, [str(path)]).output
+    assert f"{setting} does nothing without {need}" in said
+    assert json.loads(invoke(str(path), "--json"))["idle"] == {setting: need}
+
+
+def test_a_setting_that_does_something_is_not_named():
+    assert json.loads(invoke("landscape", "--json"))["idle"] == {}
+
+
 def test_a_broken_promise_is_said_with_exit_code_1(monkeypatch):
     monkeypatch.setattr(import_module("quizgen.camera.simulate"), "is_broken", lambda *_: True)
     result = CliRunner().invoke(simulate, ["pinhole", "--all"])

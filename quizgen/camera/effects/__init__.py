@@ -8,7 +8,7 @@ Adding an effect is one module with an ``EFFECT``, and its import and its line h
 
 from __future__ import annotations
 
-from quizgen.camera.body import BODY
+from quizgen.camera.body import BODY, VELOCITY
 from quizgen.camera.effect import Effect
 from quizgen.camera.effects import (
     binning,
@@ -83,6 +83,15 @@ EFFECTS: tuple[Effect, ...] = (
 def present(view: View) -> tuple[Effect, ...]:
     """The effects that a camera has, in order."""
     return tuple(effect for effect in EFFECTS if effect.present(view))
+
+
+def idle(view: View) -> dict[str, str]:
+    """Settings that are given and do nothing, and what they need."""
+    absent = [effect for effect in EFFECTS if effect.needs and not effect.present(view)]
+    found = {setting.name: effect.needs for effect in absent for setting in effect.settings}
+    if not (motion_blur.EFFECT.present(view) or rolling_shutter.EFFECT.present(view)):
+        found[VELOCITY.name] = "shutter or row_time"
+    return {name: found[name] for name in view.camera.given if name in found}
 
 
 def by_name(name: str) -> Effect:

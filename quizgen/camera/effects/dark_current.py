@@ -109,4 +109,5 @@ EFFECT = Effect(
     skipped=skipped,
     after=after,
     random=True,
+    needs="shutter",
 )

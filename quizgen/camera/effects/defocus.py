@@ -9,43 +9,29 @@ import numpy as np
 
 from quizgen.camera.body import aperture
 from quizgen.camera.costs import at_least_a_call, convolution
-from quizgen.camera.draw import Layer, Sheet, Stack, sheets
-from quizgen.camera.effect import Effect, Rung
+from quizgen.camera.draw import Layer, Sheet, sheets
+from quizgen.camera.effect import Effect, LayerByLayer, Rung
 from quizgen.camera.facts import Error, Facts, LayerFacts
 from quizgen.camera.filters import convolve
 from quizgen.camera.kernels import change, disc
-from quizgen.camera.layers import Field, each, within
+from quizgen.camera.layers import Field, blurred, each, within
 from quizgen.camera.scene import Image
 from quizgen.camera.view import View
 
 MAX_SLICES = 24
 
 
-def run(stack: Stack, view: View, rung: str = "") -> Stack:
-    """Blur every layer by the disc of its own circle of confusion.
+def work(layer: Layer, view: View, rung: str = "") -> Layer:
+    """Blur a layer by the disc of its own circle of confusion.
 
     Coverage is blurred with the colour, so that a sharp layer in front keeps its edge and a
-    blurred one in front lets the background shine through.
-
-    Parameters
-    ----------
-    stack : tuple of Layer
-    view : View
-    rung : str
-        ``half`` and ``quarter`` use fewer slices of a depth map.
+    blurred one in front lets the background shine through. The rungs ``half`` and ``quarter`` use
+    fewer slices of a depth map.
     """
-    return tuple(part for layer in stack for part in _blurred(layer, view, rung))
-
-
-def _blurred(layer: Layer, view: View, rung: str) -> Stack:
     if isinstance(layer.depth, np.ndarray):
         colour = _blurred_by_depth(layer.colour, layer.depth, view, rung)
-        return (replace(layer, colour=colour, depth=math.inf),)
-    kernel = disc(float(view.blur_diameter(layer.depth)))
-    if layer.cover is None:
-        return (replace(layer, colour=convolve(layer.colour, kernel)),)
-    both = convolve(np.concatenate([layer.colour, layer.cover], axis=2), kernel)
-    return (replace(layer, colour=both[..., :3], cover=both[..., 3:]),)
+        return replace(layer, colour=colour, depth=math.inf)
+    return blurred(layer, disc(float(view.blur_diameter(layer.depth))))
 
 
 def slices(diameters: tuple[float, float], rung: str = "") -> Field:
@@ -156,7 +142,7 @@ EFFECT = Effect(
     stage="optics",
     decides=("defocus", "depth of field", "aperture", "artefacts"),
     present=lambda view: aperture(view.camera) is not None,
-    run=run,
+    run=LayerByLayer(work),
     cost=at_least_a_call(cost),
     skipped=skipped,
     after=after,

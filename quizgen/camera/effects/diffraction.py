@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from quizgen.camera.body import NEEDS_LENS, aperture
 from quizgen.camera.costs import at_least_a_call, convolution
-from quizgen.camera.draw import Stack, sheets
-from quizgen.camera.effect import Effect
+from quizgen.camera.draw import Layer, sheets
+from quizgen.camera.effect import Effect, LayerByLayer
 from quizgen.camera.facts import Error, Facts
-from quizgen.camera.filters import convolve
 from quizgen.camera.kernels import Kernel, airy, change
-from quizgen.camera.layers import each, resampled, within
+from quizgen.camera.layers import blurred, each, within
 from quizgen.camera.settings import Rule, Setting, Settings, between
 from quizgen.camera.values import quantity
 from quizgen.camera.view import View
@@ -44,10 +43,9 @@ def _kernel(view: View) -> Kernel:
     return airy(scale(view))
 
 
-def run(stack: Stack, view: View, rung: str = "") -> Stack:
+def work(layer: Layer, view: View, rung: str = "") -> Layer:
     """Blur every layer alike: all light comes through the same aperture."""
-    kernel = _kernel(view)
-    return tuple(resampled(layer, lambda image: convolve(image, kernel)) for layer in stack)
+    return blurred(layer, _kernel(view))
 
 
 def skipped(facts: Facts, view: View) -> Error:
@@ -73,7 +71,7 @@ EFFECT = Effect(
     decides=("diffraction", "sharpness"),
     settings=(WAVELENGTH,),
     present=lambda view: view.camera[WAVELENGTH] is not None,
-    run=run,
+    run=LayerByLayer(work),
     cost=at_least_a_call(cost),
     skipped=skipped,
     after=after,

@@ -11,8 +11,8 @@ import numpy as np
 from quizgen.arrays.distortion import fold_radius, inverse_radius
 from quizgen.camera.body import NEEDS_LENS, aperture
 from quizgen.camera.costs import at_least_a_call, at_size, sampling
-from quizgen.camera.draw import Layer, Stack, sheets
-from quizgen.camera.effect import Effect, Rung
+from quizgen.camera.draw import Layer, sheets
+from quizgen.camera.effect import Effect, LayerByLayer, Rung
 from quizgen.camera.facts import Error, Facts
 from quizgen.camera.filters import sample, sample_nearest
 from quizgen.camera.layers import Field, mixed_axes, resampled, rounding, shifted, within
@@ -111,12 +111,13 @@ def source(width: int, height: int, focal: float, k1: float, k2: float) -> tuple
     return x.astype(np.float32), y.astype(np.float32)
 
 
-def run(stack: Stack, view: View, rung: str = "") -> Stack:
+def work(layer: Layer, view: View, rung: str = "") -> Layer:
     """Read every pixel where it comes from; the rung ``nearest`` does not interpolate."""
     x, y = source(view.width, view.height, view.focal, view.camera[K1], view.camera[K2])
     pick = sample_nearest if rung == "nearest" else sample
-    warped = (resampled(layer, lambda image: pick(image, x, y)) for layer in stack)
-    return tuple(_with_depth(layer, x, y) for layer in warped)
+    reach = largest_displacement(view)
+    warped = resampled(layer, lambda image, box: pick(image, x[box], y[box]), reach)
+    return _with_depth(warped, x, y)
 
 
 def _with_depth(layer: Layer, x: Image, y: Image) -> Layer:
@@ -182,7 +183,7 @@ EFFECT = Effect(
     settings=(K1, K2),
     present=lambda view: view.camera[K1] != 0.0 or view.camera[K2] != 0.0,
     check=check,
-    run=run,
+    run=LayerByLayer(work),
     cost=at_least_a_call(cost),
     skipped=skipped,
     after=after,

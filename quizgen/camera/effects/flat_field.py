@@ -82,4 +82,5 @@ EFFECT = Effect(
     skipped=skipped,
     carried=carried,
     after=after,
+    needs="vignetting",
 )

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from quizgen.camera.costs import at_least_a_call, at_size
-from quizgen.camera.draw import Layer, Stack, sheets
-from quizgen.camera.effect import Effect
+from quizgen.camera.draw import Box, Layer, sheets
+from quizgen.camera.effect import Effect, LayerByLayer
 from quizgen.camera.facts import Error, Facts
 from quizgen.camera.filters import sample_grid
 from quizgen.camera.layers import resampled, rounding, shifted
@@ -17,11 +19,6 @@ from quizgen.camera.view import View
 
 LATERAL_COLOUR = Setting("lateral_colour", quantity("px"), 0.0)
 """Shift of red outward and blue inward at the picture's corner, px."""
-
-
-def run(stack: Stack, view: View, rung: str = "") -> Stack:
-    """Magnify every layer's colours differently."""
-    return tuple(_split(layer, view) for layer in stack)
 
 
 MOST = 0.5
@@ -43,21 +40,24 @@ def _scales(view: View) -> tuple[float, float, float]:
     return 1.0 + share, 1.0, 1.0 - share
 
 
-def _split(layer: Layer, view: View) -> Layer:
-    def work(image: Image) -> Image:
-        return np.stack([_scaled(image, view, channel) for channel in range(3)], axis=2)
+def work(layer: Layer, view: View, rung: str = "") -> Layer:
+    """Magnify a layer's colours differently."""
 
-    return resampled(layer, work)
+    def split(image: Image, box: Box) -> Image:
+        return np.stack([_scaled(image, view, channel, box) for channel in range(3)], axis=2)
+
+    if layer.cover is not None:  # a cover for each colour
+        layer = replace(layer, cover=np.broadcast_to(layer.cover, layer.colour.shape))
+    return resampled(layer, split, _shift(view) / (1.0 - _share(view)))
 
 
-def _scaled(image: Image, view: View, channel: int) -> Image:
-    scale = _scales(view)[channel]
-    plane = image[..., min(channel, image.shape[2] - 1)]
+def _scaled(image: Image, view: View, channel: int, box: Box) -> Image:
+    scale, plane = _scales(view)[channel], image[..., channel]
     if scale == 1.0:
-        return plane
+        return plane[box]
     x, y = view.centre
-    across = np.arange(view.width, dtype=np.float64) - x
-    down = np.arange(view.height, dtype=np.float64) - y
+    across = np.arange(view.width, dtype=np.float64)[box[1]] - x
+    down = np.arange(view.height, dtype=np.float64)[box[0]] - y
     return sample_grid(plane, across / scale + x, down / scale + y)
 
 
@@ -93,7 +93,7 @@ EFFECT = Effect(
     settings=(LATERAL_COLOUR,),
     present=lambda view: view.camera[LATERAL_COLOUR] != 0.0,
     check=check,
-    run=run,
+    run=LayerByLayer(work),
     cost=at_least_a_call(cost),
     skipped=skipped,
     after=after,

@@ -8,24 +8,21 @@ import numpy as np
 
 from quizgen.camera.body import SHUTTER
 from quizgen.camera.costs import at_least_a_call, convolution, sampling
-from quizgen.camera.draw import Layer, Motion, Stack, sheets
-from quizgen.camera.effect import Effect, Rung
+from quizgen.camera.draw import Layer, Motion, sheets
+from quizgen.camera.effect import Effect, LayerByLayer, Rung
 from quizgen.camera.facts import Error, Facts
-from quizgen.camera.filters import convolve
 from quizgen.camera.kernels import Kernel, change, line
 from quizgen.camera.layers import (
-    Field,
     anything_moves,
+    blurred,
     chord,
     each,
     mixed_axes,
     path,
-    resampled,
     rim,
     turned,
     within,
 )
-from quizgen.camera.scene import Image
 from quizgen.camera.view import View
 
 MOST_TURNS = 64
@@ -37,30 +34,19 @@ def turns(motion: Motion, shutter: float, rung: str = "") -> int:
     return max(1, count // 2) if rung == "half" else count
 
 
-def run(stack: Stack, view: View, rung: str = "") -> Stack:
-    """A box along straight paths, sampled positions for rotation (every second by ``half``)."""
-    return tuple(_blurred(layer, view, rung) for layer in stack)
-
-
 def _streak(motion: Motion, view: View) -> Kernel:
     return line(*path(motion, view, view.camera[SHUTTER]))
 
 
-def _blurred(layer: Layer, view: View, rung: str) -> Layer:
-    kernel, shutter = _streak(layer.motion, view), view.camera[SHUTTER]
-    moved = resampled(layer, lambda image: convolve(image, kernel))
-    if not layer.motion.spin:
+def work(layer: Layer, view: View, rung: str = "") -> Layer:
+    """A box along straight paths, sampled positions for rotation (every second by ``half``)."""
+    motion, shutter = layer.motion, view.camera[SHUTTER]
+    moved = blurred(layer, _streak(motion, view))
+    if not motion.spin:
         return moved
-    count = turns(layer.motion, shutter, rung)
-    angles = ((np.arange(count) + 0.5) / count - 0.5) * layer.motion.spin * shutter
-    return resampled(moved, lambda image: _mean_turned(image, view, layer.motion, angles))
-
-
-def _mean_turned(image: Image, view: View, motion: Motion, angles: Field) -> Image:
-    total = np.zeros_like(image)
-    for angle in angles:
-        total += turned(image, view, motion, float(angle))
-    return total * np.float32(1.0 / len(angles))
+    count = turns(motion, shutter, rung)
+    angles = ((np.arange(count) + 0.5) / count - 0.5) * motion.spin * shutter
+    return turned(moved, angles.tolist(), chord(motion, view, shutter / 2))
 
 
 def skipped(facts: Facts, view: View) -> Error:
@@ -104,7 +90,7 @@ EFFECT = Effect(
     stage="optics",
     decides=("motion blur", "motion", "artefacts"),
     present=lambda view: view.camera[SHUTTER] > 0.0 and anything_moves(view),
-    run=run,
+    run=LayerByLayer(work),
     cost=at_least_a_call(cost),
     skipped=skipped,
     after=after,

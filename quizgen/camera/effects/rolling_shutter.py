@@ -9,8 +9,8 @@ import numpy as np
 
 from quizgen.camera.body import VELOCITY
 from quizgen.camera.costs import at_least_a_call, sampling
-from quizgen.camera.draw import Layer, Stack, sheets
-from quizgen.camera.effect import Effect
+from quizgen.camera.draw import Layer, sheets
+from quizgen.camera.effect import Effect, LayerByLayer
 from quizgen.camera.facts import Error, Facts, LayerFacts
 from quizgen.camera.filters import sample
 from quizgen.camera.layers import (
@@ -40,24 +40,20 @@ def row_times(view: View) -> Field:
     return rows * view.camera[ROW_TIME]
 
 
-def run(stack: Stack, view: View, rung: str = "") -> Stack:
+def work(layer: Layer, view: View, rung: str = "") -> Layer:
     """What moves is sheared, what turns is bent."""
-    return tuple(_rolled(layer, view) for layer in stack)
-
-
-def _rolled(still: Layer, view: View) -> Layer:
-    times = row_times(view)[:, None]
-    across, down = path(still.motion, view, 1.0)
-    layer = still
-    if still.motion.spin:
-        angle = still.motion.spin * times
-        layer = resampled(still, lambda image: turned(image, view, still.motion, angle))
+    times, motion = row_times(view)[:, None], layer.motion
+    if motion.spin:
+        reach = chord(motion, view, float(times[-1, 0]))
+        layer = turned(layer, [motion.spin * times], reach)
+    across, down = path(motion, view, 1.0)
     if not across and not down:
         return layer
     x = np.arange(view.width)[None, :] - across * times
     y = np.arange(view.height)[:, None] - down * times + np.zeros_like(x)
     where = _near(x, view.width), _near(y, view.height)
-    return resampled(layer, lambda image: sample(image, *where))
+    far = math.hypot(across, down) * float(times[-1, 0])
+    return resampled(layer, lambda image, box: sample(image, *(at[box] for at in where)), far)
 
 
 def _near(positions: Field, length: int) -> Image:
@@ -105,8 +101,9 @@ EFFECT = Effect(
     decides=("rolling shutter", "motion", "artefacts"),
     settings=(ROW_TIME,),
     present=lambda view: view.camera[ROW_TIME] > 0.0 and anything_moves(view),
-    run=run,
+    run=LayerByLayer(work),
     cost=at_least_a_call(cost),
     skipped=skipped,
     after=after,
+    needs="something that moves",
 )
