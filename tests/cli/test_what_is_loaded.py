@@ -48,7 +48,6 @@ def test_no_command_from_making_a_paper_to_marking_it_loads_sympy(place):
     "practice --topic noise --database sqlite:///learnt.sqlite3",
     "templates",
     "sheet --topic eye --format html --out sheet",
-    "lint --only point-to-image-plane --seeds 3",
 ])  # fmt: skip
 def test_who_draws_no_figure_loads_nothing_to_draw_with(place, command):
     assert not ({"sympy"} | DRAWING) & loaded(place, command, typed="5\n")
@@ -58,6 +57,7 @@ def test_who_draws_no_figure_loads_nothing_to_draw_with(place, command):
     "preview point-to-image-plane --seed 1",
     "cards --topic eye --format tsv --out cards",
     "export gift --topic eye --variants 1 --out export",
+    "lint --only point-to-image-plane --seeds 3",
 ])  # fmt: skip
 def test_no_command_loads_sympy_or_matplotlib(place, command):
     assert not {"sympy", "matplotlib"} & loaded(place, command)
