@@ -21,6 +21,7 @@ COMMANDS: dict[str, tuple[list[str], ...]] = {
         [sys.executable, "benchmarks/marking.py"],
         [sys.executable, "benchmarks/web.py"],
     ),
+    "bounds": ([sys.executable, "tests/arrays/prove.py"],),
     "pins": ([sys.executable, "tools/pin.py"],),
     "fonts": (
         [sys.executable, "tools/pack_fonts.py"],
