@@ -1,8 +1,8 @@
 """How long figures take: ``uv run python benchmarks/figures.py``.
 
-CPU time, divided by how much slower the machine is now than the one that the limits were set on. Of
-each kind, warm: a figure with numbers that were not drawn before, and its solution right after it
-(median over draws, of the best of three rounds each), beside what one may take. Then the first
+CPU time, divided by how much slower the machine is at that moment than where the limits were set.
+Of each kind, warm: a figure with numbers that were not drawn before, and its solution right after
+it (median over draws, of the best of three rounds each), beside what one may take. Then the first
 figure of a fresh process, over a process that has opened the bank (the best of five). Exit code 1
 if one is over.
 """
@@ -32,7 +32,7 @@ WARM, COLD = 1.5, 0.35
 KEPT = (figures._drawn, figures._render, artefacts._pair, depth_of_field._photos,  # noqa: SLF001
         _canvas._png, kernels.disc, kernels.line)  # fmt: skip  # noqa: SLF001
 """What is kept under the numbers of a figure."""
-LOOP, LOOP_THERE = 3_000_000, 0.28
+LOOP, LOOP_THERE = 3_000_000, 0.13
 """Turns of a loop, and the seconds that it takes where the limits were set."""
 OPENED = "import quizgen\nquizgen.builtin()\n"
 FIRST = OPENED + "from quizgen import figures\nfigures.render({!r}, {!r}, quiz=True, lang='en').svg"
@@ -69,32 +69,36 @@ def seconds(code: str) -> float:
     return used() - before
 
 
-def warm(slow: float) -> bool:
+def warm() -> bool:
     """Print the table of kinds; whether one is over."""
     cases = defaultdict(list)
     for name, values in draws():
         cases[name].append(values)
-    print(f"{'figure':<16} {'new':>6} {'solution':>9}  ms of {WARM}")
+    print(f"{'figure':<16} {'new':>6} {'solution':>9} {'slower':>6}  ms of {WARM}")
     over = False
     for name, reference in REFERENCE.items():
         once(name, reference)
         some = [reference, *cases[name]][:: len(cases[name]) // MOST_DRAWS + 1]
+        slow = slowness()
         rounds = [[once(name, values) for values in some] for _ in range(ROUNDS)]
+        slow = (slow + slowness()) / 2
         new, solution = (
             median(min(row[which] for row in rows) for rows in zip(*rounds, strict=True)) / slow
             for which in (0, 1)
         )
         over = over or new > WARM
-        print(f"{name:<16} {new:6.2f} {solution:9.2f}{'  OVER' * (new > WARM)}")
+        print(f"{name:<16} {new:6.2f} {solution:9.2f} {slow:6.2f}{'  OVER' * (new > WARM)}")
     return over
 
 
-def cold(slow: float) -> bool:
+def cold() -> bool:
     """Print what the first figure takes; whether one is over."""
     codes = {"opened": OPENED} | {
         name: FIRST.format(name, REFERENCE[name]) for name in ("thin_lens", "artefacts")
     }
+    slow = slowness()
     rounds = [[seconds(code) for code in codes.values()] for _ in range(COLD_ROUNDS)]
+    slow = (slow + slowness()) / 2
     opened, *firsts = map(min, zip(*rounds, strict=True))
     for name, first in zip(("line figure", "photograph"), firsts, strict=True):
         more = (first - opened) / slow
@@ -104,6 +108,4 @@ def cold(slow: float) -> bool:
 
 if __name__ == "__main__":
     gc.disable()
-    factor = slowness()
-    print(f"this machine is {factor:.2f} x slower now")
-    sys.exit(any([warm(factor), cold(factor)]))
+    sys.exit(any([warm(), cold()]))
