@@ -125,10 +125,13 @@ def sweep(family: Family, count: int) -> Sweep:
 
 
 def _values(family: Family, way: str, columns: Sequence[Column]) -> list[float]:
-    """What a way gives for each input, all inputs as arrays."""
+    """What a way gives for each input: over whole arrays, or one by one if it takes numbers."""
     rung = next(rung for rung in rungs(family) if rung.key == way)
     with warnings.catch_warnings(), np.errstate(all="ignore"):
         warnings.simplefilter("ignore")
+        if rung.kind == "scalar":
+            rows = zip(*(column.tolist() for column in columns), strict=True)
+            return [rung.finish(rung.run(rung.prepare(row))) for row in rows]
         found = rung.run(*[rung.prepare(column) for column in columns])
     filled = np.ma.filled(np.ma.asarray(found, dtype=np.float64), np.nan)
-    return np.broadcast_to(filled, columns[0].shape).tolist()
+    return [float(value) for value in np.broadcast_to(filled, columns[0].shape)]

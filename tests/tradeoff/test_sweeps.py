@@ -20,6 +20,12 @@ def test_every_family_has_a_path_of_finite_inputs():
         assert all(np.isfinite(column).all() for column in columns)
 
 
+@pytest.mark.parametrize("name", list(BY_NAME))
+def test_the_stable_form_keeps_its_digits_along_every_path(name):
+    for place in sweep(BY_NAME[name], 4).places:
+        assert place.digits[-1] >= 15, place
+
+
 def test_the_tail_loses_its_digits_between_four_and_nine_sigma():
     found = sweep(BY_NAME["gaussian-tail"], 23)
     for place in found.places:
