@@ -49,6 +49,8 @@ A_PAPER = 0.5
 """Seconds that one of many takes, about."""
 TO_SPARE = 12
 """Minutes that may be left over because no question is short enough."""
+PRETENDED = 5
+"""Documents after each of many papers, so that what was typeset is soon forgotten."""
 
 
 class Options(BankOptions):
@@ -145,7 +147,12 @@ def _made(
     from quizgen.paper.paper import build, silent
 
     paper = build(bank, blueprint, seed, lang)
-    return paper.code, _contents(paper, formats, form, silent)
+    contents = _contents(paper, formats, form, silent)
+    if "pdf" in formats:
+        from quizgen.render.typ import forget
+
+        forget(PRETENDED)
+    return paper.code, contents
 
 
 def _contents(
