@@ -171,14 +171,14 @@ SLOW = {
 @pytest.mark.slow
 @pytest.mark.parametrize("case", SLOW)
 def test_no_element_takes_long(case):
-    """At most 20 microseconds of a processor at its best; allowed are five times as many."""
+    """At most 50 microseconds of a processor at its best; allowed are six times as many."""
     name, args = SLOW[case]
     block = [np.append(np.full(1999, arg), arg * (1 + 2**-50)) for arg in args]
     call = function(name)
     call(*block)
     start = time.process_time()
     call(*block)
-    assert (time.process_time() - start) / 2000 < 100e-6
+    assert (time.process_time() - start) / 2000 < 300e-6
 
 
 def test_pixels_of_numbers_are_those_of_their_decimals():
