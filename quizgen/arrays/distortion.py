@@ -107,7 +107,7 @@ def _beyond(r_d: Array, k1: Array, k2: Array) -> Flags:
 
 def _fold(k1: Array, k2: Array) -> Array:
     """Fold radius, with the larger coefficient brought near 1."""
-    if not k2.any():
+    if not k2.any() and (k1 > -_LARGEST).all():
         alone: Array = 1 / np.sqrt(-3 * np.minimum(k1, -0.0))
         return alone  # of 0, infinity
     k1, k2 = (np.array(arg) for arg in np.broadcast_arrays(k1, k2))

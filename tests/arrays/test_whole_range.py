@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 import time
 import warnings
 from fractions import Fraction
@@ -118,6 +119,15 @@ def test_gap_for_other_exponents(exponent):
         for value, *row in zip(gamma.gap(a, b, exponent), a, b, strict=True):
             x, y = (mp.mpf(float(arg)) for arg in row)
             assert ulps(float(value), ((x + y) / 2) ** e - (x**e + y**e) / 2) <= 4
+
+
+def test_the_fold_of_the_largest_coefficient():
+    """1/sqrt(3 k) at the end of the doubles, where 3 k is beyond it."""
+    with mp.workdps(40):
+        expected = 1 / mp.sqrt(3 * mp.mpf(sys.float_info.max))
+    for k1 in (-sys.float_info.max, [-sys.float_info.max, 1.0]):
+        fold = np.atleast_1d(distortion.fold_radius(k1))[0]
+        assert ulps(float(fold), expected) <= 4
 
 
 def barrels(rng):
