@@ -57,9 +57,6 @@ def _array(family: Family, formula: Expr, bits: int) -> Rung:
 
 
 def _stable(family: Family) -> Rung:
-    if family.decimal:  # numbers are read as decimals one at a time, arrays are not
-        return Rung("stable", "scalar", lambda row: family.stable(*row), tuple, float)
-
     def finish(result: Column) -> Column:
         return np.ma.filled(result, np.nan)
 
