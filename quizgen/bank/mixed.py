@@ -224,18 +224,9 @@ class Mixed(Bank):
     def _formulas(self) -> dict[Bank, dict[str, str]]:
         return told_apart({part: [entry.id for entry in formulas(part)] for part in self._parts})
 
-    def template(self, name: str) -> Template:
-        """Load a template, once.
-
-        Raises
-        ------
-        BankError
-            If it is unknown or wrong; names the file and the place.
-        """
-        if name not in self._templates:
-            part, own = self.home(name)
-            found = part.template(own)
-            cites = {step: self._formula(part, one) for step, one in found.chain.formulas.items()}
-            chain = replace(found.chain, formulas=cites) if cites else found.chain
-            self._templates[name] = replace(found, id=name, rules=self.rules(name), chain=chain)
-        return self._templates[name]
+    def _load(self, name: str) -> Template:
+        part, own = self.home(name)
+        found = part.template(own)
+        cites = {step: self._formula(part, one) for step, one in found.chain.formulas.items()}
+        chain = replace(found.chain, formulas=cites) if cites else found.chain
+        return replace(found, id=name, rules=self.rules(name), chain=chain)
