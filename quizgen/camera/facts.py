@@ -223,6 +223,11 @@ class Facts:
         limits = self.limits[0] * factor, self.limits[1] * factor
         return Facts(*ends, layers, self.noise * factor, self.tail * factor, limits)
 
+    def lifted(self, by: float) -> Facts:
+        """Everything brighter by a value, darker if it is negative."""
+        limits = self.limits[0] + by, self.limits[1] + by
+        return replace(self, low=self.low + by, high=self.high + by, limits=limits)
+
     def outside(self, low: float, high: float) -> Error:
         """What stands beyond two values: how far, or how seldom if that is seldom enough."""
         far = max(self.top - high, low - self.bottom, 0.0)

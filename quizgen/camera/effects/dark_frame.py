@@ -64,12 +64,8 @@ def skipped(facts: Facts, view: View) -> Error:
 
 def after(facts: Facts, view: View) -> Facts:
     """Darker; what noise the frames have left is added."""
-    low, high = facts.limits
-    down = _mean(view)
-    lowered = replace(
-        facts, low=facts.low - down, high=facts.high - down, limits=(low - down, high - down)
-    )
-    return noisier(lowered, replace(skipped(facts, view), sure=0.0))
+    left = replace(skipped(facts, view), sure=0.0)
+    return noisier(facts.lifted(-_mean(view)), left)
 
 
 EFFECT = Effect(

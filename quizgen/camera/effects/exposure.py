@@ -4,11 +4,8 @@ from __future__ import annotations
 
 import math
 
-from quizgen.camera.blocks import Work, times
+from quizgen.camera.amplifier import amplifier
 from quizgen.camera.body import SHUTTER, aperture
-from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, PointByPoint
-from quizgen.camera.facts import Error, Facts
 from quizgen.camera.settings import Rule, Setting, Settings, between
 from quizgen.camera.values import number, quantity
 from quizgen.camera.view import View
@@ -46,35 +43,9 @@ def factor(view: View) -> float:
     return float(2.0**stops)
 
 
-def work(view: View, rung: str = "") -> Work:
-    """Multiply by light, time and correction."""
-    return times(factor(view))
-
-
-def skipped(facts: Facts, view: View) -> Error:
-    """Largest value times the missing factor."""
-    return facts.amplified(abs(factor(view) - 1.0))
-
-
-def carried(error: Error, facts: Facts, view: View) -> Error:
-    """Errors are amplified too."""
-    return error.times(factor(view))
-
-
-def after(facts: Facts, view: View) -> Facts:
-    """Everything times the factor."""
-    return facts.scaled(factor(view))
-
-
-EFFECT = Effect(
-    name="exposure",
-    stage="sensor",
-    decides=("exposure", "aperture", "shutter"),
+EFFECT = amplifier(
+    "exposure",
+    factor,
     settings=(EXPOSURE, LIGHT_VALUE),
-    present=lambda view: factor(view) != 1.0,
-    run=PointByPoint(work),
-    cost=measured((0.0786, 18)),
-    skipped=skipped,
-    carried=carried,
-    after=after,
+    decides=("exposure", "aperture", "shutter"),
 )

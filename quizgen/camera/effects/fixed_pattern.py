@@ -49,10 +49,8 @@ def skipped(facts: Facts, view: View) -> Error:
 
 def after(facts: Facts, view: View) -> Facts:
     """Brighter by the pedestal; the offsets count as noise."""
-    low, high = facts.limits
-    up = level(view)
-    lifted = replace(facts, low=facts.low + up, high=facts.high + up, limits=(low + up, high + up))
-    return noisier(lifted, replace(skipped(facts, view), sure=0.0))
+    spread = replace(skipped(facts, view), sure=0.0)
+    return noisier(facts.lifted(level(view)), spread)
 
 
 EFFECT = Effect(
