@@ -223,6 +223,13 @@ class Facts:
         limits = self.limits[0] * factor, self.limits[1] * factor
         return Facts(*ends, layers, self.noise * factor, self.tail * factor, limits)
 
+    def gained(self, least: float, most: float) -> Facts:
+        """Every channel times a factor of its own, >= 0, between the least and the most."""
+        low = min(self.low * least, self.low * most)
+        high = max(self.high * least, self.high * most)
+        limits = min(self.limits[0] * least, self.limits[0] * most), self.limits[1] * most
+        return replace(self.scaled(most), low=low, high=high, limits=limits)
+
     def lifted(self, by: float) -> Facts:
         """Everything brighter by a value, darker if it is negative."""
         limits = self.limits[0] + by, self.limits[1] + by

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from quizgen.camera.blocks import BLOCK, Work
@@ -51,12 +49,7 @@ def carried(error: Error, facts: Facts, view: View) -> Error:
 def after(facts: Facts, view: View) -> Facts:
     """Scaled by gains between the smallest and the largest."""
     gains = view.camera[WHITE_BALANCE]
-    grown = facts.scaled(max(gains))
-    low = min(facts.low * min(gains), facts.low * max(gains))
-    high = max(facts.high * min(gains), facts.high * max(gains))
-    least, most = facts.limits
-    limits = min(least * min(gains), least * max(gains)), most * max(gains)
-    return replace(grown, low=low, high=high, limits=limits)
+    return facts.gained(min(gains), max(gains))
 
 
 EFFECT = Effect(
