@@ -39,6 +39,9 @@ class Motion:
 STILL = Motion()
 
 
+ALL_CHANNELS = (0, 1, 2)
+
+
 @dataclass(frozen=True, slots=True)
 class Layer:
     """One depth of the picture.
@@ -52,12 +55,15 @@ class Layer:
     depth : float or numpy.ndarray
         m; a map of shape (H, W) for a picture with depth.
     motion : Motion
+    sharp : tuple of int
+        Channels that are not out of focus yet: axial colour takes red and blue before the rest.
     """
 
     colour: Image
     cover: Image | None = None
     depth: float | Image = math.inf
     motion: Motion = STILL
+    sharp: tuple[int, ...] = ALL_CHANNELS
 
     @property
     def even(self) -> bool:

@@ -196,11 +196,41 @@ def change(
     """
     if kernel.size == 1:
         return 0.0
+    elsewhere = 1.0 - kernel[kernel.shape[0] // 2, kernel.shape[1] // 2]
+    return float(min((kernel * _paired(kernel, jump, bend)).sum(), elsewhere * span))
+
+
+def change_between(
+    one: Kernel,
+    other: Kernel,
+    jump: tuple[float, float],
+    bend: tuple[float, float],
+    span: float,
+) -> float:
+    """Bound on ``max |one * x - other * x|``, tap by tap as in `change`.
+
+    Parameters
+    ----------
+    one, other : numpy.ndarray
+        Square, each symmetric in both axes with sum 1.
+    jump, bend, span
+        As for `change`.
+    """
+    size = max(len(one), len(other))
+    apart = np.abs(_widened(one, size) - _widened(other, size))
+    return float(min((apart * _paired(apart, jump, bend)).sum(), apart.sum() / 2.0 * span))
+
+
+def _widened(kernel: Kernel, size: int) -> Kernel:
+    return np.pad(kernel, (size - len(kernel)) // 2)
+
+
+def _paired(kernel: Kernel, jump: tuple[float, float], bend: tuple[float, float]) -> Kernel:
+    """How far each tap, together with the opposite ones, can carry a pixel's value."""
     down, across = offsets(kernel)
     over_x = np.minimum(across**2 * bend[0], 2.0 * across * jump[0]) / 2.0
     over_y = np.minimum(down**2 * bend[1], 2.0 * down * jump[1]) / 2.0
     paired = over_x + over_y
     if not np.array_equal(kernel, kernel[::-1]):
         paired = np.where((down > 0) & (across > 0), across * jump[0] + down * jump[1], paired)
-    elsewhere = 1.0 - kernel[kernel.shape[0] // 2, kernel.shape[1] // 2]
-    return float(min((kernel * paired).sum(), elsewhere * span))
+    return np.asarray(paired)

@@ -59,4 +59,6 @@ def camera(source):
         bias=maybe(0.2, lambda: between(-1, 2), 0.0),
         dark_frames=maybe(0.2, lambda: int(source.integers(1, 30)), 0),
         binning=maybe(0.15, lambda: int(source.integers(2, 5)), 1),
+        light=maybe(0.15, lambda: float(source.uniform(2000, 12000)), None),
+        infrared_filter=bool(source.random() < 0.7),
     )  # fmt: skip

@@ -142,4 +142,7 @@ def camera(source, *, noise: bool) -> Camera:
         saturation=maybe(0.1, lambda: float(source.uniform(0, 2)), 1.0),
         value=maybe(0.1, lambda: float(source.uniform(0.5, 1.5)), 1.0),
         normalise=maybe(0.1, lambda: (0.1, 0.9, 0.0, 1.0), None),
+        axial_colour=maybe(0.4, lambda: 0.05 * signed(-5, -1.5), 0.0) if number else 0.0,
+        light=maybe(0.2, lambda: float(source.uniform(2000, 12000)), None),
+        infrared_filter=bool(source.random() < 0.7),
     )

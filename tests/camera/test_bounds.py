@@ -8,6 +8,7 @@ import scenes_at_random as at_random
 
 from quizgen.camera import Camera, Scene, SceneError
 from quizgen.camera.effects import EFFECTS, questions
+from quizgen.camera.effects.binning import BINNING
 from quizgen.camera.effects.distortion import K1, K2
 from quizgen.camera.facts import DEVIATIONS, EXCEEDED, Error, coarse, glimpsed, measured
 from quizgen.camera.plan import SKIP, Plan, Prepared, Step, _Chain, _units, everything, plan
@@ -162,7 +163,8 @@ def test_noise_agrees_in_distribution():
         changed = chosen.plan.predicted_error_dn
         if not changed:
             continue
-        shift, slack = changed / 255 + 1e-6, 4.0 / size + EXCEEDED
+        drawn = size / camera[BINNING]  # a block has one value
+        shift, slack = changed / 255 + 1e-6, 4.0 / drawn + EXCEEDED
         for channel in range(3):
             one, other = chosen.values[..., channel], whole.values[..., channel]
             limits = np.quantile(other, np.linspace(0.02, 0.98, 49))

@@ -11,8 +11,10 @@ from __future__ import annotations
 from quizgen.camera.body import BODY, VELOCITY
 from quizgen.camera.effect import Effect
 from quizgen.camera.effects import (
+    axial_colour,
     binning,
     blooming,
+    colour_filters,
     dark_current,
     dark_frame,
     defocus,
@@ -49,12 +51,14 @@ EFFECTS: tuple[Effect, ...] = (
     projection.EFFECT,
     distortion.EFFECT,
     lateral_colour.EFFECT,
+    axial_colour.EFFECT,
     defocus.EFFECT,
     diffraction.EFFECT,
     motion_blur.EFFECT,
     rolling_shutter.EFFECT,
     vignetting.EFFECT,
     flare.EFFECT,
+    colour_filters.EFFECT,
     exposure.EFFECT,
     shot_noise.EFFECT,
     dark_current.EFFECT,
