@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 from by_hand import solves
-from printed_numbers import APERTURE, numbers, points
+from printed_numbers import APERTURE, numbers, points, quantities
 from printed_page import Page
 
 
@@ -193,3 +193,61 @@ def pixel_snr(page: Page) -> dict[str, Any]:
     noise = math.sqrt(sum(parts.values()))
     most = max(parts, key=lambda words: parts[words])
     return {"a": noise, "b": float(page["S"]) / noise, "c": page.parts["c"].saying(*most)}
+
+
+@solves("veiling-glare-and-contrast")
+def veiling_glare(page: Page) -> dict[str, Any]:
+    """Two pixels of a hundred: what strays is pooled and shared out, share by share."""
+    white, astray = page["w"], page["q"]
+    pooled = astray * (white * page["a"] + (1 - white) * page["b"])
+    bright, dark = (page[name] - astray * page[name] + pooled for name in "ab")
+    return {"a": pooled / astray, "b": dark, "c": bright / dark}
+
+
+@solves("axial-colour-blur")
+def axial_colour(page: Page) -> dict[str, Any]:
+    """A red ray at the rim of the aperture, straight to the red focus: its height at the sensor."""
+    rim = page["f"] / f_number(page.stem) / 2
+    focus = page["f"] + page["e"]
+    height = rim - rim / focus * page["f"]
+    pixels = 2 * height / page["p"]
+    return {"a": 2 * height, "b": pixels, "c": f_number(page.stem) * pixels}
+
+
+@solves("binning-and-noise")
+def binning(page: Page) -> dict[str, Any]:
+    """One photosite's ratio times the root of their number; then one read-out for all."""
+    sites = page["k"] ** 2
+    single = float(page["S"]) / math.sqrt(page["S"] + page["σ_r"] ** 2)
+    block = sites * page["S"]
+    once = float(block) / math.sqrt(block + page["σ_r"] ** 2)
+    return {"a": single * math.sqrt(sites), "b": once, "c": 2 * page["k"] * page["p"]}
+
+
+@solves("infrared-leak")
+def infrared(page: Page) -> dict[str, Any]:
+    """Both rows of the table multiplied out, from the cells."""
+    green, dark = (math.prod(quantities(cell)[0][0] for cell in row[1:]) for row in page.rows[1:])
+    whole = green + dark
+    return {"a": whole, "b": dark / whole, "c": page["T_1"] * green / whole}
+
+
+@solves("lateral-colour-shift")
+def lateral_colour(page: Page) -> dict[str, Any]:
+    """Both images of the point, and the distance between them."""
+    green = page["x"], page["y"]
+    red = [place * (1 + page["q"]) for place in green]
+    return {
+        "a": math.dist(map(float, red), map(float, green)),
+        "b": red[0] - green[0],
+        "c": 1 / page["q"],
+    }
+
+
+@solves("ccd-streak-and-overflow")
+def ccd_overflow(page: Page) -> dict[str, Any]:
+    """The column as a whole holds what fell on the lamp's photosites; then so many steps under it."""
+    full, lit = page["F"], page["h"]
+    spilt = lit * page["Q"] - lit * full
+    per_second = page["Q"] / page["t"]
+    return {"a": spilt / (full - page["b"]), "b": per_second * page["t_r"] * lit}
