@@ -20,22 +20,27 @@ from statistics import median
 from time import process_time
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests" / "figures"))
-from figure_cases import REFERENCE, draws
+from figure_cases import REFERENCE, draws, module, render
 
 from quizgen import figures
 from quizgen.camera import kernels
-from quizgen.figures import _canvas, artefacts, depth_of_field
+from quizgen.figures import _canvas
 
 ROUNDS, COLD_ROUNDS, MOST_DRAWS = 3, 5, 30
 WARM, COLD = 1.5, 0.35
 """Milliseconds of a figure; seconds of the first one."""
-KEPT = (figures._drawn, figures._render, artefacts._pair, depth_of_field._photos,  # noqa: SLF001
+KEPT = (figures._drawn, figures._render,  # noqa: SLF001
+        module("artefacts")._pair, module("depth_of_field")._photos,  # noqa: SLF001
         _canvas._png, kernels.disc, kernels.line)  # fmt: skip  # noqa: SLF001
 """What is kept under the numbers of a figure."""
 LOOP, LOOP_THERE = 3_000_000, 0.13
 """Turns of a loop, and the seconds that it takes where the limits were set."""
 OPENED = "import quizgen\nquizgen.builtin()\n"
-FIRST = OPENED + "from quizgen import figures\nfigures.render({!r}, {!r}, quiz=True, lang='en').svg"
+FIRST = (
+    OPENED
+    + """from quizgen import figures
+figures.render(quizgen.builtin().figure({!r}), {!r}, quiz=True, lang='en').svg"""
+)
 
 
 def slowness() -> float:
@@ -52,7 +57,7 @@ def once(name: str, values: Mapping[str, float]) -> tuple[float, float]:
         kept.cache_clear()
     times = [process_time()]
     for quiz in (True, False):
-        assert figures.render(name, values, quiz=quiz, lang="en").svg
+        assert render(name, values, quiz=quiz, lang="en").svg
         times.append(process_time())
     return 1e3 * (times[1] - times[0]), 1e3 * (times[2] - times[1])
 

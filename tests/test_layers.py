@@ -28,7 +28,7 @@ LAYERS = {
     "typeset": "errors shapes locale maths",
     "bank": "errors shapes outside files kept locale maths",
     "camera": "errors outside files png maths arrays",
-    "figures": "errors png locale maths arrays camera",
+    "figures": "errors outside png locale maths arrays camera",
     "marking": "errors shapes outside locale maths",
     "question": "errors shapes outside locale maths typeset bank figures marking",
     "paper": "errors shapes outside files locale maths bank figures marking question",

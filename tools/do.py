@@ -5,11 +5,13 @@ from __future__ import annotations
 import subprocess
 import sys
 
+FOLDERS = ("quizgen", "solvers", "templates", "tests", "benchmarks", "tools")
+"""Where Python stands that is formatted."""
 COMMANDS: dict[str, tuple[list[str], ...]] = {
     "test": (["pytest"],),
     "style": (
         ["ruff", "check"],
-        ["ruff", "format", "--check", "quizgen", "solvers", "tests", "benchmarks", "tools"],
+        ["ruff", "format", "--check", *FOLDERS],
         ["mypy"],
         [sys.executable, "tools/measure.py"],
     ),

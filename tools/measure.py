@@ -1,6 +1,6 @@
 """Print the figures that the house is held to: file and function lengths, parameters typed Any.
 
-Run: ``uv run python tools/measure.py [folder ...]`` (default: quizgen solvers).
+Run: ``uv run python tools/measure.py [folder ...]`` (default: quizgen solvers templates).
 """
 
 from __future__ import annotations
@@ -63,4 +63,4 @@ def main(folders: list[str]) -> None:
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:] or ["quizgen", "solvers"])
+    main(sys.argv[1:] or ["quizgen", "solvers", "templates"])

@@ -31,7 +31,9 @@ class About(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     ``topics`` are its topics in order, each with its title by language. ``terms`` are words of the
     subject, none of which is another one misspelt; ``counted`` has the words that may stand beside
     a number, by the name that an answer gives as ``counts``; ``units`` are those besides the listed
-    ones, each as Pint defines units. ``requires`` are the versions of quizgen that it works with.
+    ones, each as Pint defines units; ``photographs`` are the figures that are pictures of a camera,
+    of which a blueprint may ask for some. ``requires`` are the versions of quizgen that it works
+    with.
     """
 
     name: str = ""
@@ -45,6 +47,7 @@ class About(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     title: dict[str, str] = {}
     topics: dict[str, dict[str, str]] = {}
     units: tuple[str, ...] = ()
+    photographs: frozenset[str] = frozenset()
 
     @property
     def system(self) -> System:

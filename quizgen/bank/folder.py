@@ -1,10 +1,11 @@
 """A bank: a folder with ``templates/`` and ``solvers/``, read on demand.
 
 Beside the templates may stand ``bank.toml`` (title, topics), ``blueprints/``, ``cards/`` and
-``curriculum.toml``: what the bank is about.
+``curriculum.toml``: what the bank is about, and ``figures/``: what it draws.
 
 The built-in bank is the first one; a third party's bank is a folder of the same shape. Text is
-always safe to read. Solvers are Python, so a foreign bank runs its own only when it is trusted.
+always safe to read. Solvers and figures are Python, so a foreign bank runs its own only when it is
+trusted.
 """
 
 from __future__ import annotations
@@ -30,6 +31,8 @@ from quizgen.locale import chosen, languages
 from quizgen.maths.chain import Chain
 from quizgen.outside import NAMES, is_name, located, named, read_bytes
 
+_BESIDE = ("blueprints", "cards", "figures", "quantities")
+"""Folders beside the topics."""
 PROSE = re.compile(r"[a-z]{2,3}\.md")
 """What a language's file is called."""
 
@@ -41,8 +44,8 @@ def builtin_root() -> Path:
     return installed if installed.is_dir() else package.parent
 
 
-class _SolverError(BankError):
-    """A template asks for a solver that is not there."""
+class _MissingError(BankError):
+    """A template asks for a solver or a figure that is not there."""
 
 
 class Bank:
@@ -93,7 +96,7 @@ class Bank:
 
     @property
     def _figures(self) -> Path:
-        return self.root / "figures"
+        return self.folder / "figures"
 
     @property
     def folder(self) -> Path:
@@ -185,7 +188,7 @@ class Bank:
         """Template name to its folder, in alphabetical order."""
         found = sorted(
             path for path in self.folder.glob("**/template.toml")
-            if path.parent not in {self.folder / n for n in ("blueprints", "cards", "quantities")}
+            if path.parent not in {self.folder / name for name in _BESIDE}
         )  # fmt: skip
         names = [named(path.parent.name, f"{self.root}: template", BankError) for path in found]
         twins = {name for name in names if names.count(name) > 1}
@@ -225,27 +228,34 @@ class Bank:
     def _has(self, name: str) -> bool:
         """Whether a solver is one of this bank, not of the built-in one."""
         if not all(map(is_name, name.split("/"))):
-            raise _SolverError(f"solver: {name!r} is no name (allowed: {NAMES}, folders by '/')")
+            raise _MissingError(f"solver: {name!r} is no name (allowed: {NAMES}, folders by '/')")
         file = self._solvers / f"{name}.py"
         if not file.exists() and self.root == builtin_root():
-            raise _SolverError(f"solver {name!r}: no such solver")
+            raise _MissingError(f"solver {name!r}: no such solver")
         if file.exists():
             self._must_be_trusted(file)
         return file.exists()
 
-    def figure(self, name: str) -> ModuleType | None:
-        """Import a figure of the bank's own; None if it has none of this name.
+    @cached_property
+    def figures(self) -> tuple[str, ...]:
+        """Names of the figures that it brings."""
+        return tuple(sorted(path.stem for path in self._figures.glob("[a-z]*.py")))
+
+    def figure(self, name: str) -> ModuleType:
+        """Import a figure of this bank, or of the built-in one if it has none of this name.
 
         Raises
         ------
         BankError
-            If it fails, or the bank is not trusted.
+            If it does not exist or fails, or the bank is not trusted.
         """
-        file = self._figures / f"{name}.py"
-        if not is_name(name) or not file.exists():
-            return None
-        self._must_be_trusted(file)
-        return module_of(self._figures, name)
+        if name in self.figures:
+            self._must_be_trusted(self._figures / f"{name}.py")
+            return module_of(self._figures, name)
+        if name not in builtin().figures:
+            known = sorted({*self.figures, *builtin().figures})
+            raise _MissingError(f"unknown figure {name!r}; there are {', '.join(known)}")
+        return builtin().figure(name)
 
     def _must_be_trusted(self, file: Path) -> None:
         if not self.trusted:
@@ -275,7 +285,7 @@ class Bank:
             If it is unknown or wrong; names the file and the place.
         """
         if name not in self._templates:
-            with located(self.folder_of(name) / "template.toml", _SolverError):
+            with located(self.folder_of(name) / "template.toml", _MissingError):
                 self._templates[name] = self._load(name)
         return self._templates[name]
 

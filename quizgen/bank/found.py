@@ -21,6 +21,8 @@ from quizgen.kept import digest_of
 from quizgen.outside import read_bytes
 
 GROUP = "quizgen.banks"
+PYTHON = ("solvers", "templates/figures")
+"""Where the Python of a bank stands."""
 _FILE = "trusted.json"
 
 
@@ -59,7 +61,7 @@ def root_of(named: Path) -> Path:
 
 def python_of(root: Path) -> list[Path]:
     """The Python that a bank brings."""
-    return sorted(path for kind in ("solvers", "figures") for path in (root / kind).rglob("*.py"))
+    return sorted(path for kind in PYTHON for path in (root / kind).rglob("*.py"))
 
 
 def digest_of_python(root: Path) -> str:

@@ -10,6 +10,7 @@ import ast
 import importlib
 import re
 import sys
+import time
 import traceback
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -34,6 +35,10 @@ _IMPURE = {"__file__", "__import__", "open"}
 _LOCK = RLock()
 
 
+_YOUNG = 2.0
+"""Seconds in which a file may change again without its bytecode telling."""
+
+
 class _AsWritten(SourceFileLoader):
     """Runs a file as it is now: bytecode of the same second and size would pass for it."""
 
@@ -54,7 +59,11 @@ class _Finder(PathFinder):
         if not fullname.startswith(_PRIVATE):
             return None
         found = super().find_spec(fullname, path, target)
-        if found is not None and isinstance(found.loader, SourceFileLoader):
+        if (
+            found is not None
+            and isinstance(found.loader, SourceFileLoader)
+            and time.time() - Path(found.loader.path).stat().st_mtime < _YOUNG
+        ):
             found.loader = _AsWritten(found.loader.name, found.loader.path)
         return found
 

@@ -57,7 +57,7 @@ class Template:
         What the letters of its solver mean; only forms made from the chain say so, which is why
         ``digest`` leaves it out.
     figure : module, optional
-        What draws its figure, if that is one of the bank's own.
+        What draws its figure.
     """
 
     id: str
@@ -71,7 +71,7 @@ class Template:
     figure: ModuleType | None = None
 
     def __getstate__(self) -> dict[str, object]:
-        """What another process is told: where a figure of the bank's own stands."""
+        """What another process is told: where what draws the figure stands."""
         told = {one.name: getattr(self, one.name) for one in fields(self)}
         return told | {"figure": self.figure and self.figure.__file__}
 

@@ -1,10 +1,11 @@
 """Figures drawn from the numbers of a question: symbols and digits only, words stay in the text.
 
-In: the name of a figure and a number for each of its parameters. Out: one ``<svg>`` element and
-the same picture in words. Must never know: templates, questions, papers.
+In: the module of a figure and a number for each of its parameters. Out: one ``<svg>`` element and
+the same picture in words. Must never know: templates, questions, papers, which figures there are.
 
-Each module draws one figure and offers what ``_table.FigureModule`` says. Nothing here loads NumPy
-before the first figure is drawn, and matplotlib draws none: its fonts were packed once.
+A bank brings the modules; each draws one figure and offers what ``_module.FigureModule`` says. They
+draw with ``kit``, pictures with ``photographs`` besides. Nothing here loads NumPy before the first
+figure is drawn, and matplotlib draws none: its fonts were packed once.
 """
 
 from __future__ import annotations
@@ -17,53 +18,39 @@ from typing import TYPE_CHECKING
 from quizgen.errors import BankError
 from quizgen.figures._board import Board, Drawing, Line
 from quizgen.figures._figure import Figure
+from quizgen.figures._module import FigureModule, checked, name_of
 from quizgen.figures._parameters import Parameter, complete
 from quizgen.locale import languages, numbers_in
 from quizgen.maths.notation import people
 
 if TYPE_CHECKING:
     from quizgen.figures._canvas import Canvas
-    from quizgen.figures._table import FigureModule
-
-PHOTOGRAPHS = frozenset(
-    {"artefacts", "depth_of_field", "fall_off", "focus_photos", "grey_edits", "noise"}
-)
-"""Figures that are pictures of the camera."""
 
 
-def parameters(name: str, own: ModuleType | None = None) -> Mapping[str, Parameter]:
+def parameters(figure: ModuleType) -> Mapping[str, Parameter]:
     """Parameters of a figure: name to unit, meaning and default.
 
     Raises
     ------
     BankError
-        If there is no such figure.
+        If the module is no figure.
     """
-    return _module(name, own).PARAMETERS
+    return checked(figure).PARAMETERS
 
 
-def render(
-    name: str,
-    values: Mapping[str, float],
-    *,
-    quiz: bool,
-    lang: str,
-    own: ModuleType | None = None,
-) -> Figure:
+def render(figure: ModuleType, values: Mapping[str, float], *, quiz: bool, lang: str) -> Figure:
     """Draw a figure, or take it from the cache.
 
     Parameters
     ----------
-    name : str
-        A key of ``_table.FIGURES``.
+    figure : module
+        What draws it, as ``Bank.figure(name)`` gives it.
     values : mapping of str to float
-        Parameters in the units that ``parameters(name)`` names. Optional ones may be left out.
+        Parameters in the units that ``parameters(figure)`` names. Optional ones may be left out.
     quiz : bool
         Hide what the question asks for.
     lang : str
         Language of the alt text; the drawing itself has no words.
-    own : module, optional
-        What draws it, if it is a bank's own.
 
     Returns
     -------
@@ -73,41 +60,27 @@ def render(
     Raises
     ------
     BankError
-        If the figure, a parameter or the language is unknown, or a value cannot be drawn.
+        If the module is no figure, a parameter or the language is unknown, or a value cannot be
+        drawn.
     """
     if lang not in languages():
         known = ", ".join(languages())
+        name = name_of(figure)
         raise BankError(f"figure {name!r}: no alt text in {lang!r}, only in {known}")
-    full = completed(name, values, own)
-    return _render(_module(name, own), tuple(full.items()), quiz, lang)
+    return _render(checked(figure), tuple(completed(figure, values).items()), quiz, lang)
 
 
-def in_words(
-    name: str,
-    values: Mapping[str, float],
-    *,
-    quiz: bool,
-    lang: str,
-    own: ModuleType | None = None,
-) -> str:
+def in_words(figure: ModuleType, values: Mapping[str, float], *, quiz: bool, lang: str) -> str:
     """What a figure shows, in words, without drawing it; parameters and errors as of ``render``."""
-    return _words(_module(name, own), completed(name, values, own), lang, quiz=quiz)
+    return _told(checked(figure), completed(figure, values), lang, quiz=quiz)
 
 
-def completed(
-    name: str, values: Mapping[str, float], own: ModuleType | None = None
-) -> dict[str, float]:
+def completed(figure: ModuleType, values: Mapping[str, float]) -> dict[str, float]:
     """All parameters of a figure, those left out at their defaults; errors as of ``render``."""
-    return complete(name, parameters(name, own), values)
+    return complete(name_of(figure), parameters(figure), values)
 
 
-def _module(name: str, own: ModuleType | None) -> FigureModule:
-    from quizgen.figures._table import checked, figure_module
-
-    return checked(name, own) if own else figure_module(name)
-
-
-def _words(module: FigureModule, values: Mapping[str, float], lang: str, *, quiz: bool) -> str:
+def _told(module: FigureModule, values: Mapping[str, float], lang: str, *, quiz: bool) -> str:
     return numbers_in(lang, people.names_in(module.alt(values, lang, quiz=quiz)))
 
 
@@ -115,7 +88,7 @@ def _words(module: FigureModule, values: Mapping[str, float], lang: str, *, quiz
 def _render(
     module: FigureModule, items: tuple[tuple[str, float], ...], quiz: bool, lang: str
 ) -> Figure:
-    words = _words(module, dict(items), lang, quiz=quiz)
+    words = _told(module, dict(items), lang, quiz=quiz)
     return Figure(_drawn(module, items, quiz).written_in(lang), words, lang, module.DARK)
 
 

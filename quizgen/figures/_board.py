@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from quizgen.figures._figure import Figure
 from quizgen.figures._numbers import given
-from quizgen.figures._words import words_of
+from quizgen.locale import table
 from quizgen.maths.notation.people import name
 
 if TYPE_CHECKING:
@@ -90,7 +90,7 @@ class Drawing:
     @property
     def alt(self) -> str:
         """The picture in words, without drawing it."""
-        words, board = words_of("board", self.lang), self.board
+        words, board = table(self.lang, "figures")["board"], self.board
         told = words["solved" if self.lines else "empty"]
         told += words["field"].format(*map(given, board.view), *map(given, board.grid))
         if board.given:

@@ -8,18 +8,19 @@ from __future__ import annotations
 from base64 import b64encode
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import Final, NamedTuple
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from quizgen.figures._letters import outline
 from quizgen.locale import numbers_in
 from quizgen.png import encode
 
-MOVE, LINE, CURVE, CLOSE = (np.uint8(code) for code in (1, 2, 3, 79))
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+MOVE, LINE, CURVE, CLOSE = 1, 2, 3, 79
 """Codes of the points of a path, as fonts have them; a curve has its control point first."""
-_CONTROL: Final = np.uint8(4)
+_CONTROL: Final = 4
 """The control point of a curve, told from its end."""
 _FORMS: Final = {1: "M %g %g", 2: "L %g %g", 3: "%g %g", 4: "Q %g %g"}
 BLACK: Final = "#000000"
@@ -145,12 +146,16 @@ def _part(name: str, data: str, style: str = "") -> str:
 
 
 def _flipped(points: NDArray[np.float64], height: float) -> NDArray[np.float64]:
+    import numpy as np
+
     return np.round((0.0, height) + np.round(points, 2) * (1.0, -1.0), 2) + 0.0
 
 
 @lru_cache(maxsize=64)
 def _png(codes: bytes, shape: tuple[int, ...]) -> bytes:
     """A photograph: a solution shows again what its question showed."""
+    import numpy as np
+
     return encode(np.frombuffer(codes, np.uint8).reshape(shape))
 
 
@@ -164,6 +169,8 @@ def _label(label: Label, height: float) -> str:
 
 def _commands(points: NDArray[np.float64], codes: NDArray[np.uint8], *, closed: bool) -> str:
     """Drawing commands of SVG; an outline that closes goes back to its start first."""
+    import numpy as np
+
     curves = codes == CURVE
     kinds = np.where(curves & (np.cumsum(curves) % 2 == 1), _CONTROL, codes)
     closing = codes == CLOSE
@@ -172,5 +179,5 @@ def _commands(points: NDArray[np.float64], codes: NDArray[np.uint8], *, closed: 
         points = points[np.where(closing, starts, np.arange(len(codes)))]
     else:
         points = points[~closing]
-    forms = {**_FORMS, int(CLOSE): "L %g %g z" if closed else "z"}
+    forms = {**_FORMS, CLOSE: "L %g %g z" if closed else "z"}
     return " ".join([forms[kind] for kind in kinds.tolist()]) % tuple(points.ravel().tolist())

@@ -13,11 +13,13 @@ from __future__ import annotations
 import re
 from functools import cache, lru_cache
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-import numpy as np
 from msgspec import msgpack
-from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 PACKED = Path(__file__).with_name("letters.msgpack")
 UNITS = 6400.0
@@ -53,6 +55,8 @@ def _packed() -> tuple[dict[str, Packed], dict[str, Packed]]:
 
 @cache
 def _glyph(character: str, italic: bool) -> Outline:
+    import numpy as np
+
     found = _packed()[italic].get(character)
     if found is None:
         raise LookupError(f"no glyph for {character!r}")
@@ -116,6 +120,8 @@ def _run(found: list[Run], text: str, x: float, size: float, rise: float) -> flo
 @lru_cache(maxsize=4096)
 def outline(label: str) -> Outline:
     """A label as ``runs`` lays it out: one compound path, and its advance width."""
+    import numpy as np
+
     laid, wide = runs(label)
     glyphs = [_glyph(run.text, italic=run.italic) for run in laid]
     points = [glyph.points * run.size + run.at for glyph, run in zip(glyphs, laid, strict=True)]

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from math import cos, hypot, pi, sin
+from typing import TYPE_CHECKING
 
-import numpy as np
-
-from quizgen.figures import _canvas
-from quizgen.figures._canvas import Canvas, Label, Style
+from quizgen.figures._canvas import CLOSE, MOVE, Canvas, Label, Style
+from quizgen.figures._canvas import LINE as STRAIGHT
 from quizgen.figures._letters import width
+
+if TYPE_CHECKING:
+    import numpy as np
 
 Point = tuple[float, float]
 WIDTH, HEIGHT = 312.0, 170.0
@@ -19,7 +21,6 @@ WIDTH, HEIGHT = 312.0, 170.0
 LABEL = 10.5
 """Size of labels in points."""
 
-_MOVE, _LINE, _CLOSE = int(_canvas.MOVE), int(_canvas.LINE), int(_canvas.CLOSE)
 _HEAD, _HALF = 7.0, 2.4
 _CIRCLE = [(cos(2 * pi * i / 24), sin(2 * pi * i / 24)) for i in range(24)]
 
@@ -56,12 +57,12 @@ class Pen:
         self, part: str, style: Style, points: Sequence[Point] | np.ndarray, *, closed: bool
     ) -> None:
         path, codes = self.paths.setdefault((part, style), ([], []))
-        row = points.tolist() if isinstance(points, np.ndarray) else points
+        row = points if isinstance(points, Sequence) else points.tolist()
         path += row
-        codes += [_MOVE, *[_LINE] * (len(row) - 1)]
+        codes += [MOVE, *[STRAIGHT] * (len(row) - 1)]
         if closed:
             path.append(row[0])
-            codes.append(_CLOSE)
+            codes.append(CLOSE)
 
     def line(self, part: str, points: Sequence[Point] | np.ndarray, style: Style = LINE) -> None:
         """Draw a polyline."""
@@ -161,6 +162,8 @@ class Pen:
         background : str, optional
             Colour of the paper; without it the figure is transparent.
         """
+        import numpy as np
+
         canvas.size(self.width, self.height, background)
         for (part, style), (points, codes) in self.paths.items():
             canvas.path(part, style, np.array(points, float), np.array(codes, np.uint8))

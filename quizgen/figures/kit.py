@@ -1,13 +1,21 @@
-"""What a bank's own figures are drawn with.
+"""What figures are drawn with.
 
-A figure is a module ``figures/<name>.py`` of the bank with ``PARAMETERS``, ``DARK``, ``draw`` and
-``alt``, as ``_table.FigureModule`` says; ``docs/banks.md`` shows one.
+A figure is a module ``templates/figures/<name>.py`` of a bank with ``PARAMETERS``, ``DARK``,
+``draw`` and ``alt``, as ``_module.FigureModule`` says; ``docs/banks.md`` shows one.
 """
 
 from __future__ import annotations
 
 from quizgen.figures._canvas import Canvas, Style
-from quizgen.figures._numbers import derived, equation, given
+from quizgen.figures._numbers import (
+    derived,
+    equation,
+    given,
+    numbered,
+    relation,
+    spoken,
+    statement,
+)
 from quizgen.figures._parameters import ABSENT, Parameter, Values, require
 from quizgen.figures._pen import (
     BOLD,
@@ -15,15 +23,19 @@ from quizgen.figures._pen import (
     DEEP,
     DOTTED,
     GREY,
+    HEIGHT,
     INK,
     LINE,
     RAY,
     RED,
     SHADE,
     THIN,
+    WIDTH,
     Pen,
     Point,
+    text_width,
 )
+from quizgen.figures._words import words_of
 
 __all__ = [
     "ABSENT",
@@ -32,12 +44,14 @@ __all__ = [
     "DEEP",
     "DOTTED",
     "GREY",
+    "HEIGHT",
     "INK",
     "LINE",
     "RAY",
     "RED",
     "SHADE",
     "THIN",
+    "WIDTH",
     "Canvas",
     "Parameter",
     "Pen",
@@ -47,5 +61,11 @@ __all__ = [
     "derived",
     "equation",
     "given",
+    "numbered",
+    "relation",
     "require",
+    "spoken",
+    "statement",
+    "text_width",
+    "words_of",
 ]

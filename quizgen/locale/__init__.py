@@ -9,7 +9,7 @@ other files hold its sentences:
 ============== ==================================================================
 interface      papers and their pages
 messages       what the checker and ``quizgen practice`` say
-figures        figures in words
+figures        drawings of answers in words
 speech         mathematics in words, printed and read aloud
 cards          short words on flashcards
 classes        the report of a marked exam

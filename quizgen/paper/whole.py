@@ -20,7 +20,6 @@ from msgspec import structs
 from quizgen.bank.folder import Bank
 from quizgen.bank.rules import minutes_of, points_of
 from quizgen.errors import BlueprintError
-from quizgen.figures import PHOTOGRAPHS
 from quizgen.paper.blueprint import Blueprint
 
 STEPS = 20_000
@@ -42,13 +41,9 @@ class Candidate:
     points: Fraction
     minutes: Fraction
     figure: str
+    photograph: bool
     apart: frozenset[str]
     pool: int | None
-
-    @property
-    def photograph(self) -> bool:
-        """Whether its figure is one."""
-        return self.figure in PHOTOGRAPHS
 
 
 def candidate(bank: Bank, name: str, worth: float | None) -> Candidate:
@@ -57,8 +52,15 @@ def candidate(bank: Bank, name: str, worth: float | None) -> Candidate:
     own = points_of(rules)
     points = own if worth is None else Fraction(str(worth))
     shown = rules.figure.name if rules.figure and rules.figure.quiz else ""
+    photograph = shown in bank.home(name)[0].about.photographs
     return Candidate(
-        name, points, minutes_of(rules) * points / own, shown, frozenset(rules.apart), rules.pool
+        name,
+        points,
+        minutes_of(rules) * points / own,
+        shown,
+        photograph,
+        frozenset(rules.apart),
+        rules.pool,
     )
 
 

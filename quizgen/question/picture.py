@@ -1,9 +1,8 @@
-"""The figure of a question, drawn or in words: one of ours, or one of the bank's own."""
+"""The figure of a question, drawn or in words."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from contextlib import nullcontext
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -29,14 +28,14 @@ def described(drawn: Draw, lang: str, *, quiz: bool) -> str | None:
 
 
 def _shown(show: Callable[..., Shown], drawn: Draw, lang: str, *, quiz: bool) -> Shown | None:
-    rule, own = drawn.template.rules.figure, drawn.template.figure
-    if rule is None or (quiz and not rule.quiz):
+    rule, figure = drawn.template.rules.figure, drawn.template.figure
+    if rule is None or figure is None or (quiz and not rule.quiz):
         return None
     given: Mapping[str, Any] = {name: _parameter(drawn, s) for name, s in rule.values.items()}
     with located(drawn.template.file, BankError):
-        values = completed(rule.name, given, own)
-        with authored(Path(str(own.__file__))) if own else nullcontext():
-            return show(rule.name, values, quiz=quiz, lang=lang, own=own)
+        values = completed(figure, given)
+        with authored(Path(str(figure.__file__))):
+            return show(figure, values, quiz=quiz, lang=lang)
 
 
 def _parameter(drawn: Draw, source: Scalar) -> float | str:

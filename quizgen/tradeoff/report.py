@@ -183,13 +183,14 @@ def _figure() -> Timing:
     """Time of one warm figure with a new number each time."""
     from itertools import count
 
+    from quizgen.bank.folder import builtin
     from quizgen.figures import render
 
-    sigmas = count(20)
-    render("gaussian", {"sigma": 19.0, "k": 2.0}, quiz=False, lang="en")
+    sigmas, figure = count(20), builtin().figure("gaussian")
+    render(figure, {"sigma": 19.0, "k": 2.0}, quiz=False, lang="en")
 
     def draw() -> None:
-        render("gaussian", {"sigma": float(next(sigmas)), "k": 2.0}, quiz=False, lang="en")
+        render(figure, {"sigma": float(next(sigmas)), "k": 2.0}, quiz=False, lang="en")
 
     return timed(draw, 5)
 

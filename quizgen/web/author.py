@@ -23,7 +23,7 @@ from quizgen.web.site import Site
 from quizgen.web.views import lang_of, page
 
 LEVELS = (EXAM, GUIDED, "transfer")
-FOLDERS = ("templates", "solvers", "figures")
+FOLDERS = ("templates", "solvers")
 """What a bank consists of."""
 DIGITS = 9
 """Of a seed."""

@@ -60,7 +60,7 @@ A block of {{ m }} shall be accelerated by {{ a }}.
 ## check
 $F/m$ is $a$ again.
 """,
-    "figures/block.py": """
+    "templates/figures/block.py": """
 from quizgen.figures.kit import BOLD, Canvas, Parameter, Pen, Values, equation
 
 DARK = "invert"

@@ -121,8 +121,8 @@ def test_a_bank_that_is_not_trusted_draws_nothing(tmp_path):
 
 
 def test_python_of_a_figure_that_fails_is_located(tmp_path):
-    figure = FILES["figures/block.py"].replace("pen.onto(canvas)", "pen.unto(canvas)")
-    bank = Bank(write(tmp_path, {"figures/block.py": figure}), trusted=True)
+    figure = FILES["templates/figures/block.py"].replace("pen.onto(canvas)", "pen.unto(canvas)")
+    bank = Bank(write(tmp_path, {"templates/figures/block.py": figure}), trusted=True)
     with pytest.raises(BankError, match=r"block\.py:16: AttributeError: .*unto"):
         compose(bank.template("push"))
 

@@ -106,8 +106,8 @@ def test_the_topics_of_the_built_in_bank_are_those_of_its_templates():
     assert {bank.rules(name).topic for name in bank.paths} == set(bank.topics)
 
 
-SUBJECT = {"arrays", "camera", "figures", "tradeoff"}
-"""What pictures are made with: an effect, a figure or a formula may be called as a topic is."""
+SUBJECT = {"arrays", "camera", "tradeoff"}
+"""What pictures are made with: an effect or a formula may be called as a topic or a figure is."""
 OTHERWISE = {"code", "camera", "colour"}
 """An answer kind, a command's word, and a spelling."""
 
@@ -149,19 +149,13 @@ def _texts(path: Path) -> set[object]:
 
 
 def test_the_engine_names_no_template_no_solver_and_no_figure():
-    """``figures`` holds what questions of any bank may show, as ``camera`` does what is photographed.
-
-    So their names are the engine's own words there and in the words of each language, and nowhere
-    else: whoever asks for a figure or prints one never knows which it is. A name of a single word
-    (``noise``) may stand in a sentence, but is no text of a program by itself.
-    """
-    from quizgen.figures._table import FIGURES
-
+    """A name of a single word (``noise``) may stand in a sentence, but is no text of a program."""
+    figures = builtin().figures
     word = re.compile(r"[\w/-]+")
-    named = {name for name in {*_chapter(), *FIGURES} - EXAMPLE if re.search("[-_/]", name)}
-    single = {name.rpartition("/")[2] for name in {*_chapter(), *FIGURES}} - SCENES
+    named = {name for name in {*_chapter(), *figures} - EXAMPLE if re.search("[-_/]", name)}
+    single = {name.rpartition("/")[2] for name in {*_chapter(), *figures}} - SCENES
     for path in PACKAGE.rglob("*"):
-        if path.relative_to(PACKAGE).parts[0] in SUBJECT | {"builtin", "locale"}:
+        if path.relative_to(PACKAGE).parts[0] in SUBJECT | {"builtin"}:
             continue
         if path.suffix in {".py", ".toml", ".j2", ".js"}:
             assert not {*word.findall(path.read_text("utf-8"))} & named, path

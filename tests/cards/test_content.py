@@ -308,8 +308,7 @@ def test_every_figure_card_draws_and_hides_its_answer():
     from quizgen.figures import render
 
     for entry in entries("figures"):
-        quiz, full = (
-            render(entry.figure, entry.values, quiz=quiz, lang="en") for quiz in (True, False)
-        )
+        figure = BANK.figure(entry.figure)
+        quiz, full = (render(figure, entry.values, quiz=quiz, lang="en") for quiz in (True, False))
         assert quiz.svg
         assert quiz.alt != full.alt

@@ -66,7 +66,7 @@ def test_what_does_not_run_is_said_at_once(root):
     done = run("preview", "push", "--bank", root)
     assert done.exception is not None
     assert done.stderr.startswith(
-        f"quizgen: {root} brings 2 files of Python, such as block.py; it does not run without --trust\n"
+        f"quizgen: {root} brings 2 files of Python, such as newton.py; it does not run without --trust\n"
     )
     assert run("templates", "--bank", root).exit_code == 0
 

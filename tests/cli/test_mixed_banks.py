@@ -144,7 +144,7 @@ def test_a_paper_that_cannot_be_made_again_says_which_bank_differs(root):
 
 def test_the_python_of_a_bank_that_nobody_trusts_never_runs(root, tmp_path):
     ran = tmp_path / "ran"
-    for file in (SOLVER, "figures/block.py"):
+    for file in (SOLVER, "templates/figures/block.py"):
         (root / file).write_text(RAN.format(str(ran)) + FILES[file], "utf-8")
     both = ("--bank", OURS, "--bank", root)
     for words in (

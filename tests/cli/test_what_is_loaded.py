@@ -45,7 +45,7 @@ def test_no_command_from_making_a_paper_to_marking_it_loads_sympy(place):
 
 
 @pytest.mark.parametrize("command", [
-    "practice --topic noise --database sqlite:///learnt.sqlite3",
+    "practice --topic code --seed 3 --database sqlite:///learnt.sqlite3",
     "templates",
     "sheet --topic eye --format html --out sheet",
 ])  # fmt: skip

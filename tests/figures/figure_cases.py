@@ -1,8 +1,27 @@
-"""Draws that the figure tests share: reference instances and the ends of the draw ranges."""
+"""What the figure tests share: the figures of the built-in bank, reference instances of them, and
+the ends of the draw ranges."""
 
 from __future__ import annotations
 
 import random
+
+from quizgen import figures
+from quizgen.bank.folder import builtin
+from quizgen.bank.solvers import module_of
+
+FIGURES = builtin().figures
+FOLDER = builtin().folder / "figures"
+
+
+def module(name):
+    """What draws a figure, or what these share."""
+    return module_of(FOLDER, name) if name.startswith("_") else builtin().figure(name)
+
+
+def render(name, values, **wanted):
+    """A figure by its name."""
+    return figures.render(module(name), values, **wanted)
+
 
 MOSAIC = {
     "v00": 60,

@@ -9,11 +9,12 @@ import re
 
 import numpy as np
 import pytest
+from figure_cases import module, render
 from PIL import Image
 from skimage.color import hsv2rgb, rgb2hsv
 
-from quizgen.figures import _scene, render
-from quizgen.figures.hsv_edits import edit_order
+edit_order = module("hsv_edits").edit_order
+_scene = module("_scene")
 
 
 def pictures(**values):

@@ -10,11 +10,12 @@ from xml.etree import ElementTree as ET
 import cv2
 import numpy as np
 import pytest
+from figure_cases import module, render
 from scipy.stats import norm
 
-from quizgen.figures import render
-from quizgen.figures.bayer import neighbours
-from quizgen.figures.distorted_grid import shown_extent
+neighbours = module("bayer").neighbours
+shown_extent = module("distorted_grid").shown_extent
+
 
 STEP = re.compile(r"([MLQCz])([^MLQCz]*)")
 

@@ -47,10 +47,9 @@ def test_a_letter_that_is_not_there_is_named():
 LOADED = """
 import sys
 sys.path.insert(0, sys.argv[1])
-from figure_cases import REFERENCE
-from quizgen import figures
+from figure_cases import REFERENCE, render
 for name, values in REFERENCE.items():
-    figures.render(name, values, quiz=False, lang="en").svg
+    render(name, values, quiz=False, lang="en").svg
 print(*sys.modules)
 """
 

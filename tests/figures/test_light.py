@@ -11,12 +11,10 @@ from xml.etree import ElementTree as ET
 import numpy as np
 import pytest
 import typst
-from figure_cases import REFERENCE
+from figure_cases import FIGURES, REFERENCE, render
 from PIL import Image
 
-from quizgen.figures import render
 from quizgen.figures._bends import bends
-from quizgen.figures._table import FIGURES
 
 SVG = "{http://www.w3.org/2000/svg}"
 LINK = "{http://www.w3.org/1999/xlink}href"

@@ -3,11 +3,18 @@
 from __future__ import annotations
 
 import pytest
+from figure_cases import module
 
 from quizgen.arrays import luminosity
 from quizgen.bank.draw import draw
-from quizgen.figures import artefacts, depth_of_field, focus_photos, grey_edits, noise, staircase
 from quizgen.question.kinds import build
+
+artefacts = module("artefacts")
+depth_of_field = module("depth_of_field")
+focus_photos = module("focus_photos")
+grey_edits = module("grey_edits")
+noise = module("noise")
+staircase = module("staircase")
 
 SEEDS = range(60)
 LAMPS = "two-lamps-by-day-and-by-night"

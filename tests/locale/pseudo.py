@@ -66,7 +66,7 @@ def prose(line):
 
 
 def write_bank(root, names):
-    """Write a bank of some templates in English and in accents, with one card."""
+    """Write a bank of some templates in English and in accents, with their figures and one card."""
     for name in names:
         source = builtin().paths[name]
         folder = root / "templates" / source.parent.name / name
@@ -76,6 +76,10 @@ def write_bank(root, names):
         (folder / "en.md").write_text(text, encoding="utf-8")
         lines = "\n".join(map(prose, text.split("\n")))
         (folder / f"{LANG}.md").write_text(lines, encoding="utf-8")
+    figures = root / "templates" / "figures"
+    shutil.copytree(builtin().folder / "figures", figures)
+    words = tomllib.loads((figures / "en.toml").read_text(encoding="utf-8"))
+    (figures / f"{LANG}.toml").write_text("\n".join(toml(words)) + "\n", encoding="utf-8")
     cards = root / "templates" / "cards"
     cards.mkdir()
     (cards / "vocabulary.toml").write_text(

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from types import SimpleNamespace
 
+from quizgen.bank.folder import builtin
+
 DEFAULT = {"tier": "A", "topic": "optics", "pool": None, "minutes": 5, "apart": (), "beyond": False,
            "points": 5, "figure": ""}  # fmt: skip
 
@@ -15,6 +17,7 @@ class Shelf:
         self.table = dict(table, **named)
         self.paths = dict.fromkeys(self.table)
         self.parts = (self,)
+        self.about = builtin().about
 
     def rules(self, name):
         given = {**DEFAULT, **self.table[name]}

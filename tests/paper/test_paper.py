@@ -125,7 +125,7 @@ def test_adding_a_template_changes_no_number_of_another(bank, tmp_path):
     shutil.copytree(builtin_root() / "templates", tmp_path / "templates")
     source = bank.paths["point-to-image-plane"]
     shutil.copytree(source, tmp_path / "templates" / "projection" / "A3copy")
-    larger = Bank(tmp_path)
+    larger = Bank(tmp_path, trusted=True)
     blueprint = Blueprint(
         {"en": "x"}, (SlotRule(templates=("point-to-image-plane-fractions",), count=4),), name="x"
     )

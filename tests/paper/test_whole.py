@@ -12,7 +12,6 @@ from shelf import Shelf
 from quizgen.bank.rules import minutes_of
 from quizgen.bank.traps import answer_names
 from quizgen.errors import BlueprintError
-from quizgen.figures import PHOTOGRAPHS
 from quizgen.paper.blueprint import Blueprint, SlotRule, load_blueprint
 from quizgen.paper.choose import choose
 from quizgen.paper.paper import build
@@ -128,7 +127,7 @@ def test_every_mock_is_balanced(bank):
         assert max(Counter(one.topic for one in rules).values()) <= 3
         assert len(shown) >= 6
         assert len(set(shown)) >= 4
-        assert len([name for name in shown if name in PHOTOGRAPHS]) >= 2
+        assert len([name for name in shown if name in bank.about.photographs]) >= 2
         assert not any(one.beyond for one in rules)
         assert len(set(names)) == len(names) == 20
         used.update(names)

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from quizgen.bank.draw import draw
-from quizgen.bank.folder import Bank
+from quizgen.bank.folder import Bank, builtin
 from quizgen.bank.prose import Code, Paragraph, Words
 from quizgen.figures import render
 from quizgen.locale import language
@@ -74,7 +74,7 @@ def test_programs_and_sentences_of_other_languages_stay():
 
 
 def test_figures_have_it_in_labels_and_in_words():
-    drawn = {lang: render("thin_lens", {"f": 52.5, "z": 200}, quiz=False, lang=lang)
+    drawn = {lang: render(builtin().figure("thin_lens"), {"f": 52.5, "z": 200}, quiz=False, lang=lang)
              for lang in ("en", "de")}  # fmt: skip
     for lang, sign in (("en", "."), ("de", ",")):
         labels = " ".join(label.text for label in drawn[lang].canvas.labels)

@@ -82,7 +82,7 @@ SAID = [
     ("E03", "radial-points-and-line-bow", "1 + 3*k_1*x_B^2 > 0.2"),
     ("E03", "radial-point-off-axis", "5*k_2*(x^2 + y^2)^2 > 0.2"),
     ("E03", "formulas/F20", "folds over"),
-    ("E03", "quizgen/figures/distorted_grid.py", "never folds over"),
+    ("E03", "templates/figures/distorted_grid.py", "never folds over"),
     ("E04", "hsv-edit-effects", "not the perceived brightness"),
     ("E04", "hsv-edit-from-pictures", "V$ is the largest"),
     ("E04", "traps/TR26", "0.449"),

@@ -134,9 +134,7 @@ def test_any_other_point_of_the_ray_in_front_of_the_camera_counts(bank, typed, v
 @pytest.mark.parametrize("seed", range(12))
 def test_the_numbers_asked_for_are_those_of_the_picture(bank, seed):
     """The figure's own table of permutations decides where each edit stands."""
-    from quizgen.figures.hsv_edits import edit_order
-
     one = draw(bank.template("hsv-edit-from-pictures"), seed)
-    order = edit_order(float(int(one.shown["order"].p)))
+    order = bank.figure("hsv_edits").edit_order(float(int(one.shown["order"].p)))
     expected = [["1234"[order.index(edit)]] for edit in ("V", "S", "H")]
     assert [gap[:1] for gap in build(one, 0).spec.accept] == expected

@@ -158,7 +158,7 @@ def test_authors_are_told_what_is_wrong_with_their_bank(author, root):
 
 
 def test_a_figure_that_is_saved_is_drawn_anew(root):
-    figure = root / "figures" / "own.py"
+    figure = root / "templates" / "figures" / "own.py"
     figure.parent.mkdir(exist_ok=True)
     before = stamp_of(Bank(root))
     figure.write_text("", "utf-8")

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from quizgen import figures
 from quizgen.cards.content import FigureEntry, entries
 from quizgen.cards.kinds._authored import noted
 from quizgen.cards.note import Note
 from quizgen.cards.prose import Picture
 from quizgen.cards.wish import Wish
 from quizgen.errors import BankError
+from quizgen.figures import render
 from quizgen.question.authored import passage
 
 
@@ -32,11 +32,8 @@ def notes(wish: Wish) -> Iterator[Note]:
 
 def _picture(entry: FigureEntry, wish: Wish, *, quiz: bool) -> Picture:
     try:
-        own = wish.bank.figure(entry.figure)
-        drawn = [
-            figures.render(entry.figure, entry.values, quiz=quiz, lang=lang, own=own)
-            for lang in wish.langs
-        ]
+        figure = wish.bank.figure(entry.figure)
+        drawn = [render(figure, entry.values, quiz=quiz, lang=lang) for lang in wish.langs]
     except BankError as error:
         raise BankError(f"{entry.place}: {error}") from error
-    return Picture(entry.figure, drawn[0], " / ".join(figure.alt for figure in drawn))
+    return Picture(entry.figure, drawn[0], " / ".join(one.alt for one in drawn))

@@ -5,14 +5,21 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from quizgen.figures._numbers import given, statement
-from quizgen.figures._parameters import Parameter, Values, require
-from quizgen.figures._words import words_of
+from quizgen.figures.kit import (
+    DASHED,
+    THIN,
+    Canvas,
+    Parameter,
+    Pen,
+    Values,
+    given,
+    require,
+    statement,
+    words_of,
+)
 
 if TYPE_CHECKING:
     from quizgen.camera.scene import Image
-    from quizgen.figures._canvas import Canvas
-    from quizgen.figures._pen import Pen
 
 DARK = "invert"
 
@@ -60,7 +67,6 @@ def sample(low: float, high: float, share: float, seed: int) -> Image:
 def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, leave out I_min and I_max."""
     from quizgen.camera import pictures
-    from quizgen.figures._pen import Pen
 
     require("normalisation", values["a"] < values["b"], "b must be larger than a")
     require("normalisation", values["low"] < values["high"], "high must be larger than low")
@@ -77,8 +83,7 @@ def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
 
 
 def _histogram(pen: Pen, counts: list[float], left: float, ends: tuple[str, str]) -> None:
-    from quizgen.figures._pen import THIN
-    from quizgen.figures._photo import bars
+    from quizgen.figures.photographs import bars
 
     bars(pen, counts, (left, _LOW, _WIDE, _HIGH - _LOW + 6))
     for at, text in zip((left, left + _WIDE), ends, strict=True):
@@ -87,7 +92,6 @@ def _histogram(pen: Pen, counts: list[float], left: float, ends: tuple[str, str]
 
 
 def _limits(pen: Pen, values: Values) -> None:
-    from quizgen.figures._pen import DASHED
 
     for name, level, row in (("I_{min}", values["low"], 0), ("I_{max}", values["high"], 1)):
         shown = min(max(level, -8.0), 263.0)  # limits outside the axis stand just beside it
@@ -99,7 +103,7 @@ def _limits(pen: Pen, values: Values) -> None:
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words; in a quiz, leave out I_min and I_max."""
-    words = words_of("normalisation", lang)
+    words = words_of(__file__, lang)
     told = [words["before"].format(given(values["a"]), given(values["b"])), words[_after(values)]]
     if values["share"]:
         told.insert(1, words["outliers"])

@@ -4,15 +4,26 @@ from __future__ import annotations
 
 from functools import cache
 from math import log10
-from typing import TYPE_CHECKING
 
-from quizgen.figures._numbers import derived, given, spoken
-from quizgen.figures._parameters import ABSENT, Parameter, Values, require
-from quizgen.figures._words import words_of
-
-if TYPE_CHECKING:
-    from quizgen.figures._canvas import Canvas
-    from quizgen.figures._pen import Pen, Point
+from quizgen.figures.kit import (
+    ABSENT,
+    BOLD,
+    DASHED,
+    DOTTED,
+    LINE,
+    THIN,
+    WIDTH,
+    Canvas,
+    Parameter,
+    Pen,
+    Point,
+    Values,
+    derived,
+    given,
+    require,
+    spoken,
+    words_of,
+)
 
 DARK = "keep"
 
@@ -52,8 +63,6 @@ def read(wavelength: float, *, night: bool) -> float:
 
 def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, leave out the values at the marks."""
-    from quizgen.figures._pen import WIDTH, Pen
-
     apart = len(marks(values)) < 2 or abs(values["m_1"] - values["m_2"]) >= 5
     require("luminosity", apart, "m_1 and m_2 must be at least 5 nm apart")
     told = bool(marks(values)) and not quiz
@@ -70,7 +79,6 @@ def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
 
 
 def _axes(canvas: Canvas, pen: Pen, *, logarithmic: bool) -> None:
-    from quizgen.figures._pen import LINE, THIN
 
     canvas.picture(_strip(), (_LEFT, _LOW - 9, _RIGHT - _LEFT, 8))
     pen.line("axes", [(_LEFT, _HIGH), (_LEFT, _LOW), (_RIGHT, _LOW)], LINE)
@@ -122,7 +130,6 @@ def _points(night: bool, logarithmic: bool) -> tuple[Point, ...]:
 
 
 def _curve(pen: Pen, *, night: bool, logarithmic: bool) -> None:
-    from quizgen.figures._pen import BOLD, DASHED
 
     pen.line("night" if night else "day", _points(night, logarithmic), DASHED if night else BOLD)
     beside = _NAMED[logarithmic][night]
@@ -136,8 +143,6 @@ _NAMED = {False: {True: 458.0, False: 604.0}, True: {True: 404.0, False: 690.0}}
 
 def _mark(pen: Pen, values: Values, place: int, wavelength: float, *, told: bool) -> None:
     """A mark from the axis to the name; a dot on the curve would say which one is to be read."""
-    from quizgen.figures._pen import DOTTED, THIN
-
     x = _x(wavelength)
     y = _y(read(wavelength, night=bool(values["night"])), logarithmic=bool(values["log"]))
     if told:
@@ -159,7 +164,7 @@ def _reading(values: Values, place: int, wavelength: float) -> str:
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words; in a quiz, leave out the values at the marks."""
-    words = words_of("luminosity", lang)
+    words = words_of(__file__, lang)
     told = [words["log" if values["log"] else "figure"] + words["seen" if quiz else "curves"]]
     for place, wavelength in enumerate(marks(values)):
         text = f"λ_{place + 1} = {given(wavelength)} nm"

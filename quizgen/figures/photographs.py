@@ -1,4 +1,4 @@
-"""Pictures inside a figure, framed, with their histograms; bytes that never vary."""
+"""Pictures inside a figure, framed, with their histograms; bytes that never vary. Loads NumPy."""
 
 from __future__ import annotations
 

@@ -6,13 +6,20 @@ from functools import cache
 from itertools import permutations
 from typing import TYPE_CHECKING
 
-from quizgen.figures._numbers import given, numbered, spoken
-from quizgen.figures._parameters import Parameter, Values
-from quizgen.figures._words import words_of
+from quizgen.figures.kit import (
+    WIDTH,
+    Canvas,
+    Parameter,
+    Pen,
+    Values,
+    given,
+    numbered,
+    spoken,
+    words_of,
+)
 
 if TYPE_CHECKING:
-    from quizgen.figures._canvas import Canvas
-    from quizgen.figures._scene import Colour
+    from ._scene import Colour
 
 DARK = "keep"
 
@@ -54,9 +61,9 @@ def edit_order(order: float) -> tuple[str, ...]:
 
 def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, show numbers without the edits."""
-    from quizgen.figures import _scene
-    from quizgen.figures._pen import WIDTH, Pen
-    from quizgen.figures._photo import framed
+    from quizgen.figures.photographs import framed
+
+    from . import _scene
 
     wide = (WIDTH - 3 * _GAP) / 2
     high = round(wide * _scene.HEIGHT / _scene.WIDTH)
@@ -88,7 +95,8 @@ def _palettes(values: Values) -> dict[str, tuple[Colour, ...]]:
 
     from quizgen.camera import pictures
     from quizgen.camera.filters import everywhere_alike
-    from quizgen.figures._scene import PALETTE
+
+    from ._scene import PALETTE
 
     colours = np.asarray(PALETTE, np.float32)[None] / np.float32(255.0)
     with everywhere_alike():
@@ -102,22 +110,24 @@ def _palettes(values: Values) -> dict[str, tuple[Colour, ...]]:
 
 @cache
 def _pixels(scene: int) -> bytes:
-    from quizgen.figures._scene import indices
     from quizgen.png import index_data
+
+    from ._scene import indices
 
     return index_data(indices(scene))
 
 
 def _png(scene: int, palette: tuple[Colour, ...]) -> bytes:
-    from quizgen.figures import _scene
     from quizgen.png import indexed
+
+    from . import _scene
 
     return indexed((_scene.HEIGHT, _scene.WIDTH), _pixels(scene), palette)
 
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words; in a quiz, leave out which edit made which picture."""
-    words = words_of("hsv_edits", lang)
+    words = words_of(__file__, lang)
     if quiz:
         return words["figure"] + words["quiz"]
     captions = []

@@ -6,16 +6,28 @@ A dashed line marks the diameter that still counts as sharp; lines every half ti
 from __future__ import annotations
 
 from math import floor, inf, isfinite, log10
-from typing import TYPE_CHECKING
 
-from quizgen.figures._numbers import equation, given, spoken, statement
-from quizgen.figures._parameters import ABSENT, Parameter, Values, require
-from quizgen.figures._words import words_of
-from quizgen.figures.depth_of_field import disc
+from quizgen.figures.kit import (
+    ABSENT,
+    BOLD,
+    DASHED,
+    DOTTED,
+    LINE,
+    Canvas,
+    Parameter,
+    Pen,
+    Point,
+    Style,
+    Values,
+    equation,
+    given,
+    require,
+    spoken,
+    statement,
+    words_of,
+)
 
-if TYPE_CHECKING:
-    from quizgen.figures._canvas import Canvas
-    from quizgen.figures._pen import Pen, Point
+from .depth_of_field import disc
 
 DARK = "invert"
 
@@ -42,8 +54,6 @@ def _reach(values: Values, number: str, diameter: float) -> tuple[float, float]:
 
 def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, mark neither the distance in focus nor the limits."""
-    from quizgen.figures._pen import Pen
-
     require("blur_curve", 1000 * values["s"] > 2 * values["f"], "s must exceed 2 f")
     require("blur_curve", values["s"] < values["far"], "s must lie on the axis")
     told = not quiz
@@ -74,7 +84,6 @@ def _step(end: float) -> float:
 
 
 def _axes(pen: Pen, values: Values) -> None:
-    from quizgen.figures._pen import LINE
 
     _ticks(pen, values, "far", _RIGHT - _LEFT)
     _ticks(pen, values, "high", _TOP - _LOW)
@@ -86,8 +95,6 @@ def _axes(pen: Pen, values: Values) -> None:
 
 def _ticks(pen: Pen, values: Values, axis: str, length: float) -> None:
     """Draw a line every half tick across the whole plot, and a number at every tick."""
-    from quizgen.figures._canvas import Style
-
     end, half = values[axis], _step(values[axis]) / 2
     for count in range(1, round(end / half) + 1):
         shift = length * count * half / end
@@ -100,7 +107,6 @@ def _ticks(pen: Pen, values: Values, axis: str, length: float) -> None:
 
 
 def _curve(pen: Pen, values: Values, number: str, name: str) -> None:
-    from quizgen.figures._pen import BOLD
 
     first, last = _seen(values, number)
     inverse = [1 / first + (1 / last - 1 / first) * k / _POINTS for k in range(_POINTS + 1)]
@@ -119,7 +125,6 @@ def _seen(values: Values, number: str) -> tuple[float, float]:
 
 
 def _limit(pen: Pen, values: Values, *, told: bool) -> None:
-    from quizgen.figures._pen import DASHED, DOTTED
 
     level = _at(values, 0, values["c"])[1]
     pen.line("limit", [(_LEFT, level), (_RIGHT, level)], DASHED)
@@ -142,7 +147,7 @@ def _answers(values: Values) -> str:
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words: both curves at every tick; in a quiz, no marks beside them."""
-    words = words_of("blur_curve", lang)
+    words = words_of(__file__, lang)
     told = [words["figure"].format(far=given(values["far"]), high=given(values["high"]))]
     step = _step(values["far"])
     places = [step * count for count in range(1, round(values["far"] / step) + 1)]

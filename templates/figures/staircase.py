@@ -3,15 +3,23 @@
 from __future__ import annotations
 
 from math import ceil, floor
-from typing import TYPE_CHECKING
 
-from quizgen.figures._numbers import derived, equation, given
-from quizgen.figures._parameters import Parameter, Values
-from quizgen.figures._words import words_of
-
-if TYPE_CHECKING:
-    from quizgen.figures._canvas import Canvas
-    from quizgen.figures._pen import Pen, Point
+from quizgen.figures.kit import (
+    BOLD,
+    DOTTED,
+    GREY,
+    LINE,
+    THIN,
+    Canvas,
+    Parameter,
+    Pen,
+    Point,
+    Values,
+    derived,
+    equation,
+    given,
+    words_of,
+)
 
 DARK = "invert"
 
@@ -50,8 +58,6 @@ def _at(value: float, level: float, n: int) -> Point:
 
 def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, leave out the line without steps, n and the step."""
-    from quizgen.figures._pen import BOLD, DOTTED, Pen
-
     n = int(values["n"])
     pen = Pen(height=182.0)
     _axes(pen, n)
@@ -74,7 +80,6 @@ def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
 
 
 def _axes(pen: Pen, n: int) -> None:
-    from quizgen.figures._pen import GREY, LINE, THIN
 
     for tenth in range(11):
         x = _at(tenth / 10, 0, n)[0]
@@ -91,7 +96,7 @@ def _axes(pen: Pen, n: int) -> None:
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words; in a quiz, leave out n and the step."""
-    words = words_of("staircase", lang)
+    words = words_of(__file__, lang)
     at = ", ".join(derived(round(jump, 3)) for jump in jumps(values))
     told = words["figure"].format(jumps=at) + words[f"ends {int(values['rule'])}"]
     if quiz:

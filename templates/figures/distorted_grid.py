@@ -10,15 +10,24 @@ from functools import lru_cache
 from math import ceil, floor, hypot
 from typing import TYPE_CHECKING
 
-from quizgen.figures._numbers import given
-from quizgen.figures._parameters import ABSENT, Parameter, Values, require
-from quizgen.figures._words import words_of
+from quizgen.figures.kit import (
+    ABSENT,
+    GREY,
+    LINE,
+    RED,
+    Canvas,
+    Parameter,
+    Pen,
+    Style,
+    Values,
+    given,
+    require,
+    words_of,
+)
 
 if TYPE_CHECKING:
     import numpy as np
 
-    from quizgen.figures._canvas import Canvas, Style
-    from quizgen.figures._pen import Pen
 
 DARK = "invert"
 
@@ -47,8 +56,6 @@ def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     BankError
         If the map folds over even on a tenth of the plane, or the principal point lies outside.
     """
-    from quizgen.figures._pen import GREY, LINE, RED, Pen
-
     foot = 0.0 if quiz else _FOOT
     pen = Pen(_SIDE + 20, _SIDE + 20 + foot)
     lines = _lines(values, shown_extent(values))
@@ -174,7 +181,7 @@ def alt(values: Values, lang: str, *, quiz: bool) -> str:
 
     In a quiz, leave the coefficients and the kind of distortion out.
     """
-    words = words_of("distorted_grid", lang)
+    words = words_of(__file__, lang)
     text = words["figure"].format(step=given(_step(values)), extent=given(shown_extent(values)))
     if quiz:
         return text

@@ -6,14 +6,20 @@ from functools import cache
 from itertools import permutations
 from typing import TYPE_CHECKING
 
-from quizgen.figures._numbers import given, numbered, spoken
-from quizgen.figures._parameters import Parameter, Values
-from quizgen.figures._words import words_of
+from quizgen.figures.kit import (
+    WIDTH,
+    Canvas,
+    Parameter,
+    Pen,
+    Values,
+    given,
+    numbered,
+    spoken,
+    words_of,
+)
 
 if TYPE_CHECKING:
     from quizgen.camera.scene import Image
-    from quizgen.figures._canvas import Canvas
-    from quizgen.figures._pen import Pen
 
 DARK = "keep"
 
@@ -66,7 +72,6 @@ def scene() -> Image:
 def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, show numbers without the noise."""
     from quizgen.camera import pictures
-    from quizgen.figures._pen import WIDTH, Pen
 
     wide = (WIDTH - 4 * _GAP) / 3
     high = wide * _HIGH / _WIDE
@@ -82,7 +87,7 @@ def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
 
 def _column(canvas: Canvas, pen: Pen, image: Image, where: tuple[float, float, float]) -> None:
     from quizgen.camera import pictures
-    from quizgen.figures._photo import histogram, place
+    from quizgen.figures.photographs import histogram, place
 
     left, wide, high = where
     codes = pictures.codes(image)[..., 0]
@@ -102,7 +107,7 @@ def _symbols(values: Values, kind: str) -> str:
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words; in a quiz, say what is seen, not which noise it is."""
-    words = words_of("noise", lang)
+    words = words_of(__file__, lang)
     told = []
     for number, kind in enumerate(noise_order(values["order"]), 1):
         seen = words[f"{kind} seen"] if quiz else f"{words[kind]}, {spoken(_symbols(values, kind))}"

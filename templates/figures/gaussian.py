@@ -3,15 +3,31 @@
 from __future__ import annotations
 
 from math import erf, erfc, exp, pi, sqrt
-from typing import TYPE_CHECKING
 
-from quizgen.figures._numbers import derived, equation, given, relation, spoken
-from quizgen.figures._parameters import ABSENT, Parameter, Values, require
-from quizgen.figures._words import words_of
-
-if TYPE_CHECKING:
-    from quizgen.figures._canvas import Canvas, Style
-    from quizgen.figures._pen import Pen, Point
+from quizgen.figures.kit import (
+    ABSENT,
+    DASHED,
+    DEEP,
+    DOTTED,
+    LINE,
+    THIN,
+    WIDTH,
+    Canvas,
+    Parameter,
+    Pen,
+    Point,
+    Style,
+    Values,
+    derived,
+    equation,
+    given,
+    relation,
+    require,
+    spoken,
+    text_width,
+    words_of,
+)
+from quizgen.figures.kit import Style as Stroke
 
 DARK = "invert"
 
@@ -44,8 +60,6 @@ def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     BankError
         If marks are asked for on several curves.
     """
-    from quizgen.figures._pen import Pen
-
     several = "sigma2" in values or "sigma3" in values
     require("gaussian", not (several and values["k"]), "marks need a single curve")
     pen = Pen()
@@ -85,7 +99,6 @@ def _intervals(values: Values) -> list[tuple[float, float]]:
 
 
 def _shade(pen: Pen, values: Values) -> None:
-    from quizgen.figures._pen import DEEP
 
     for start, stop in _intervals(values):
         curve = _samples(values, values["sigma"], start, stop)
@@ -93,7 +106,6 @@ def _shade(pen: Pen, values: Values) -> None:
 
 
 def _axes(pen: Pen, values: Values) -> None:
-    from quizgen.figures._pen import LINE, THIN
 
     pen.arrow("axis", (_LEFT - 8, _BASE), (_RIGHT + 8, _BASE), LINE)
     pen.arrow("axis", (_LEFT, _BASE - 6), (_LEFT, 160), LINE)
@@ -123,7 +135,6 @@ def _ticks(pen: Pen, values: Values, sign: int) -> None:
 
 
 def _foot(pen: Pen, values: Values, u: float) -> None:
-    from quizgen.figures._pen import DASHED, THIN
 
     x, y = _place(values, values["sigma"], u)
     if abs(u) == values["k"]:
@@ -134,8 +145,6 @@ def _foot(pen: Pen, values: Values, u: float) -> None:
 
 def _tick(pen: Pen, values: Values, u: float, symbol: str) -> None:
     """Name a place under the axis: the number, and below it the symbol."""
-    from quizgen.figures._pen import THIN
-
     x, _ = _place(values, values["sigma"], u)
     pen.line("ticks", [(x, _BASE - 3), (x, _BASE + 3)], THIN)
     pen.label((x, _BASE - 11), given(values["mu"] + u * values["sigma"]), size=9.5)
@@ -154,7 +163,6 @@ def _curves(pen: Pen, values: Values) -> None:
 
 
 def _style(number: int) -> Style:
-    from quizgen.figures._canvas import Style as Stroke
 
     return Stroke(1.4, dashes=((), (5.0, 2.5), (1.6, 2.0))[number])
 
@@ -172,7 +180,6 @@ def _peak_labels(pen: Pen, values: Values, *, quiz: bool) -> None:
 
 
 def _peak_label(pen: Pen, values: Values, *, quiz: bool) -> None:
-    from quizgen.figures._pen import DOTTED
 
     x, y = _place(values, values["sigma"], 0)
     pen.line("peak", [(_LEFT, y), (x, y)], DOTTED)
@@ -211,7 +218,6 @@ def _probability_text(values: Values, *, quiz: bool) -> str:
 
 
 def _probability_label(pen: Pen, values: Values, *, quiz: bool) -> None:
-    from quizgen.figures._pen import THIN, WIDTH, text_width
 
     text = _probability_text(values, quiz=quiz)
     width = text_width(text, 10)
@@ -238,7 +244,7 @@ def alt(values: Values, lang: str, *, quiz: bool) -> str:
 
     In a quiz, leave the density at the mean and the probability out.
     """
-    words = words_of("gaussian", lang)
+    words = words_of(__file__, lang)
     text = words["figure"].format(
         mu=given(values["mu"]), sigmas=words["and"].join(given(s) for s in _sigmas(values))
     )

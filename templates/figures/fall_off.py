@@ -8,15 +8,28 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from quizgen.figures._numbers import derived, given, spoken, statement
-from quizgen.figures._parameters import Parameter, Values, require
-from quizgen.figures._words import words_of
+from quizgen.figures.kit import (
+    BOLD,
+    DOTTED,
+    GREY,
+    LINE,
+    RED,
+    THIN,
+    Canvas,
+    Parameter,
+    Pen,
+    Values,
+    derived,
+    given,
+    require,
+    spoken,
+    statement,
+    words_of,
+)
 
 if TYPE_CHECKING:
     from quizgen.camera.camera import Camera
     from quizgen.camera.scene import Scene
-    from quizgen.figures._canvas import Canvas
-    from quizgen.figures._pen import Pen
 
 DARK = "keep"
 
@@ -65,8 +78,6 @@ def share(values: Values, distance: float) -> float:
 
 def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, leave out the share at the mark."""
-    from quizgen.figures._pen import Pen
-
     require("fall_off", values["r"] <= values["extent"], "r must lie inside the picture")
     pen = Pen(height=176.0)
     _photo(canvas, pen, values)
@@ -79,8 +90,7 @@ def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
 def _photo(canvas: Canvas, pen: Pen, values: Values) -> None:
     from quizgen.camera import photographs
     from quizgen.camera.filters import everywhere_alike
-    from quizgen.figures._pen import RED
-    from quizgen.figures._photo import place
+    from quizgen.figures.photographs import place
 
     scene, camera = photographed(values)
     with everywhere_alike():
@@ -100,7 +110,6 @@ def _y(light: float) -> float:
 
 
 def _axes(pen: Pen, values: Values) -> None:
-    from quizgen.figures._pen import GREY, LINE, THIN
 
     for tenth in range(1, 11):
         pen.line("grid", [(_LEFT, _y(tenth / 10)), (_RIGHT, _y(tenth / 10))], GREY)
@@ -116,7 +125,6 @@ def _axes(pen: Pen, values: Values) -> None:
 
 
 def _curve(pen: Pen, values: Values) -> None:
-    from quizgen.figures._pen import BOLD
 
     places = [values["extent"] * step / _STEPS for step in range(_STEPS + 1)]
     lights = zip(places, shares(values, places), strict=True)
@@ -124,7 +132,6 @@ def _curve(pen: Pen, values: Values) -> None:
 
 
 def _mark(pen: Pen, values: Values, *, told: bool) -> None:
-    from quizgen.figures._pen import DOTTED
 
     x, light = _x(values, values["r"]), share(values, values["r"])
     pen.line("marks", [(x, _LOW), (x, _TOP)], DOTTED)
@@ -135,7 +142,7 @@ def _mark(pen: Pen, values: Values, *, told: bool) -> None:
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words, the curve at its quarters; in a quiz, not at the mark."""
-    words = words_of("fall_off", lang)
+    words = words_of(__file__, lang)
     steps = [values["extent"] * step / 4 for step in range(5)]
     lights = zip(steps, shares(values, steps), strict=True)
     read = "; ".join(f"{given(r)} mm: {light:.2f}" for r, light in lights)

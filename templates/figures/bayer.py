@@ -6,15 +6,22 @@ without colour. Edge neighbours point with full arrows, diagonal neighbours with
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from quizgen.figures._numbers import derived, given, relation
-from quizgen.figures._parameters import ABSENT, Parameter, Values, require
-from quizgen.figures._words import words_of
-
-if TYPE_CHECKING:
-    from quizgen.figures._canvas import Canvas, Style
-    from quizgen.figures._pen import Pen
+from quizgen.figures.kit import (
+    ABSENT,
+    BOLD,
+    THIN,
+    Canvas,
+    Parameter,
+    Pen,
+    Style,
+    Values,
+    derived,
+    given,
+    relation,
+    require,
+    words_of,
+)
+from quizgen.figures.kit import Style as Stroke
 
 DARK = "invert"
 
@@ -57,8 +64,6 @@ def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     BankError
         If the marked site lies outside the tile or has the colour that is asked for.
     """
-    from quizgen.figures._pen import BOLD, Pen
-
     _check(values)
     size = int(values["size"])
     cell = max(34.0, float(184 // size))
@@ -169,7 +174,6 @@ def _square(pen: Pen, values: Values, x: float, y: float, cell: float) -> list[t
 
 
 def _site(pen: Pen, values: Values, x: int, y: int, cell: float) -> None:
-    from quizgen.figures._canvas import Style
 
     colour = letter(values, x, y)
     square = _square(pen, values, x, y, cell)
@@ -178,8 +182,6 @@ def _site(pen: Pen, values: Values, x: int, y: int, cell: float) -> None:
 
 def _hatch(pen: Pen, values: Values, x: int, y: int, cell: float) -> None:
     """Strokes in two opposite corners, away from the letter: rising for red, falling for blue."""
-    from quizgen.figures._canvas import Style
-
     colour = letter(values, x, y)
     if colour == "G":
         return
@@ -194,7 +196,6 @@ def _hatch(pen: Pen, values: Values, x: int, y: int, cell: float) -> None:
 
 
 def _grid(pen: Pen, values: Values, x: int, y: int, cell: float) -> None:
-    from quizgen.figures._pen import THIN
 
     pen.area("cells", _square(pen, values, x, y, cell), THIN)
 
@@ -211,14 +212,12 @@ def _site_label(pen: Pen, values: Values, x: int, y: int, cell: float) -> None:
 
 
 def _mark(pen: Pen, values: Values, cell: float, style: Style) -> None:
-    from quizgen.figures._canvas import Style as Stroke
 
     square = _square(pen, values, values["x"], values["y"], cell)
     pen.area("marked", square, Stroke(style.width + 0.4))
 
 
 def _arrows(pen: Pen, values: Values, cell: float) -> None:
-    from quizgen.figures._canvas import Style
 
     x0, y0 = int(values["x"]), int(values["y"])
     foot = _foot(pen, values, cell)
@@ -238,7 +237,7 @@ def _arrows(pen: Pen, values: Values, cell: float) -> None:
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words; in a quiz, leave out which sites are used and the results."""
-    words, x, y = words_of("bayer", lang), int(values["x"]), int(values["y"])
+    words, x, y = words_of(__file__, lang), int(values["x"]), int(values["y"])
     text = words["figure"].format(
         pattern=PATTERNS[int(values["phase"])],
         size=int(values["size"]),

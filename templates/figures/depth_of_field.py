@@ -5,17 +5,24 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from quizgen.figures._numbers import derived, given, numbered
-from quizgen.figures._parameters import Parameter, Values, require
-from quizgen.figures._words import words_of
+from quizgen.figures.kit import (
+    WIDTH,
+    Canvas,
+    Parameter,
+    Pen,
+    Values,
+    derived,
+    given,
+    numbered,
+    require,
+    words_of,
+)
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
     from quizgen.camera.scene import Scene
-    from quizgen.figures._canvas import Canvas
-    from quizgen.figures._pen import Pen
 
 DARK = "keep"
 
@@ -93,8 +100,7 @@ def _scene(depths: tuple[float, ...]) -> Scene:
 
 def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, show their numbers without the f-numbers."""
-    from quizgen.figures._pen import WIDTH, Pen
-    from quizgen.figures._photo import place as put
+    from quizgen.figures.photographs import place as put
 
     _check(values)
     wide = (WIDTH - 3 * _GAP) / 2
@@ -140,7 +146,7 @@ def alt(values: Values, lang: str, *, quiz: bool) -> str:
 
     In a quiz, say how sharp the objects are instead of the f-numbers.
     """
-    words = words_of("depth_of_field", lang)
+    words = words_of(__file__, lang)
     depths = [given(values[f"z_{place}"]) for place in (1, 2, 3)]
     told = [words["figure"].format(*depths)]
     for mark, number in enumerate(f_numbers(values), 1):

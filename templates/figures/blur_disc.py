@@ -8,15 +8,26 @@ proportions as drawn.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-from quizgen.figures._numbers import equation, given, spoken, statement
-from quizgen.figures._parameters import Parameter, Values
-from quizgen.figures._words import words_of
-
-if TYPE_CHECKING:
-    from quizgen.figures._canvas import Canvas
-    from quizgen.figures._pen import Pen
+from quizgen.figures.kit import (
+    BOLD,
+    DOTTED,
+    LINE,
+    RAY,
+    SHADE,
+    THIN,
+    WIDTH,
+    Canvas,
+    Parameter,
+    Pen,
+    Style,
+    Values,
+    equation,
+    given,
+    spoken,
+    statement,
+    words_of,
+)
 
 DARK = "invert"
 
@@ -43,8 +54,6 @@ class _Layout:
 
 def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, hide the diameters of aperture and blur disc."""
-    from quizgen.figures._pen import Pen
-
     pen, place = Pen(), _layout(values)
     _cone(pen, place)
     _lens(pen)
@@ -68,7 +77,6 @@ def _layout(values: Values) -> _Layout:
 
 
 def _cone(pen: Pen, place: _Layout) -> None:
-    from quizgen.figures._pen import RAY, SHADE
 
     end = max(place.sensor, place.apex)
     beyond = _HALF * (end - place.apex) / (place.apex - _LENS)
@@ -88,7 +96,6 @@ def _cone(pen: Pen, place: _Layout) -> None:
 
 
 def _lens(pen: Pen) -> None:
-    from quizgen.figures._pen import BOLD, LINE, SHADE
 
     rim = [(7 * (1 - (i / 10) ** 2), _HALF * i / 10) for i in range(-10, 11)]
     shape = [(_LENS + x, _AXIS + y) for x, y in rim] + [(_LENS - x, _AXIS - y) for x, y in rim]
@@ -99,8 +106,6 @@ def _lens(pen: Pen) -> None:
 
 
 def _sensor(pen: Pen, place: _Layout) -> None:
-    from quizgen.figures._canvas import Style
-    from quizgen.figures._pen import LINE
 
     pen.line("sensor", [(place.sensor, _AXIS - 52), (place.sensor, _AXIS + 52)], LINE)
     disc = [(place.sensor, _AXIS - place.half_disc), (place.sensor, _AXIS + place.half_disc)]
@@ -109,7 +114,6 @@ def _sensor(pen: Pen, place: _Layout) -> None:
 
 
 def _axis(pen: Pen, place: _Layout) -> None:
-    from quizgen.figures._pen import DOTTED, THIN, WIDTH
 
     pen.line("axis", [(4, _AXIS), (WIDTH - 4, _AXIS)], THIN)
     for x in (_LENS, place.apex, place.sensor):
@@ -120,7 +124,6 @@ def _axis(pen: Pen, place: _Layout) -> None:
 
 
 def _names(pen: Pen, place: _Layout, words: dict[str, str]) -> None:
-    from quizgen.figures._pen import THIN
 
     far, near = ("z_s", "z_p") if place.sensor > place.apex else ("z_p", "z_s")
     ends = {"z_s": place.sensor, "z_p": place.apex}
@@ -138,8 +141,6 @@ def _names(pen: Pen, place: _Layout, words: dict[str, str]) -> None:
 
 def _upright(pen: Pen, x: float, half: float) -> None:
     """Draw a vertical double arrow about the axis; from outside where there is no room inside."""
-    from quizgen.figures._pen import THIN
-
     for side in (1, -1):
         start = 0.0 if half > 8 else half + 14
         pen.arrow("diameters", (x, _AXIS + side * start), (x, _AXIS + side * half), THIN)
@@ -156,7 +157,7 @@ def _labels(values: Values, *, quiz: bool) -> dict[str, str]:
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words; in a quiz, leave both diameters out."""
-    words = words_of("blur_disc", lang)
+    words = words_of(__file__, lang)
     text = words["figure"].format(z_p=given(values["z_p"]), z_s=given(values["z_s"]))
     if quiz:
         return text + words["quiz"]

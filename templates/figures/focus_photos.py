@@ -6,15 +6,21 @@ Of these four settings a permutation picks what stands at photos 1, 2 and 3; one
 from __future__ import annotations
 
 from itertools import permutations
-from typing import TYPE_CHECKING
 
-from quizgen.figures import depth_of_field
-from quizgen.figures._numbers import derived, given, numbered
-from quizgen.figures._parameters import Parameter, Values, require
-from quizgen.figures._words import words_of
+from quizgen.figures.kit import (
+    WIDTH,
+    Canvas,
+    Parameter,
+    Pen,
+    Values,
+    derived,
+    given,
+    numbered,
+    require,
+    words_of,
+)
 
-if TYPE_CHECKING:
-    from quizgen.figures._canvas import Canvas
+from . import depth_of_field
 
 DARK = "keep"
 
@@ -48,8 +54,7 @@ def settings(values: Values) -> tuple[depth_of_field.Setting, ...]:
 
 def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, show their numbers without the settings."""
-    from quizgen.figures._pen import WIDTH, Pen
-    from quizgen.figures._photo import place as put
+    from quizgen.figures.photographs import place as put
 
     nearest = min(values[f"z_{place}"] for place in (1, 2, 3))
     require("focus_photos", 1000 * nearest > 2 * values["f"], "objects must be beyond 2 f")
@@ -68,7 +73,7 @@ def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words; in a quiz, say what looks sharp instead of the settings."""
-    words = words_of("focus_photos", lang)
+    words = words_of(__file__, lang)
     depths = [values[f"z_{place}"] for place in (1, 2, 3)]
     told = [words["figure"].format(*map(given, depths))]
     for mark, (s, number) in enumerate(settings(values), 1):

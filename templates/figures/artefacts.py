@@ -6,8 +6,7 @@ from collections.abc import Mapping
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
-from quizgen.figures._parameters import Parameter, Values
-from quizgen.figures._words import words_of
+from quizgen.figures.kit import WIDTH, Canvas, Parameter, Pen, Values, words_of
 
 if TYPE_CHECKING:
     import numpy as np
@@ -15,7 +14,6 @@ if TYPE_CHECKING:
 
     from quizgen.camera.camera import Camera
     from quizgen.camera.scene import Colour, Scene, Thing
-    from quizgen.figures._canvas import Canvas
 
 DARK = "keep"
 
@@ -80,8 +78,7 @@ CAPTIONS: Mapping[str, str] = {
 
 def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, leave out the symbols of the cause."""
-    from quizgen.figures._pen import WIDTH, Pen
-    from quizgen.figures._photo import place
+    from quizgen.figures.photographs import place
 
     kind = KINDS[int(values["kind"])]
     wide = (WIDTH - 3 * _GAP) / 2
@@ -259,7 +256,7 @@ def _street(side: float) -> tuple[Thing, ...]:
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words; in a quiz, say what is seen, not what it is called."""
-    words = words_of("artefacts", lang)
+    words = words_of(__file__, lang)
     kind = KINDS[int(values["kind"])]
     way = _WAYS[int(values["way"])] if kind == "rolling shutter" else "seen"
     told = f"{words['figure']} {words[f'{kind} {way}']}"

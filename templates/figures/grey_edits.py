@@ -6,16 +6,22 @@ from functools import cache
 from itertools import permutations
 from typing import TYPE_CHECKING
 
-from quizgen.figures._numbers import given, numbered
-from quizgen.figures._parameters import Parameter, Values, require
-from quizgen.figures._words import words_of
+from quizgen.figures.kit import (
+    WIDTH,
+    Canvas,
+    Parameter,
+    Pen,
+    Values,
+    given,
+    numbered,
+    require,
+    words_of,
+)
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from quizgen.figures._canvas import Canvas
-    from quizgen.figures._pen import Pen
 
 DARK = "keep"
 
@@ -78,8 +84,6 @@ def scene() -> NDArray[np.uint8]:
 
 def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, show numbers without the edits."""
-    from quizgen.figures._pen import WIDTH, Pen
-
     require("grey_edits", values["low"] < values["high"], "high must be larger than low")
     wide = (WIDTH - 3 * _GAP) / 2
     high = wide * _HIGH / _WIDE
@@ -103,7 +107,7 @@ def _edited(edit: str, values: Values) -> NDArray[np.uint8]:
 
 
 def _photo(canvas: Canvas, pen: Pen, codes: NDArray[np.uint8], where: tuple[float, ...]) -> None:
-    from quizgen.figures._photo import histogram, place
+    from quizgen.figures.photographs import histogram, place
 
     left, low, wide, high = where
     place(canvas, pen, codes, (left, low + _TICKS + _HISTOGRAM + 3, wide, high))
@@ -121,7 +125,7 @@ def _symbols(values: Values, edit: str) -> str:
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words: what is seen in a quiz, else which edit it is."""
-    words = words_of("grey_edits", lang)
+    words = words_of(__file__, lang)
     fill = {name: given(values[name]) for name in ("n", "low", "high", "s")}
     told = [
         f"{number}: {words[edit + ' seen' if quiz else edit].format(**fill)}"

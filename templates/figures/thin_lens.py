@@ -8,15 +8,26 @@ nearer end of that range, with a break mark on the axis.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-from quizgen.figures._numbers import equation, given, spoken, statement
-from quizgen.figures._parameters import Parameter, Values
-from quizgen.figures._words import words_of
-
-if TYPE_CHECKING:
-    from quizgen.figures._canvas import Canvas
-    from quizgen.figures._pen import Pen
+from quizgen.figures.kit import (
+    BOLD,
+    DASHED,
+    DOTTED,
+    LINE,
+    SHADE,
+    WIDTH,
+    Canvas,
+    Parameter,
+    Pen,
+    Style,
+    Values,
+    equation,
+    given,
+    spoken,
+    statement,
+    text_width,
+    words_of,
+)
 
 DARK = "invert"
 
@@ -54,8 +65,6 @@ class _Layout:
 
 def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, hide the image distance."""
-    from quizgen.figures._pen import Pen
-
     pen, place = Pen(), _layout(values)
     _lens(pen, place)
     if place.image is None:
@@ -75,7 +84,6 @@ def _image_distance(values: Values) -> float | None:
 
 
 def _layout(values: Values) -> _Layout:
-    from quizgen.figures._pen import WIDTH
 
     ratio = values["z"] / values["f"]
     if ratio == 1:
@@ -90,7 +98,6 @@ def _layout(values: Values) -> _Layout:
 
 
 def _lens(pen: Pen, place: _Layout) -> None:
-    from quizgen.figures._pen import LINE, SHADE, WIDTH
 
     half = min(max(place.height * max(1.0, abs(place.magnification)) + 8, 50.0), 62.0)
     rim = [(6 * (1 - (i / 10) ** 2), half * i / 10) for i in range(-10, 11)]
@@ -113,7 +120,6 @@ def _real_rays(pen: Pen, place: _Layout, image: float) -> None:
 
 
 def _virtual_rays(pen: Pen, place: _Layout, image: float) -> None:
-    from quizgen.figures._pen import DASHED
 
     tip, top = place.at(-place.object, 1), -place.magnification
     back = place.at(image, top)
@@ -144,8 +150,6 @@ def _way(start: tuple[float, float], end: tuple[float, float]) -> tuple[float, f
 
 
 def _arrows(pen: Pen, place: _Layout) -> None:
-    from quizgen.figures._canvas import Style
-    from quizgen.figures._pen import BOLD
 
     pen.arrow("object", place.at(-place.object, 0), place.at(-place.object, 1), BOLD)
     if place.image is not None:
@@ -173,7 +177,6 @@ def _measures(pen: Pen, place: _Layout, values: Values, *, quiz: bool) -> None:
 
 
 def _measure(pen: Pen, place: _Layout, x: float, row: float, text: str) -> None:
-    from quizgen.figures._pen import DOTTED
 
     for end in (0.0, x):
         at = place.at(end, 0)
@@ -184,8 +187,6 @@ def _measure(pen: Pen, place: _Layout, x: float, row: float, text: str) -> None:
 
 def _free_side(place: _Layout, x: float, text: str) -> str:
     """Choose the side of a short measure on which no helper line crosses its label."""
-    from quizgen.figures._pen import text_width
-
     if x > 0:
         return "r"
     farthest = max(place.object, -(place.image or 0.0))
@@ -204,7 +205,7 @@ def _labels(values: Values, *, quiz: bool) -> dict[str, str]:
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words; in a quiz, leave the image distance out."""
-    image, words = _image_distance(values), words_of("thin_lens", lang)
+    image, words = _image_distance(values), words_of(__file__, lang)
     text = words["figure"].format(f=given(values["f"]), z=given(values["z"]))
     if quiz:
         return text + words["quiz"]

@@ -8,15 +8,31 @@ of that range and the axis carries a break mark. Height and depth have scales of
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-from quizgen.figures._numbers import derived, equation, relation, spoken, statement
-from quizgen.figures._parameters import Parameter, Values, require
-from quizgen.figures._words import words_of
-
-if TYPE_CHECKING:
-    from quizgen.figures._canvas import Canvas
-    from quizgen.figures._pen import Pen
+from quizgen.figures.kit import (
+    BOLD,
+    DASHED,
+    DEEP,
+    DOTTED,
+    HEIGHT,
+    LINE,
+    RAY,
+    SHADE,
+    THIN,
+    WIDTH,
+    Canvas,
+    Parameter,
+    Pen,
+    Values,
+    derived,
+    equation,
+    relation,
+    require,
+    spoken,
+    statement,
+    text_width,
+    words_of,
+)
 
 DARK = "invert"
 
@@ -72,8 +88,6 @@ def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     BankError
         If the scene point lies on the axis or in the image plane.
     """
-    from quizgen.figures._pen import Pen
-
     _check(values)
     pen, words = Pen(), _labels(values, quiz=quiz)
     place = _layout(values, words)
@@ -111,7 +125,6 @@ def _labels(values: Values, *, quiz: bool) -> dict[str, str]:
 
 
 def _layout(values: Values, words: dict[str, str]) -> _Layout:
-    from quizgen.figures._pen import HEIGHT, WIDTH, text_width
 
     f, p_z = values["f"] * _scale(values), values["p_z"]
     point_is_far, ratio = p_z > f, min(f, p_z) / max(f, p_z)
@@ -137,7 +150,6 @@ def _most(gap: float, physical: float, point_is_far: bool) -> float:
 
 
 def _triangles(pen: Pen, place: _Layout) -> None:
-    from quizgen.figures._pen import BOLD, DEEP, RAY, SHADE
 
     for part, depth, tone in (("outer", 1.0, SHADE), ("inner", place.near, DEEP)):
         pen.area(part, [place.at(0, 0), place.at(depth, 0), place.at(depth, depth)], tone)
@@ -147,7 +159,6 @@ def _triangles(pen: Pen, place: _Layout) -> None:
 
 
 def _axes(pen: Pen, place: _Layout, values: Values) -> None:
-    from quizgen.figures._pen import LINE
 
     start = 6.0 if values["physical"] else place.o_x - 10
     end = (place.o_x + place.length + 26, place.o_y)
@@ -161,7 +172,6 @@ def _axes(pen: Pen, place: _Layout, values: Values) -> None:
 
 
 def _planes(pen: Pen, place: _Layout) -> None:
-    from quizgen.figures._pen import DOTTED, LINE, THIN
 
     top = place.height * place.plane + 9
     pen.line("plane", [place.beside(place.plane, -9), place.beside(place.plane, top)], LINE)
@@ -182,7 +192,6 @@ def _planes(pen: Pen, place: _Layout) -> None:
 
 
 def _physical(pen: Pen, place: _Layout) -> None:
-    from quizgen.figures._pen import DASHED, DEEP
 
     depth = place.plane
     pen.area("physical", [place.at(0, 0), place.at(-depth, 0), place.at(-depth, -depth)], DEEP)
@@ -221,7 +230,7 @@ def _points(pen: Pen, place: _Layout, *, physical: bool) -> None:
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words; in a quiz, leave the height of the image point out."""
-    words = words_of("pinhole", lang)
+    words = words_of(__file__, lang)
     labels = {name: spoken(label) for name, label in _labels(values, quiz=quiz).items()}
     told = words["figure"].format(**labels)
     if values["physical"]:
