@@ -63,30 +63,50 @@ def _repeat(length: int) -> str:
 
 
 @cache
-def _table() -> tuple[NDArray[np.uint32], NDArray[np.int64]]:
-    """Bits of the 256 literals and of the repeats, as numbers; and how many each has."""
+def _table() -> tuple[NDArray[np.uint64], NDArray[np.int64]]:
+    """Bits of a byte and what repeats it, as numbers, and how many each has.
+
+    Row 259 b + n is byte b with n repeats, row 259 (256 + b) + n its n repeats alone.
+    """
     import numpy as np
 
-    bits = [*map(_symbol, range(256)), *map(_repeat, range(_SHORTEST, _LONGEST + 1))]
-    values = np.array([int(code[::-1], 2) for code in bits], np.uint32)
-    return values, np.array([*map(len, bits)])
+    literals, wide = _numbers([_symbol(code) for code in range(256)])
+    values = np.zeros((2, 256, _ROW), np.uint64)
+    lengths = np.zeros(values.shape, np.int64)
+    values[1, :, 1], lengths[1, :, 1] = literals, wide
+    values[1, :, 2], lengths[1, :, 2] = literals | literals << wide.view(np.uint64), 2 * wide
+    repeats = [_repeat(length) for length in range(_SHORTEST, _LONGEST + 1)]
+    values[1, :, _SHORTEST:], lengths[1, :, _SHORTEST:] = _numbers(repeats)
+    values[0] = literals[:, None] | values[1] << wide.view(np.uint64)[:, None]
+    lengths[0] = wide[:, None] + lengths[1]
+    return values.ravel(), lengths.ravel()
 
 
-def _symbols(data: NDArray[np.uint8]) -> NDArray[np.intp]:
-    """Rows of the table: each run is its byte, long repeats of it, and what is left."""
+_ROW = _LONGEST + 1
+
+
+def _numbers(codes: list[str]) -> tuple[NDArray[np.uint64], NDArray[np.int64]]:
     import numpy as np
 
-    starts = np.flatnonzero(np.diff(data, prepend=data[0] ^ 1))
-    long, left = np.divmod(np.diff(starts, append=len(data)) - 1, _LONGEST)
-    short = left < _SHORTEST
-    counts = 1 + long + np.where(short, left, 1)
-    symbols = np.repeat(data[starts].astype(np.intp), counts)
-    ends = np.cumsum(counts)
-    symbols[ends[~short] - 1] = 256 + left[~short] - _SHORTEST
-    for run in np.flatnonzero(long).tolist():
-        first = ends[run] - counts[run] + 1
-        symbols[first : first + long[run]] = 256 + _LONGEST - _SHORTEST
-    return symbols
+    return np.array([int(code[::-1], 2) for code in codes], np.uint64), np.array([*map(len, codes)])
+
+
+def _runs(data: NDArray[np.uint8]) -> NDArray[np.intp]:
+    """Rows of the table, one for each run; a run that is too long takes more."""
+    import numpy as np
+
+    ends = np.append((data[1:] != data[:-1]).nonzero()[0], len(data) - 1)
+    repeats = ends.copy()
+    repeats[1:] -= ends[:-1] + 1
+    rows = data[ends].astype(np.intp) * _ROW
+    long = (repeats > _LONGEST).nonzero()[0]
+    if not long.size:
+        return rows + repeats
+    full, left = np.divmod(repeats[long] - _LONGEST, _LONGEST)
+    alone = rows[long] + 256 * _ROW
+    pieces = np.repeat(alone + _LONGEST, full + 1)
+    pieces[np.cumsum(full + 1) - 1] = alone + left
+    return np.insert(rows + np.minimum(repeats, _LONGEST), np.repeat(long + 1, full + 1), pieces)
 
 
 def deflate(data: NDArray[np.uint8]) -> bytes:
@@ -105,18 +125,20 @@ def deflate(data: NDArray[np.uint8]) -> bytes:
     import numpy as np
 
     values, lengths = _table()
-    symbols = _symbols(data)
-    ends = len(_HEADER) + np.cumsum(lengths[symbols])
-    at = ends - lengths[symbols]
-    words = values[symbols] << (at % 8).astype(np.uint32)
+    rows = _runs(data)
+    at = lengths[rows]
+    ends = len(_HEADER) + np.cumsum(at)
+    np.subtract(ends, at, out=at)
     size = (int(ends[-1]) + len(_END) + 7) // 8
-    packed, first = np.zeros(size + 4), at // 8
-    for place in range(4):  # bits of different symbols never meet, so that adding joins them
-        part = words >> np.uint32(8 * place) & np.uint32(255)
-        packed[place : place + size] += np.bincount(first, part, size)
-    packed[0] += int(_HEADER[::-1], 2)
-    stream = packed[:size].astype(np.uint8).tobytes()
-    return b"\x78\x01" + stream + pack(">I", adler32(data.tobytes()))
+    # Bits of different runs never meet, so that adding joins them; up to 15 + 27 bits from the
+    # start of a word on, which floats add exactly.
+    joined = np.bincount(at >> 4, values[rows] << (at & 15).view(np.uint64), size // 2 + 3)
+    words = joined.astype(np.uint64)
+    words[0] += int(_HEADER[::-1], 2)
+    stream = words.copy()
+    for place in (1, 2):
+        stream[place:] |= words[:-place] >> np.uint64(16 * place)
+    return b"\x78\x01" + stream.astype("<u2").tobytes()[:size] + pack(">I", adler32(data.data))
 
 
 def index_data(indices: NDArray[np.uint8]) -> bytes:
@@ -164,14 +186,22 @@ def encode(codes: NDArray[np.uint8]) -> bytes:
     bytes
         A PNG file, the same with every version of zlib.
     """
-    if codes.ndim == 3 and (codes == codes[..., :1]).all():
-        codes = codes[..., 0]
+    codes = _one_if_alike(codes)
     height, width = codes.shape[:2]
     rows = codes.reshape(height, -1)
     filtered = _led(rows, 2)
     filtered[1:, 1:] -= rows[:-1]  # flat areas become runs of zeros
     kind = _GREY if codes.ndim == 2 else _RGB
     return _file((height, width), kind, (b"IDAT", deflate(filtered.ravel())))
+
+
+def _one_if_alike(codes: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """Three equal channels as one."""
+    import numpy as np
+
+    if codes.ndim == 3 and all(np.array_equal(codes[..., 0], codes[..., at]) for at in (1, 2)):
+        return codes[..., 0]
+    return codes
 
 
 def _led(rows: NDArray[np.uint8], way: int) -> NDArray[np.uint8]:
@@ -218,8 +248,7 @@ def small(codes: NDArray[np.uint8]) -> bytes:
     """
     import numpy as np
 
-    if codes.ndim == 3 and (codes == codes[..., :1]).all():
-        codes = codes[..., 0]
+    codes = _one_if_alike(codes)
     if codes.ndim == 2:
         return _filtered(codes, _GREY)
     colours, indices = np.unique(codes @ np.array([1 << 16, 1 << 8, 1]), return_inverse=True)
