@@ -68,10 +68,14 @@ class Layer:
     @property
     def even(self) -> bool:
         """Whether it has a single colour and covers everything."""
-        first = self.colour[0, 0]
-        whole = self.cover is None and bool((self.colour[0] == first).all())
-        return whole and all(bool((row == first).all()) for row in self.colour)
+        if self.cover is not None or not (self.colour[0] == self.colour[0, 0]).all():
+            return False
+        bands = range(0, len(self.colour), _ROWS)
+        return all((self.colour[at : at + _ROWS] == self.colour[0]).all() for at in bands)
 
+
+_ROWS = 64
+"""Rows looked at at once."""
 
 Stack = tuple[Layer, ...]
 Box = tuple[slice, slice]
@@ -97,10 +101,18 @@ def lay_over(layer: Layer, picture: Image) -> Image:
     height = max(1, _BAND // max(1, columns.stop - columns.start))
     for start in range(rows.start, rows.stop, height):
         part = slice(start, min(start + height, rows.stop)), columns
-        behind = picture[part]
-        behind *= np.float32(1.0) - cover[part]
-        behind += layer.colour[part]
+        _blend(picture[part], np.float32(1.0) - cover[part], layer.colour[part])
     return picture
+
+
+def _blend(behind: Image, keep: Image, image: Image) -> None:
+    """Keep a share of what is behind, one for all channels or one for each, and add an image."""
+    if keep.shape == behind.shape:
+        behind *= keep
+    else:
+        for channel in range(behind.shape[2]):  # far faster than NumPy's loops over three values
+            behind[..., channel] *= keep[..., 0]
+    behind += image
 
 
 def content(cover: Image) -> Box:
@@ -241,14 +253,16 @@ _BAND = 1 << 16
 """Pixels drawn at once, about, so that what lies in between stays small."""
 
 
-def _extent(thing: Thing) -> float:
-    """Distance from a thing's centre beyond which it covers nothing, soft edge included, px."""
+def _extent(thing: Thing) -> tuple[float, float]:
+    """Across and down from a thing's centre, where it covers nothing, soft edge included, px."""
+    if thing.shape == "box" and not thing.angle:
+        return thing.width.value / 2 + 1.0, thing.height.value / 2 + 1.0
     if thing.shape in ("grid", "full") or (thing.shape == "blades" and thing.count == 1):
-        return math.inf
+        return math.inf, math.inf
     far = reach(thing) + thing.stroke.value
     if thing.shape == "ellipse":  # the edge of a thin one is softer along its length
         far *= 1.0 + 1.0 / min(thing.width.value, thing.height.value)
-    return far
+    return far, far
 
 
 def _within(middle: float, far: float, length: int) -> tuple[int, int]:
@@ -263,9 +277,9 @@ def _within(middle: float, far: float, length: int) -> tuple[int, int]:
 
 def _parts(thing: Thing, view: View) -> Iterator[tuple[slice, slice]]:
     """Bands of the picture that a thing can cover."""
-    (column, row), far = _place(thing, view), _extent(thing)
-    left, right = _within(column, far, view.width)
-    top, bottom = _within(row, far, view.height)
+    (column, row), (across, down) = _place(thing, view), _extent(thing)
+    left, right = _within(column, across, view.width)
+    top, bottom = _within(row, down, view.height)
     rows = max(1, _BAND // max(1, right - left))
     for start in range(top, bottom, rows) if left < right else ():
         yield slice(start, min(start + rows, bottom)), slice(left, right)
@@ -287,11 +301,17 @@ def _draw_part(thing: Thing, view: View, part: tuple[slice, slice]) -> tuple[Ima
     distance = SHAPES[thing.shape](thing, x, y)
     cover = np.clip(0.5 - distance, 0.0, 1.0).astype(np.float32)[..., None]
     texture, colour = TEXTURES[thing.texture], np.asarray(thing.colour, np.float32)
+    image = np.empty((*cover.shape[:2], 3), np.float32)
     if texture is None:
-        return cover * colour, cover
-    share = texture(thing, x, y).astype(np.float32)[..., None]
-    other = np.asarray(thing.other, np.float32)
-    return cover * ((np.float32(1.0) - share) * colour + share * other), cover
+        for channel in range(3):
+            np.multiply(cover[..., 0], colour[channel], out=image[..., channel])
+        return image, cover
+    share = texture(thing, x, y).astype(np.float32)
+    rest, other = np.float32(1.0) - share, np.asarray(thing.other, np.float32)
+    for channel in range(3):
+        mixed = rest * colour[channel] + share * other[channel]
+        np.multiply(cover[..., 0], mixed, out=image[..., channel])
+    return image, cover
 
 
 def reach(thing: Thing) -> float:
@@ -358,11 +378,9 @@ def _add(layer: Layer, thing: Thing, view: View) -> None:
     for part in _parts(thing, view):
         colour, cover = _draw_part(thing, view, part)
         keep = np.float32(1.0) - cover
-        for drawn, image in ((layer.cover, cover), (layer.colour, colour)):
-            if drawn is not None:
-                behind = drawn[part]
-                behind *= keep
-                behind += image
+        _blend(layer.colour[part], keep, colour)
+        if layer.cover is not None:
+            _blend(layer.cover[part], keep, cover)
 
 
 def draw(view: View) -> Stack:
