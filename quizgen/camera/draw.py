@@ -347,7 +347,12 @@ def sheets(view: View) -> tuple[Sheet, ...]:
     bare = Sheet(base, STILL, (), opaque=True)
     found = [bare]
     ordered = sorted(scene.things, key=lambda thing: -thing.depth)
-    for (depth, moves), group in groupby(ordered, key=lambda thing: _key(thing, view)):
+    focused = aperture(view.camera) is not None
+
+    def key(thing: Thing) -> tuple[float | None, Motion]:
+        return (thing.depth if focused else None), motion(thing, view)
+
+    for (depth, moves), group in groupby(ordered, key=key):
         things = tuple(group)
         if found == [bare] and moves.still and depth in (base, None):
             found[0] = Sheet(base, STILL, things, opaque=True)
@@ -356,10 +361,6 @@ def sheets(view: View) -> tuple[Sheet, ...]:
         else:
             found.append(Sheet(depth, moves, things, opaque=False))
     return tuple(found)
-
-
-def _key(thing: Thing, view: View) -> tuple[float | None, Motion]:
-    return (thing.depth if aperture(view.camera) is not None else None), motion(thing, view)
 
 
 def _background(view: View, sheet: Sheet) -> Layer:

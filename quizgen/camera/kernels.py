@@ -7,6 +7,7 @@ Pixels are area averages, so a point spread function is splatted bilinearly (pix
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
@@ -61,20 +62,25 @@ def _tents(positions: Kernel) -> Kernel:
     return np.asarray(np.maximum(0.0, 1.0 - np.abs(positions[None, :] - pixels)))
 
 
-def _between(rows: Kernel, positions: Kernel) -> Kernel:
-    """Share rows at ascending positions (px) between the pixels before and after each.
+def _sharing(positions: Kernel) -> Callable[[Kernel], Kernel]:
+    """What shares rows at ascending positions (px) between the pixels before and after each.
 
     Sums in one thread and in one order: a product of matrices takes all cores for a moment.
     """
     before = np.floor(positions).astype(int)
     share = (positions - before)[:, None]
-    starts = np.flatnonzero(np.diff(before, prepend=before[0] - 1))
-    reach = int(np.ceil(np.abs(positions).max()))
+    rest = 1.0 - share
+    starts = np.append(0, (before[1:] != before[:-1]).nonzero()[0] + 1)
+    reach = math.ceil(np.abs(positions).max())
     pixels = before[starts] + reach
-    found = np.zeros((2 * reach + 2, rows.shape[1]))
-    found[pixels] = np.add.reduceat(rows * (1.0 - share), starts)
-    found[pixels + 1] += np.add.reduceat(rows * share, starts)
-    return found[:-1]
+
+    def shared(rows: Kernel) -> Kernel:
+        found = np.zeros((2 * reach + 2, rows.shape[1]))
+        found[pixels] = np.add.reduceat(rows * rest, starts)
+        found[pixels + 1] += np.add.reduceat(rows * share, starts)
+        return found[:-1]
+
+    return shared
 
 
 @lru_cache(maxsize=64)
@@ -102,7 +108,8 @@ def disc(diameter: float) -> Kernel:
 
 def _splatted(cells: Kernel, centres: Kernel) -> Kernel:
     """Light at a grid of positions (px along both axes) on the pixels, sum 1, symmetric."""
-    kernel = _between(_between(cells, centres).T, centres).T
+    shared = _sharing(centres)
+    kernel = shared(shared(cells).T).T
     kernel = (kernel + kernel[::-1] + kernel[:, ::-1] + kernel[::-1, ::-1]) / 4.0
     return np.asarray(kernel / kernel.sum())
 

@@ -354,7 +354,8 @@ def everything(scene: Scene | Prepared, camera: Camera | None = None) -> Plan:
 def _sorted_out(view: View) -> tuple[tuple[Effect, ...], tuple[str, ...]]:
     """Effects that the camera has, and the names of those that it has not."""
     present = effects.present(view)
-    return present, tuple(effect.name for effect in effects.EFFECTS if effect not in present)
+    names = {effect.name for effect in present}
+    return present, tuple(effect.name for effect in effects.EFFECTS if effect.name not in names)
 
 
 def _report(

@@ -52,7 +52,7 @@ def test_nothing_is_drawn_outside_of_where_it_is_looked_for(monkeypatch, shape, 
         thing = Thing(shape, **where, **SHAPES[shape], count=count, angle=angle, texture="stripes")
         near = drawn(thing, height=150)
         with monkeypatch.context() as everywhere:
-            everywhere.setattr(drawing, "_extent", lambda _: np.inf)
+            everywhere.setattr(drawing, "_extent", lambda _: (np.inf, np.inf))
             assert np.array_equal(near, drawn(thing, height=150))
 
 

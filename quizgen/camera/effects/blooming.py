@@ -32,10 +32,13 @@ def run(image: Image, view: View, rung: str = "") -> Image:
 def _spill(kept: Image, excess: Image) -> Image:
     """Carry excess to the next rows until it finds room."""
     filled, carried = kept.copy(), np.zeros(kept.shape[1:], np.float32)
-    for row in range(kept.shape[0]):
+    spilling = np.flatnonzero(excess.any(axis=(1, 2)))
+    for row in range(spilling[0] if spilling.size else len(kept), len(kept)):
         level = filled[row] + carried
         filled[row] = np.minimum(level, np.float32(1.0))
         carried = level - filled[row] + excess[row]
+        if row >= spilling[-1] and not carried.any():
+            break
     return filled
 
 
