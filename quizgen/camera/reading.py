@@ -14,7 +14,7 @@ from quizgen import png
 from quizgen.arrays.gamma import srgb_decode
 from quizgen.camera import codecs, effects
 from quizgen.camera.camera import Camera, nearest
-from quizgen.camera.draw import SHAPES, SIZES, TEXTURES
+from quizgen.camera.outlines import SHAPES, SIZES, TEXTURES
 from quizgen.camera.scene import Image, Length, Scene, SceneError, SettingError, Thing
 from quizgen.camera.values import (
     Reader,

@@ -56,7 +56,7 @@ class Thing:
     Parameters
     ----------
     shape : str
-        A key of `quizgen.camera.draw.SHAPES`.
+        A key of `quizgen.camera.outlines.SHAPES`.
     x, y, width, height, radius, cell, stroke : Length
         Place and size in px, or in m at the object's depth.
     depth : float
@@ -64,7 +64,7 @@ class Thing:
     colour, other : (float, float, float)
         Linear radiance, 1 = white; lamps may exceed 1. ``other`` is the texture's second colour.
     texture : str
-        A key of `quizgen.camera.draw.TEXTURES`.
+        A key of `quizgen.camera.outlines.TEXTURES`.
     angle : float
         Rotation in rad, clockwise as seen.
     velocity : (Length, Length)

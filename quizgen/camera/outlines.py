@@ -1,0 +1,135 @@
+"""Outlines and textures of drawn things, as functions of the place along a thing's own axes, px."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quizgen.camera.scene import Thing
+
+Plane = NDArray[np.float64]
+Shape = Callable[[Thing, Plane, Plane], Plane]
+
+
+def _box(thing: Thing, x: Plane, y: Plane) -> Plane:
+    return np.maximum(np.abs(x) - thing.width.value / 2, np.abs(y) - thing.height.value / 2)
+
+
+def _disc(thing: Thing, x: Plane, y: Plane) -> Plane:
+    return np.hypot(x, y) - thing.radius.value
+
+
+def _ellipse(thing: Thing, x: Plane, y: Plane) -> Plane:
+    half_width, half_height = thing.width.value / 2, thing.height.value / 2
+    level = np.hypot(x / half_width, y / half_height)
+    slope = np.hypot(x / half_width**2, y / half_height**2)
+    return np.asarray((level - 1.0) * level / np.maximum(slope, 1e-12))
+
+
+def _grid(thing: Thing, x: Plane, y: Plane) -> Plane:
+    def to_line(position: Plane) -> Plane:
+        return np.abs(position - thing.cell.value * np.round(position / thing.cell.value))
+
+    return np.minimum(to_line(x), to_line(y)) - thing.stroke.value / 2
+
+
+def _blades(thing: Thing, x: Plane, y: Plane) -> Plane:
+    step = 2.0 * math.pi / thing.count
+    turn = np.arctan2(y, x)
+    turn -= step * np.round(turn / step)
+    distance = np.hypot(x, y)
+    along, aside = distance * np.cos(turn), distance * np.sin(turn)
+    blade = np.maximum(np.abs(aside) - thing.stroke.value / 2, along - thing.radius.value)
+    return np.asarray(np.minimum(blade, distance - thing.stroke.value * 0.8))
+
+
+def _polygon(thing: Thing, x: Plane, y: Plane) -> Plane:
+    """Distances beyond the soft edge are not computed: only near a side does its own one count."""
+    x, y = np.broadcast_arrays(x, y)
+    distance, inside = np.full(x.shape, np.inf), np.zeros(x.shape, bool)
+    rows, columns = _ends(y, 1), _ends(x, 0)
+    for (ax, ay), (bx, by) in zip(thing.points, (*thing.points[1:], thing.points[0]), strict=True):
+        squared = (bx - ax) ** 2 + (by - ay) ** 2
+        if not squared:
+            continue  # a corner given twice, such as the first one to close the outline
+        level = _near(rows, ay, by)
+        if not level.any():
+            continue
+        part = np.ix_(level, _near(columns, ax, bx))
+        across, down = x[part] - ax, y[part] - ay
+        along = np.clip((across * (bx - ax) + down * (by - ay)) / squared, 0.0, 1.0)
+        away = np.hypot(across - along * (bx - ax), down - along * (by - ay))
+        distance[part] = np.minimum(distance[part], away)
+        if ay != by:
+            crossing = (ay > y[level]) != (by > y[level])
+            inside[level] ^= crossing & (x[level] < (bx - ax) * (y[level] - ay) / (by - ay) + ax)
+    return np.where(inside, -distance, distance)
+
+
+def _ends(plane: Plane, axis: int) -> tuple[Plane, Plane]:
+    """Smallest and largest value of every row or column."""
+    return plane.min(axis=axis), plane.max(axis=axis)
+
+
+def _near(ends: tuple[Plane, Plane], start: float, stop: float) -> NDArray[np.bool_]:
+    """Rows or columns within a pixel of a side."""
+    low, high = ends
+    return np.asarray((high >= min(start, stop) - 1.0) & (low <= max(start, stop) + 1.0))
+
+
+def _full(thing: Thing, x: Plane, y: Plane) -> Plane:  # noqa: ARG001 - every shape takes the same
+    return np.full(np.broadcast_shapes(x.shape, y.shape), -np.inf)
+
+
+SHAPES: dict[str, Shape] = {
+    "box": _box,
+    "disc": _disc,
+    "ellipse": _ellipse,
+    "grid": _grid,
+    "blades": _blades,
+    "polygon": _polygon,
+    "full": _full,
+}
+"""Signed distance to the outline in px, negative inside."""
+
+SIZES = {
+    "box": ("width", "height"),
+    "disc": ("radius",),
+    "ellipse": ("width", "height"),
+    "grid": ("cell", "stroke"),
+    "blades": ("radius", "stroke"),
+    "polygon": ("points",),
+    "full": (),
+}
+"""What each shape needs."""
+
+
+def _checker(thing: Thing, x: Plane, y: Plane) -> Plane:
+    return (np.floor(x / thing.cell.value) + np.floor(y / thing.cell.value)) % 2
+
+
+def _stripes(thing: Thing, x: Plane, y: Plane) -> Plane:  # noqa: ARG001
+    return 0.5 - 0.5 * np.cos(2.0 * math.pi * x / thing.cell.value)
+
+
+def _ramp(thing: Thing, x: Plane, y: Plane) -> Plane:  # noqa: ARG001
+    return np.clip(x / max(thing.width.value, 1e-9) + 0.5, 0.0, 1.0)
+
+
+def _rings(thing: Thing, x: Plane, y: Plane) -> Plane:
+    """Rings whose period shrinks to ``cell`` at ``radius`` (a zone plate)."""
+    scale = math.pi / (thing.cell.value * max(thing.radius.value, 1.0))
+    return 0.5 - 0.5 * np.cos(scale * (x * x + y * y))
+
+
+TEXTURES: dict[str, Shape | None] = {
+    "plain": None,
+    "checker": _checker,
+    "stripes": _stripes,
+    "ramp": _ramp,
+    "rings": _rings,
+}
+"""Share of the second colour, in [0, 1]."""
