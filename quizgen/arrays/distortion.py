@@ -105,6 +105,15 @@ def _beyond(r_d: Array, k1: Array, k2: Array) -> Flags:
     return (r_d > 0) & _equation(r_d, k1, k2)[0].beyond()
 
 
+def _fold_of_barrel(radius: Array, k1: Array, k2: Array) -> bool:
+    """Fold radius of one coefficient, and whether all of them are finite and below 0."""
+    if k2.size > 1 or k2.item() != 0:
+        return False
+    np.sqrt(-3 * k1, out=radius)
+    np.divide(1.0, radius, out=radius)
+    return bool(radius.min() > 0) and bool(radius.max() < _LARGEST)
+
+
 def _fold(k1: Array, k2: Array) -> Array:
     """Fold radius, with the larger coefficient brought near 1."""
     if not k2.any() and (k1 > -_LARGEST).all():
@@ -117,7 +126,7 @@ def _fold(k1: Array, k2: Array) -> Array:
 
 
 _DISTORT = Kernel(_distort, (REAL,) * 4, exact=_distort_exact, reach=2.0**100, tiny=True, outputs=2)
-_FOLD = Kernel(_fold, (REAL, REAL))
+_FOLD = Kernel(_fold, (REAL, REAL), shortcut=_fold_of_barrel)
 _INVERSE = Kernel(_inverse, (NONNEGATIVE, REAL, REAL), (Rule("beyond-fold", _beyond),))
 
 

@@ -50,7 +50,9 @@ def _srgb_decode(x: Array) -> Array:
     lost /= base
     bright = raised(base, _DECODE) * _SHRINK.high
     bright += bright * (2.4 * lost + _SHRINK.low / _SHRINK.high)
-    return np.where(x <= _KNEE, x / _SLOPE, bright)
+    dim = np.flatnonzero(x <= _KNEE)
+    bright[dim] = x.take(dim) / _SLOPE
+    return bright
 
 
 _SRGB_DECODE = Kernel(_srgb_decode, (_INTENSITY,))

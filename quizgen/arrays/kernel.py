@@ -6,7 +6,7 @@ Formulas see one-dimensional blocks that fit the cache and only elements that ha
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 
@@ -53,6 +53,10 @@ class Kernel:
         Whether it is trusted for all smaller ones, too.
     outputs : int
         Number of result arrays.
+    shortcut : callable, optional
+        Fills a block of the only result from those of the arguments, and tells whether a short look
+        showed that every element has an answer and the formula is trusted, as in nearly all
+        blocks. Where it says no, the block is done again with a look at each argument.
     """
 
     formula: Formula
@@ -62,6 +66,7 @@ class Kernel:
     reach: float = REACH
     tiny: bool = False
     outputs: int = 1
+    shortcut: Callable[..., bool] | None = None
 
     def __call__(self, *args: Numbers) -> Result:
         """Run the kernel on scalars or arrays that broadcast together."""
@@ -88,6 +93,9 @@ class Kernel:
         masks: list[tuple[int, Flags]] = []
         fixed = [_limits(arg) if arg.size == 1 else None for arg in args]
         for start, block in _blocks(args, columns[0].size):
+            part = columns[0][start : start + BLOCK]
+            if self.shortcut is not None and self.shortcut(part, *block):
+                continue
             limits = [known or _limits(arg) for known, arg in zip(fixed, block, strict=True)]
             parts = [column[start : start + BLOCK] for column in columns]
             bad = self._bad(block, limits)
@@ -152,6 +160,13 @@ def lowest(sizes: Array) -> float:
 
 def _limits(arg: Array) -> Limits:
     return float(arg.min()), float(arg.max())
+
+
+def within(arg: Array, low: float, high: float) -> bool:
+    """Whether all numbers lie between two limits; one number is asked without a reduction."""
+    if arg.size == 1:
+        return bool(low <= arg.item() <= high)
+    return bool(low <= arg.min()) and bool(arg.max() <= high)
 
 
 def _fill(parts: Sequence[Array], values: Sequence[Array], where: Flags | slice) -> None:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from flint import fmpq
 
 from quizgen.arrays.aliases import Array, Numbers, Result
 from quizgen.arrays.domain import POSITIVE, REAL, Rule
-from quizgen.arrays.kernel import Kernel
+from quizgen.arrays.kernel import Kernel, within
 from quizgen.arrays.rational import decimal, nearest
 
 
@@ -24,13 +26,37 @@ def _to_be_read(*_args: Array) -> Array:
     return np.full(1, np.nan)
 
 
+_REACH = 2.0**300
+"""Products of two such numbers neither overflow nor lose digits."""
+
+
+def _pixel_at_once(u: Array, f: Array, pitch: Array, x: Array, z: Array, o: Array) -> bool:
+    """The formula, and whether all numbers are moderate and z is not 0.
+
+    A finite sum has finite summands, so x is finite and nothing overflowed. A tiny x may lose its
+    digits, but not next to an o that is not.
+    """
+    np.multiply(f, x, out=u)
+    u /= pitch * z
+    u += o
+    return (
+        within(f, 1 / _REACH, _REACH)
+        and within(pitch, 1 / _REACH, _REACH)
+        and (within(o, 1 / _REACH, _REACH) or within(o, -_REACH, -1 / _REACH))
+        and (within(z, 1 / _REACH, _REACH) or within(z, -_REACH, -1 / _REACH))
+        and math.isfinite(u.sum())
+    )
+
+
 _SPANS = (POSITIVE, POSITIVE, REAL, REAL, REAL)
 _ON_PLANE = Rule(
     "on-camera-plane",
     lambda _f, _pitch, _x, z, _o: z == 0,
     lambda _f, _pitch, _x, z, _o: bool(z[0] <= 0 <= z[1]),
 )
-_PIXEL = Kernel(_pixel, _SPANS, (_ON_PLANE,), exact=_pixel_of_decimals, tiny=True)
+_PIXEL = Kernel(
+    _pixel, _SPANS, (_ON_PLANE,), exact=_pixel_of_decimals, reach=_REACH, shortcut=_pixel_at_once
+)
 _PIXEL_ALONE = Kernel(_to_be_read, _SPANS, (_ON_PLANE,), exact=_pixel_of_decimals)
 
 

@@ -220,3 +220,27 @@ def test_ten_million_elements():
     tail = function("gaussian.upper_tail")(k)
     assert tail.size == k.size
     np.testing.assert_array_equal(tail[:1000], function("gaussian.upper_tail")(k[:1000]))
+
+
+def test_pixels_of_tiny_depths_keep_their_digits():
+    """The pitch times a subnormal depth has no digits left: such elements go by fractions."""
+    x, z = np.array([1e-310, 3e-310, 1.0]), np.array([1e-310, 1e-310, 2.0])
+    values = function("projection.pixel")(2.0, 5e-6, x, z, 0.0)
+    assert values.tolist() == pytest.approx([4e5, 1.2e6, 2e5], rel=2**-51)
+
+
+@pytest.mark.parametrize("odd", [-math.inf, math.inf, math.nan])
+@pytest.mark.parametrize(
+    ("name", "place", "args"),
+    [
+        ("distortion.fold_radius", 0, (-0.2, 0.0)),
+        ("projection.pixel", 2, (2.0, 0.005, 1.0, 2.0, 320.0)),
+        ("projection.pixel", 3, (2.0, 0.005, 1.0, 2.0, 320.0)),
+    ],
+)
+def test_one_odd_element_is_found_in_a_block(name, place, args, odd):
+    columns = [np.full(9, arg) if i == place else arg for i, arg in enumerate(args)]
+    columns[place][4] = odd
+    values = function(name)(*columns)
+    assert np.ma.getmaskarray(values).tolist() == [i == 4 for i in range(9)]
+    assert values[0] == function(name)(*(np.array([arg, arg]) for arg in args))[0]
