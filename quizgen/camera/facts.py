@@ -151,6 +151,8 @@ class Facts:
     limits : (float, float)
         Values that nothing exceeds, noise included, since a photosite or a converter clipped them;
         what noise came later is in it.
+    rounded : float
+        Share by which single precision may have carried a value beyond all this.
     """
 
     low: float
@@ -159,6 +161,7 @@ class Facts:
     noise: float = 0.0
     tail: float = 0.0
     limits: Limits = UNLIMITED
+    rounded: float = 0.0
 
     @property
     def span(self) -> float:
@@ -244,6 +247,11 @@ class Facts:
         apart = (max(0.0, room) / self.noise / math.sqrt(2.0) for room in (above, below))
         odd = sum(math.erfc(room) / 2.0 for room in apart)
         return Error(odd=odd) if odd < ODD else Error(far)
+
+    def just_above(self, limit: float) -> float:
+        """How far above a limit rounding alone carries what should end there or below."""
+        slack = self.rounded * max(self.size, abs(self.top))
+        return slack if limit - slack < self.top <= limit else 0.0
 
     def between(self, low: float, high: float) -> Facts:
         """Clipped, noise and all."""

@@ -18,7 +18,7 @@ from quizgen.camera import effects
 from quizgen.camera.camera import Camera
 from quizgen.camera.costs import FACTS_PER_MEGAPIXEL
 from quizgen.camera.draw import Stack, draw
-from quizgen.camera.effect import Effect
+from quizgen.camera.effect import Effect, same_stack
 from quizgen.camera.facts import LARGEST, NO_ERROR, Error, Facts, coarse, glimpsed, measured
 from quizgen.camera.filters import opencv
 from quizgen.camera.scene import Scene, SceneError
@@ -191,7 +191,8 @@ def _facts_along(present: tuple[Effect, ...], view: View, facts: Facts) -> list[
         if effect.stage not in ("scene", "optics"):
             facts = facts.flat()
         before.append(facts)
-        facts = effect.after(facts, view)
+        rounded = facts.rounded + _ROUNDING * (effect.run is not same_stack)
+        facts = replace(effect.after(facts, view), rounded=rounded)
         if not facts.size + facts.reach < LARGEST:
             raise SceneError(f"{effect.name} makes signals of more than {LARGEST:g}")
     return before

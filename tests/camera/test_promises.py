@@ -247,3 +247,31 @@ def test_what_a_full_well_holds_limits_what_comes_after():
     facts = _Chain(present, prepared.view, measured(prepared.stack, prepared.view)).before[-1]
     assert facts.high + facts.reach > 1.1
     assert facts.top == pytest.approx(1 + REACH * 2 / 1000)
+
+
+def test_rounding_may_carry_white_over_the_full_well():
+    """A mean of ones over 20 px ends a little above 1 in single precision; the well cuts that."""
+    image = np.ones((40, 80, 3), np.float32)
+    image[:10] = np.random.default_rng(1).random((10, 80, 3))
+    camera = Camera(velocity=(2000.0, 0.0), shutter=0.01, full_well=1e4, shot_noise=False)
+    prepared = Prepared(Scene(80, 40, image=image), camera)
+    names = [effect.name for effect in EFFECTS if effect.present(prepared.given)]
+    assert names == ["motion blur", "full well"]
+    chain = _Chain(
+        tuple(effect for effect in EFFECTS if effect.name in names),
+        prepared.view,
+        measured(prepared.stack, prepared.view),
+    )
+    bound = chain.dn({1: SKIP})
+    steps = (Step("motion blur", "", "", 0, 0),)
+    above = run(prepared, Plan(steps, (), (), bound, 0, 0))
+    assert above.values.max() > 1
+    assert apart(above, run(prepared, everything(prepared))).max() <= bound < 1e-3
+
+
+def test_white_as_it_was_drawn_needs_no_full_well():
+    prepared = Prepared(
+        Scene(8, 8, background=(1.0, 1.0, 1.0)), Camera(full_well=1e4, shot_noise=False)
+    )
+    assert plan(prepared).predicted_error_dn == 0
+    assert [item.effect for item in plan(prepared).skipped] == ["full well"]

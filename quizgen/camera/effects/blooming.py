@@ -47,9 +47,9 @@ def _overflows(facts: Facts, error: float = 0.0) -> bool:
 
 
 def skipped(facts: Facts, view: View) -> Error:
-    """Nothing below the full well; else a filled column."""
+    """Nothing below the full well but what rounding carries over it; else a filled column."""
     if not _overflows(facts):
-        return Error()
+        return Error(min(view.height * facts.just_above(1.0), 1.0 - facts.bottom))
     return Error(max(facts.top - 1.0, 1.0 - facts.bottom))
 
 
