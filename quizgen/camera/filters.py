@@ -276,5 +276,13 @@ def sample_grid(channel: Image, x: NDArray[np.float64], y: NDArray[np.float64]) 
     """Read one channel (H, W) on a grid of columns x and rows y, bilinearly, edges repeated."""
     left, right, across = _split(x.astype(np.float32), channel.shape[1])
     top, bottom, down = _split(y.astype(np.float32), channel.shape[0])
-    rows = channel[top] * (1 - down)[:, None] + channel[bottom] * down[:, None]
-    return np.asarray(rows[:, left] * (1 - across) + rows[:, right] * across, np.float32)
+    result = np.empty((y.size, x.size), np.float32)
+
+    def band(start: int, stop: int) -> None:
+        part = slice(start, stop)
+        share = down[part, None]
+        rows = channel[top[part]] * (1 - share) + channel[bottom[part]] * share
+        result[part] = rows[:, left] * (1 - across) + rows[:, right] * across
+
+    for_pieces(y.size, _ROWS, result.size, band)
+    return result

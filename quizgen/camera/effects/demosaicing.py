@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from quizgen.camera.blocks import for_pieces
 from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, on_picture
 from quizgen.camera.effects.mosaic import CHANNELS, MOSAIC, colour_at
@@ -36,30 +37,42 @@ def _bilinear(plane: Image, tile: tuple[tuple[int, int], ...]) -> Image:
     """Means of the nearest photosites of each colour, from a plane padded by one."""
     height, width = plane.shape[0] - 2, plane.shape[1] - 2
     result = np.empty((height, width, 3), np.float32)
-    for row in (0, 1):
-        for column in (0, 1):
-            site = _neighbours(plane, row, column, height, width)
-            for channel in range(3):
-                where = _same_colour(tile, row, column, channel)
-                result[row::2, column::2, channel] = site[where]
+
+    def band(start: int, stop: int) -> None:
+        _fill(result[start:stop], plane[start : stop + 2], tile)
+
+    for_pieces(height, _ROWS, result.size, band)
     return result
 
 
-def _neighbours(plane: Image, row: int, column: int, height: int, width: int) -> dict[str, Image]:
+_ROWS = 32
+"""Rows at once, an even number: so few that they stay in the cache."""
+
+
+def _fill(result: Image, plane: Image, tile: tuple[tuple[int, int], ...]) -> None:
+    """A band of rows from as many of the plane and one on each side."""
+    for row in (0, 1):
+        for column in (0, 1):
+            site = _neighbours(plane, row, column, green=tile[row][column] == CHANNELS["G"])
+            for channel in range(3):
+                where = _same_colour(tile, row, column, channel)
+                result[row::2, column::2, channel] = site[where]
+
+
+def _neighbours(plane: Image, row: int, column: int, *, green: bool) -> dict[str, Image]:
+    """Means around every second place: a green site is beside the other colours, else across."""
+    height, width = plane.shape[0] - 2, plane.shape[1] - 2
+
     def at(down: int, across: int) -> Image:
         top, left = row + 1 + down, column + 1 + across
         return plane[top : top + height - row : 2, left : left + width - column : 2]
 
     level, upright = at(0, -1) + at(0, 1), at(-1, 0) + at(1, 0)
-    corners = (at(-1, -1) + at(-1, 1)) + (at(1, -1) + at(1, 1))
     half, quarter = np.float32(0.5), np.float32(0.25)
-    return {
-        "here": at(0, 0),
-        "level": level * half,
-        "upright": upright * half,
-        "cross": (level + upright) * quarter,
-        "corners": corners * quarter,
-    }
+    if green:
+        return {"here": at(0, 0), "level": level * half, "upright": upright * half}
+    corners = (at(-1, -1) + at(-1, 1)) + (at(1, -1) + at(1, 1))
+    return {"here": at(0, 0), "cross": (level + upright) * quarter, "corners": corners * quarter}
 
 
 def _same_colour(tile: tuple[tuple[int, int], ...], row: int, column: int, channel: int) -> str:
