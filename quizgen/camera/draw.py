@@ -251,9 +251,11 @@ def _background(view: View, sheet: Sheet) -> Layer:
 
 
 def _add(layer: Layer, thing: Thing, view: View) -> None:
-    """Draw upon a layer."""
+    """Draw upon a layer; memory that nothing is written to is not taken from the system."""
     for part in _parts(thing, view):
         colour, cover = _draw_part(thing, view, part)
+        if not cover.any():
+            continue
         keep = np.float32(1.0) - cover
         _blend(layer.colour[part], keep, colour)
         if layer.cover is not None:

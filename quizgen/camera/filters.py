@@ -91,7 +91,7 @@ def convolve(image: Image, kernel: NDArray[np.float64]) -> Image:
     part = (_lit(image.reshape(len(image), -1), rows), _lit(upright, columns))
     if image[part].size == image.size:
         return _convolved(image, kernel)
-    result = np.zeros_like(image)
+    result = np.zeros(image.shape, np.float32)
     result[part] = _convolved(image[part], kernel)
     return result
 

@@ -52,7 +52,7 @@ def blurred(layer: Layer, kernel: Kernel) -> Layer:
         return replace(layer, colour=convolve(layer.colour, kernel))
     reach = max(kernel.shape) // 2
     rows, columns = _reached(layer, reach)
-    colour, cover = np.zeros_like(layer.colour), np.zeros_like(layer.cover)
+    colour, cover = (np.zeros(part.shape, np.float32) for part in (layer.colour, layer.cover))
     band = max(_BAND, 64 * reach)
     for start in range(rows.start, rows.stop, band):
         stop, first = min(start + band, rows.stop), max(start - reach, 0)
@@ -168,7 +168,7 @@ def turned(layer: Layer, angles: Sequence[float | Field], reach: float) -> Layer
         Farthest that anything gets by these angles, px.
     """
     images = [layer.colour] if layer.cover is None else [layer.colour, layer.cover]
-    results = [np.zeros_like(image) for image in images]
+    results = [np.zeros(image.shape, np.float32) for image in images]
     for tile in _filled(layer, reach):
         for result, mean in zip(results, _turned(images, tile, layer.motion, angles), strict=True):
             result[tile] = mean

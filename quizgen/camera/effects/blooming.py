@@ -24,8 +24,22 @@ def run(image: Image, view: View, rung: str = "") -> Image:
 
     Each photosite keeps what it can; what reaches the border is drained.
     """
-    half = np.maximum(image - np.float32(1.0), np.float32(0.0)) * np.float32(0.5)
-    kept = np.minimum(image, np.float32(1.0))
+    result = image.copy()
+    columns = result.reshape(len(image), -1)
+    full = np.flatnonzero(columns.max(axis=0) > np.float32(1.0))
+    for start in range(0, full.size, _COLUMNS):
+        some = full[start : start + _COLUMNS]
+        columns[:, some] = _drained(columns[:, some])
+    return result
+
+
+_COLUMNS = 3072
+"""Columns of one colour worked on at once: others have nothing to spill."""
+
+
+def _drained(columns: Image) -> Image:
+    half = np.maximum(columns - np.float32(1.0), np.float32(0.0)) * np.float32(0.5)
+    kept = np.minimum(columns, np.float32(1.0))
     return _spill(_spill(kept, half)[::-1], half[::-1])[::-1]
 
 

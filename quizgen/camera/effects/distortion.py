@@ -102,13 +102,21 @@ def source(width: int, height: int, focal: float, k1: float, k2: float) -> tuple
     """Where each output pixel comes from; one quadrant is computed, the rest mirrored."""
     across, down = np.arange(width) - (width - 1) / 2, np.arange(height) - (height - 1) / 2
     right, lower = np.abs(across[: (width + 1) // 2]), np.abs(down[: (height + 1) // 2])
-    squared = (right[None, :] ** 2 + lower[:, None] ** 2) / focal**2
-    reach = math.hypot(right[0], lower[0]) / focal
-    factor = _hermite(squared, _inverse_table(reach, k1, k2))
-    factor = np.concatenate([factor, factor[:, width // 2 - 1 :: -1]], axis=1)
-    factor = np.concatenate([factor, factor[height // 2 - 1 :: -1]], axis=0)
-    x, y = factor * across + (width - 1) / 2, factor * down[:, None] + (height - 1) / 2
-    return x.astype(np.float32), y.astype(np.float32)
+    table = _inverse_table(math.hypot(right[0], lower[0]) / focal, k1, k2)
+    x, y = (np.empty((height, width), np.float32) for _ in range(2))
+    for start in range(0, len(lower), _ROWS):
+        part = lower[start : start + _ROWS]
+        factor = _hermite((right[None, :] ** 2 + part[:, None] ** 2) / focal**2, table)
+        factor = np.concatenate([factor, factor[:, width // 2 - 1 :: -1]], axis=1)
+        upper = np.arange(start, start + len(part))
+        for rows in (upper, height - 1 - upper):
+            x[rows] = factor * across + (width - 1) / 2
+            y[rows] = factor * down[rows, None] + (height - 1) / 2
+    return x, y
+
+
+_ROWS = 64
+"""Rows of the map computed at once, so that what lies in between stays small."""
 
 
 def work(layer: Layer, view: View, rung: str = "") -> Layer:
