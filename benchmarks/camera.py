@@ -92,7 +92,7 @@ def primitives(size: tuple[int, int], repeats: int) -> dict[str, float]:
     )  # fmt: skip
     image = look.scene.image
     raw = mosaic.run(image, look)
-    x, y = distortion.source(*size, look.focal, look.camera[distortion.K1], 0.0)
+    x, y = distortion.source(look)
     x, y = x + np.float32(0.25), y + np.float32(0.25)
     small, large = disc(2.5), disc(21.0)
     building_blocks = {
@@ -131,12 +131,12 @@ def from_nothing(work: Callable[..., Any], *arguments: Any) -> None:
 
 def fresh_map(look: View) -> None:
     forget_maps()
-    k1, k2 = look.camera[distortion.K1], look.camera[distortion.K2]
-    distortion.source(look.width, look.height, look.focal, k1, k2)
+    distortion.source(look)
 
 
 def forget_maps() -> None:
-    distortion.source.cache_clear()
+    distortion.quadrant.cache_clear()
+    distortion._kept.cache_clear()
     distortion._inverse_table.cache_clear()
     distortion.undistorted_radius.cache_clear()
     vignetting._fall_off_map.cache_clear()

@@ -52,7 +52,9 @@ def blurred(layer: Layer, kernel: Kernel) -> Layer:
         return replace(layer, colour=convolve(layer.colour, kernel))
     reach = max(kernel.shape) // 2
     rows, columns = _reached(layer, reach)
-    colour, cover = (np.zeros(part.shape, np.float32) for part in (layer.colour, layer.cover))
+    # unlike zeros_like, zeros takes no memory where nothing is written
+    colour: Image = np.zeros(layer.colour.shape, np.float32)
+    cover: Image = np.zeros(layer.cover.shape, np.float32)
     band = max(_BAND, 64 * reach)
     for start in range(rows.start, rows.stop, band):
         stop, first = min(start + band, rows.stop), max(start - reach, 0)

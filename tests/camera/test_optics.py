@@ -113,7 +113,7 @@ def test_the_front_does_not_leak_into_a_blurred_background():
 def test_distortion_is_that_of_project_points(k1, k2):
     """A point drawn undistorted is found where OpenCV projects it."""
     view = View(Scene(201, 151), Camera(0.05, 0.05 / 220, k1=k1, k2=k2))
-    x, y = distortion.source(view.width, view.height, view.focal, k1, k2)
+    x, y = distortion.source(view)
     rows, columns = np.mgrid[0:151:10, 0:201:10]
     normal = np.stack([(x - 100) / 220, (y - 75) / 220, np.ones_like(x)], axis=-1)
     matrix = np.array([[220.0, 0, 100], [0, 220, 75], [0, 0, 1]])

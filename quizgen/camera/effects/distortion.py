@@ -11,7 +11,7 @@ import numpy as np
 from quizgen.arrays.distortion import fold_radius, inverse_radius
 from quizgen.camera.body import NEEDS_LENS, aperture
 from quizgen.camera.costs import at_least_a_call, at_size, sampling
-from quizgen.camera.draw import Layer, sheets
+from quizgen.camera.draw import Box, Layer, sheets
 from quizgen.camera.effect import Effect, LayerByLayer, Rung
 from quizgen.camera.facts import Error, Facts
 from quizgen.camera.filters import sample, sample_nearest
@@ -98,40 +98,78 @@ def _hermite(q: Field, table: tuple[Field, Field, float]) -> Field:
 
 
 @lru_cache(maxsize=2)
-def source(width: int, height: int, focal: float, k1: float, k2: float) -> tuple[Image, Image]:
-    """Where each output pixel comes from; one quadrant is computed, the rest mirrored."""
-    across, down = np.arange(width) - (width - 1) / 2, np.arange(height) - (height - 1) / 2
-    right, lower = np.abs(across[: (width + 1) // 2]), np.abs(down[: (height + 1) // 2])
+def quadrant(width: int, height: int, focal: float, k1: float, k2: float) -> Field:
+    """Undistorted over distorted radius in the upper left quadrant, middle lines included."""
+    right = np.abs(np.arange((width + 1) // 2) - (width - 1) / 2)
+    lower = np.abs(np.arange((height + 1) // 2) - (height - 1) / 2)
     table = _inverse_table(math.hypot(right[0], lower[0]) / focal, k1, k2)
-    x, y = (np.empty((height, width), np.float32) for _ in range(2))
-    for start in range(0, len(lower), _ROWS):
-        part = lower[start : start + _ROWS]
-        factor = _hermite((right[None, :] ** 2 + part[:, None] ** 2) / focal**2, table)
-        factor = np.concatenate([factor, factor[:, width // 2 - 1 :: -1]], axis=1)
-        upper = np.arange(start, start + len(part))
-        for rows in (upper, height - 1 - upper):
-            x[rows] = factor * across + (width - 1) / 2
-            y[rows] = factor * down[rows, None] + (height - 1) / 2
-    return x, y
+    factor = np.empty((lower.size, right.size))
+    for start in range(0, lower.size, _ROWS):
+        part = slice(start, start + _ROWS)
+        factor[part] = _hermite((right[None, :] ** 2 + lower[part, None] ** 2) / focal**2, table)
+    return factor
 
 
 _ROWS = 64
-"""Rows of the map computed at once, so that what lies in between stays small."""
+"""Rows worked on at once, so that what lies in between stays small."""
+
+
+def source(view: View, rows: slice = slice(None)) -> tuple[Image, Image]:
+    """Where the pixels of some rows come from; small maps are kept, large ones made when needed."""
+    lens = view.width, view.height, view.focal, view.camera[K1], view.camera[K2]
+    if view.width * view.height > _KEPT:
+        return _rows(lens, range(view.height)[rows])
+    x, y = _kept(lens)
+    return x[rows], y[rows]
+
+
+_BAND = 480
+"""Rows that are read at once."""
+_KEPT = 1_000_000
+"""Pixels of the largest map that is kept as a whole: 8 MB."""
+_Lens = tuple[int, int, float, float, float]
+
+
+@lru_cache(maxsize=4)
+def _kept(lens: _Lens) -> tuple[Image, Image]:
+    return _rows(lens, range(lens[1]))
+
+
+def _rows(lens: _Lens, rows: range) -> tuple[Image, Image]:
+    """Some rows of a map: three quadrants mirror the first."""
+    width, height = lens[:2]
+    across, down = np.arange(width) - (width - 1) / 2, np.arange(height) - (height - 1) / 2
+    line = np.asarray(rows)
+    left = quadrant(*lens)[np.minimum(line, height - 1 - line)]
+    factor = np.concatenate([left, left[:, width // 2 - 1 :: -1]], axis=1)
+    x, y = (np.empty(factor.shape, np.float32) for _ in range(2))
+    np.add(factor * across, (width - 1) / 2, out=x, casting="same_kind")
+    np.add(factor * down[line, None], (height - 1) / 2, out=y, casting="same_kind")
+    return x, y
 
 
 def work(layer: Layer, view: View, rung: str = "") -> Layer:
     """Read every pixel where it comes from; the rung ``nearest`` does not interpolate."""
-    x, y = source(view.width, view.height, view.focal, view.camera[K1], view.camera[K2])
     pick = sample_nearest if rung == "nearest" else sample
-    reach = largest_displacement(view)
-    warped = resampled(layer, lambda image, box: pick(image, x[box], y[box]), reach)
-    return _with_depth(warped, x, y)
+
+    def warp(image: Image, box: Box) -> Image:
+        rows, columns = (
+            range(*part.indices(length)) for part, length in zip(box, image.shape, strict=False)
+        )
+        result = np.empty((len(rows), len(columns), image.shape[2]), np.float32)
+        for start in range(0, len(rows), _BAND):
+            part = rows[start : start + _BAND]
+            x, y = source(view, slice(part.start, part.stop))
+            result[start : start + _BAND] = pick(image, x[:, box[1]], y[:, box[1]])
+        return result
+
+    return _with_depth(resampled(layer, warp, largest_displacement(view)), view)
 
 
-def _with_depth(layer: Layer, x: Image, y: Image) -> Layer:
+def _with_depth(layer: Layer, view: View) -> Layer:
     if not isinstance(layer.depth, np.ndarray):
         return layer
-    return replace(layer, depth=sample_nearest(layer.depth, x, y))
+    return replace(layer, depth=sample_nearest(layer.depth, *source(view)))
 
 
 def _top_radius(view: View) -> float:
