@@ -46,7 +46,7 @@ def _drained(columns: Image) -> Image:
 def _spill(kept: Image, excess: Image) -> Image:
     """Carry excess to the next rows until it finds room."""
     filled, carried = kept.copy(), np.zeros(kept.shape[1:], np.float32)
-    spilling = np.flatnonzero(excess.any(axis=(1, 2)))
+    spilling = np.flatnonzero(excess.any(axis=1))
     for row in range(spilling[0] if spilling.size else len(kept), len(kept)):
         level = filled[row] + carried
         filled[row] = np.minimum(level, np.float32(1.0))
