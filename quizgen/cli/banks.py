@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Unpack
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING, Unpack
 
 import click
 
 from quizgen.cli.options import BankOptions, bank_options, open_bank
 from quizgen.cli.terminal import print_table
+from quizgen.outside import visible
+
+if TYPE_CHECKING:
+    from quizgen.paper.banks import UsedBank
 
 HEAD = ("bank", "version", "languages", "templates", "Python", "licence", "folder")
 
@@ -23,3 +29,14 @@ def banks(**options: Unpack[BankOptions]) -> None:
     if options["bank"]:
         found |= {own.name: own for own in open_bank(options).parts}
     print_table(HEAD, [described(name, bank) for name, bank in found.items()])
+
+
+def compare(used: Iterable[UsedBank], named: tuple[Path, ...]) -> None:
+    """Say which of the banks that are named, and of ours, are others than those of a key."""
+    from quizgen.bank.folder import Bank, builtin
+    from quizgen.bank.found import root_of
+    from quizgen.paper.banks import differing
+
+    told = differing(used, [builtin(), *(Bank(root_of(one)) for one in named)])
+    if told:
+        click.echo(f"quizgen: {visible(told)}; marked by the key", err=True)

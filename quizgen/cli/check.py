@@ -72,37 +72,26 @@ def check(**options: Unpack[Options]) -> None:
     marked. Exit codes: 0 every form was marked, 1 some were, 2 none.
 
     A key holds all that marking needs. With --bank it is said besides whether the bank is still
-    the one that the paper was made from.
+    the one that the paper or the export was made from.
     """
     from quizgen.cli import responses
     from quizgen.paper.key import read_key
 
     key, answers, lang = options["key"], options["answers"], options["lang"]
     if key.name.endswith(SUFFIX):
-        sys.exit(responses.check(key, answers, lang, options))
+        sys.exit(responses.check(key, answers, lang, options["bank"], options))
     paper = read_key(key)
     _belongs(key.parent / PAGE, paper)
-    _compare(paper, options["bank"])
+    if options["bank"]:
+        from quizgen.cli.banks import compare
+
+        compare(paper.banks, options["bank"])
     marked = list(_all_marked(paper, answers, lang, settle=not options["no_settle"]))
     if marked:
         _print(marked, paper, options, many=len(answers) > 1)
     missing = len(answers) - len(marked)
     if missing:
         sys.exit(1 if marked else 2)
-
-
-def _compare(key: Key, named: tuple[Path, ...]) -> None:
-    """Say which of the banks that are named, and of ours, are others than the paper's."""
-    if not named:
-        return
-    from quizgen.bank.folder import Bank, builtin
-    from quizgen.bank.found import root_of
-    from quizgen.paper.banks import differing
-
-    banks = [builtin(), *(Bank(root_of(one)) for one in named)]
-    told = differing(key.banks, banks)
-    if told:
-        click.echo(f"quizgen: {visible(told)}; marked by the key", err=True)
 
 
 def _belongs(page: Path, key: Key) -> None:

@@ -74,6 +74,7 @@ def export(**options: Unpack[Options]) -> None:
     from quizgen.export.kept import kept
     from quizgen.export.wording import formulas
     from quizgen.files import PRIVATE, write_all
+    from quizgen.paper.banks import used_banks
     from quizgen.responses import SUFFIX
     from quizgen.responses.keys import written
 
@@ -83,9 +84,11 @@ def export(**options: Unpack[Options]) -> None:
     path = options["out"] or Path("export") / FORMATS[target]
     made = exporter(target)
     with Progress("export") as tell, formulas(options["maths"]):
-        items = list(_items(options, tell))
+        bank = open_bank(options)
+        items = list(_items(bank, options, tell))
         data = made.write(items)
-        keys = written(kept(item, made.kept(item)) for item in items)
+        banks = used_banks(bank, {item.key.template for item in items})
+        keys = written((kept(item, made.kept(item)) for item in items), banks)
     lines = [
         f"{item.id}: {field} exported as essay: {why}"
         for item in items
@@ -103,7 +106,7 @@ def _text(lines: list[str]) -> bytes:
     return "".join(f"{line}\n" for line in lines).encode()
 
 
-def _items(options: Options, tell: Progress) -> Iterator[Item]:
+def _items(bank: Bank, options: Options, tell: Progress) -> Iterator[Item]:
     """The questions that are asked for.
 
     Raises
@@ -117,7 +120,6 @@ def _items(options: Options, tell: Progress) -> Iterator[Item]:
     named = [options[key] for key in ("blueprint", "topic", "templates")]
     if len(named) - named.count(None) > 1:
         raise ChoiceError("--blueprint, --topic and --template each name the questions; give one")
-    bank = open_bank(options)
     langs = bank.chosen(options["lang"])
     if options["topic"] is None and options["templates"] is None:
         plan = load_blueprint(options["blueprint"] or usual(bank), bank)

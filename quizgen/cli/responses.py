@@ -15,7 +15,13 @@ if TYPE_CHECKING:
     from quizgen.responses.marks import Marked
 
 
-def check(path: Path, files: Sequence[Path], lang: str | None, flags: Mapping[str, object]) -> int:
+def check(
+    path: Path,
+    files: Sequence[Path],
+    lang: str | None,
+    banks: tuple[Path, ...],
+    flags: Mapping[str, object],
+) -> int:
     """Mark the responses in files, print them, and give the code to leave with.
 
     Raises
@@ -28,6 +34,10 @@ def check(path: Path, files: Sequence[Path], lang: str | None, flags: Mapping[st
     from quizgen.responses.marks import marked
 
     keys = read(path)
+    if banks:
+        from quizgen.cli.banks import compare
+
+        compare(keys.banks, banks)
     lost: list[str] = []
     given = attempts(files, keys.found, lost.append)
     found = list(marked(keys, given, lang, settle=not flags["no_settle"]))

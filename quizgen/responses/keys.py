@@ -9,17 +9,19 @@ import hashlib
 from collections.abc import Iterable, Iterator
 from functools import cached_property
 from pathlib import Path
-from typing import Literal
+from typing import Literal, TypeVar
 
 import msgspec
 
 from quizgen.errors import KeyFileError
 from quizgen.outside import read_text
+from quizgen.paper.banks import UsedBank
 from quizgen.paper.key import FORMAT as KEY_FORMAT
 from quizgen.paper.key import KeyQuestion, load_key
 from quizgen.question.contract import Form
 from quizgen.shapes import decoder
 
+Line = TypeVar("Line")
 FORMAT = "quizgen-responses/1"
 LARGEST = 200_000_000
 """Bytes of the largest file of keys that is read."""
@@ -101,10 +103,11 @@ class Kept(msgspec.Struct, dict=True):
         return found
 
 
-class Head(msgspec.Struct):
-    """The first line: what the file is."""
+class Head(msgspec.Struct, frozen=True):
+    """The first line: what the file is, and the banks that its questions stand in."""
 
     format: str
+    banks: tuple[UsedBank, ...] = ()
 
 
 def mark(text: str) -> str:
@@ -117,20 +120,21 @@ def mark(text: str) -> str:
     return f"{''.join(letters[:4])}-{''.join(letters[4:])}"
 
 
-def written(kept: Iterable[Kept]) -> bytes:
+def written(kept: Iterable[Kept], banks: tuple[UsedBank, ...] = ()) -> bytes:
     """The file of keys."""
-    return msgspec.json.Encoder().encode_lines([Head(FORMAT), *kept])
+    return msgspec.json.Encoder().encode_lines([Head(FORMAT, banks), *kept])
 
 
 def keys_of(text: str) -> bool:
     """Whether a text begins as the keys of an export do."""
-    return text.startswith(f'{{"format":"{FORMAT}"}}')
+    return text.startswith(f'{{"format":"{FORMAT}"')
 
 
 class Keys:
-    """The questions of an export, by mark and by id."""
+    """The questions of an export, by mark and by id, and the banks that they stand in."""
 
-    def __init__(self, kept: Iterable[Kept]) -> None:
+    def __init__(self, kept: Iterable[Kept], banks: tuple[UsedBank, ...] = ()) -> None:
+        self.banks = banks
         self.found: dict[str, tuple[Kept, Entry]] = {}
         for one in kept:
             for entry in one.entries:
@@ -145,15 +149,16 @@ def read(path: Path) -> Keys:
     KeyFileError
         Naming the file and the line.
     """
-    return Keys(_lines(path))
-
-
-def _lines(path: Path) -> Iterator[Kept]:
     text = read_text(path, KeyFileError, LARGEST)
     if not keys_of(text):
         raise KeyFileError(f"{path}: not the keys of an export (their first line says {FORMAT!r})")
-    read = decoder(Kept).decode
-    for number, line in enumerate(text.splitlines()[1:], 2):
+    (head,) = _lines(path, Head, text.splitlines()[:1])
+    return Keys(_lines(path, Kept, text.splitlines()[1:], 2), head.banks)
+
+
+def _lines(path: Path, shape: type[Line], lines: list[str], first: int = 1) -> Iterator[Line]:
+    read = decoder(shape).decode
+    for number, line in enumerate(lines, first):
         try:
             yield read(line)
         except (msgspec.MsgspecError, RecursionError) as error:

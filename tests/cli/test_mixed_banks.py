@@ -166,6 +166,24 @@ def test_the_python_of_a_bank_that_nobody_trusts_never_runs(root, tmp_path):
     assert ran.exists()
 
 
+def test_an_export_of_two_banks_names_both_and_says_which_differs(root):
+    both = ("--bank", OURS, "--bank", root)
+    made = run("export", "gift", "--template", "push,stored-values-and-bytes", "--variants", 1,
+               "--out", "two.txt", "--trust", *both)  # fmt: skip
+    assert made.exit_code == 0, made.output
+    head = json.loads(Path("two.txt.keys.jsonl").read_text("utf-8").splitlines()[0])
+    told = {one["name"]: (one["version"], one["templates"]) for one in head["banks"]}
+    assert told == {"mechanics": ("1.2", ["push"]), OURS: ("1.0", ["stored-values-and-bytes"])}
+    Path("none.json").write_text("[]", "utf-8")
+    check = ("check", "two.txt.keys.jsonl", "none.json")
+    same = run(*check, *both).stderr
+    prose = root / "templates/forces/push/en.md"
+    prose.write_text(prose.read_text("utf-8").replace("A push", "A pull"), "utf-8")
+    differs = "mechanics: other files here than on the paper, of the same version"
+    assert run(*check, *both).stderr == f"quizgen: {differs}; marked by the key\n{same}"
+    assert "mechanics" not in same
+
+
 def test_what_is_listed_and_proved_of_two_banks(root):
     both = ("--bank", OURS, "--bank", root, "--trust")
     assert re.match("push\tA\tforces", run("templates", "--topic", "Forces", *both).stdout)
