@@ -40,6 +40,10 @@ class UsedBank(msgspec.Struct, frozen=True):
     digest: str
     templates: tuple[str, ...]
 
+    def __str__(self) -> str:
+        """Name, version and digest, as a page names it."""
+        return " ".join(filter(None, (self.name, self.version, f"({self.digest})")))
+
 
 def used_banks(bank: Bank, names: Iterable[str]) -> tuple[UsedBank, ...]:
     """The banks that templates stand in.

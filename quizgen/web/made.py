@@ -19,6 +19,7 @@ from quizgen.figures import Drawing
 from quizgen.locale import BOTH
 from quizgen.marking.kinds import point
 from quizgen.marking.specs import AnySpec
+from quizgen.paper.banks import used_banks
 from quizgen.paper.blueprint import named_blueprint
 from quizgen.paper.key import KeyQuestion, key_question
 from quizgen.paper.paper import Item, build, rebuild
@@ -131,6 +132,8 @@ class Made(msgspec.Struct, frozen=True):
     key: KeyQuestion
     guided: bool
     """Whether its steps can be asked one after another instead."""
+    bank: str = ""
+    """The bank that it stands in, with version and digest, where that is said of each question."""
 
 
 class MadePaper(msgspec.Struct, frozen=True):
@@ -142,6 +145,8 @@ class MadePaper(msgspec.Struct, frozen=True):
     minutes: int
     pauses: bool | None
     """Whether its blueprint allows pauses; None where whoever sits it chooses."""
+    banks: list[str]
+    """The banks that its questions stand in, with version and digest."""
     items: list[Made]
 
 
@@ -202,12 +207,13 @@ def _paper(bank: Bank, wanted: WantedPaper) -> MadePaper:
         float(paper.points),
         paper.minutes,
         paper.blueprint.pauses,
+        [str(one) for one in paper.banks],
         items,
     )
 
 
 def made(wanted: Wanted, question: Question, key: Key, bank: Bank | None = None) -> Made:
-    """A composed question as markup; with hints, if it is said from which bank it is."""
+    """A composed question as markup; with hints and its bank, if it is said which that is."""
     steps = wanted.level != GUIDED and level_of(key.draw, GUIDED) == GUIDED
     lang, solution = question.lang, key.solution
     stem = _blocks(question.stem, lang)
@@ -233,6 +239,7 @@ def made(wanted: Wanted, question: Question, key: Key, bank: Bank | None = None)
         why=_blocks(solution.why, lang),
         key=key_question(Item(wanted.number, (question,), (key,))),
         guided=steps,
+        bank=str(*used_banks(bank, [wanted.template])) if bank else "",
     )
 
 

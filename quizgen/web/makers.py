@@ -106,10 +106,11 @@ def _uninterrupted() -> Iterator[None]:
 
 def _work(line: Connection, bank: Bank) -> None:
     """Make what is wanted until nobody wants anything."""
-    from quizgen.figures import _pen  # what the first question will need
+    import numpy as np  # what the first question will need
+
     from quizgen.question import compose
 
-    del _pen, compose
+    del np, compose
     with contextlib.suppress(EOFError, OSError):
         while True:
             line.send(_made(bank, line.recv()))

@@ -175,3 +175,6 @@ def test_authors_of_one_bank_among_others(root, database):
         assert f'href="/author/{name}"' in client.get("/author").text
         assert 'class="steps"' in client.get(f"/author/{name}").text
         assert 'id="found"' in client.get(f"/author/{name}/lint").text
+        token = re.search(r'name="token" value="([^"]+)"', client.get("/").text)[1]
+        asked = client.post("/practice", data={"token": token, "template": name})
+        assert f"Question bank: {root.name} (" in asked.text

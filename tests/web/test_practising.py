@@ -27,6 +27,7 @@ def test_from_the_first_page_to_a_question(client, token):
     assert asked.status_code == 200
     assert re.fullmatch(r"/q/[\w-]{16}", asked.url.path)
     assert 'name="a"' in asked.text
+    assert re.search(r"Question bank: image-acquisition 1\.0 \([0-9a-f]{12}\)", text(asked.text))
 
 
 def test_a_topic_that_nobody_knows_has_no_question(client, token):
