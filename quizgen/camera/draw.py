@@ -114,10 +114,10 @@ def _blend(behind: Image, keep: Image, image: Image) -> None:
 
 def content(cover: Image) -> Box:
     """Where a cover is not empty: the smallest box, none at all if there is nothing."""
-    rows = np.flatnonzero(cover.any(axis=(1, 2)))
+    rows = np.flatnonzero(cover.reshape(len(cover), -1).any(axis=1))
     if not rows.size:
         return slice(0, 0), slice(0, 0)
-    columns = np.flatnonzero(cover[rows[0] : rows[-1] + 1].any(axis=(0, 2)))
+    columns = np.flatnonzero(np.any(cover[rows[0] : rows[-1] + 1], axis=0).any(axis=1))
     return slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
 
 
@@ -246,7 +246,8 @@ def _background(view: View, sheet: Sheet) -> Layer:
         image = scene.image.copy() if sheet.things else scene.image
         return Layer(image, depth=scene.depth)
     flat = np.empty((scene.height, scene.width, 3), np.float32)
-    flat[:] = scene.background
+    flat[0] = scene.background
+    flat[1:] = flat[0]
     return Layer(flat, depth=math.inf if sheet.depth is None else sheet.depth, motion=sheet.motion)
 
 

@@ -339,15 +339,15 @@ def _planned(prepared: Prepared, asked: frozenset[str], limit: float) -> Plan:
     return _report(chain, choice, units, absent, limit)
 
 
-def everything(scene: Scene | Prepared, camera: Camera | None = None) -> Plan:
-    """The plan that runs every present effect exactly."""
+def everything(scene: Scene | Prepared, camera: Camera | None = None, timed: bool = True) -> Plan:
+    """The plan that runs every present effect exactly; with no times if nobody asks."""
     prepared = scene if isinstance(scene, Prepared) else Prepared(scene, camera or Camera())
     present, absent = _sorted_out(prepared.given)
     with located(prepared.given.scene.file):
         used, view = opencv() is not None, prepared.view
     steps = tuple(
-        Step(effect.name, EXACT, "everything", math.nan, effect.cost(view, EXACT, used))
-        for effect in present
+        Step(one.name, EXACT, "everything", math.nan, one.cost(view, EXACT, used) if timed else 0.0)
+        for one in present
     )
     return Plan(steps, (), absent, 0.0, sum(step.predicted_ms for step in steps), 0.0)
 

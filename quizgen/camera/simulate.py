@@ -208,7 +208,7 @@ def photographs(scene: Scene, *cameras: Camera) -> tuple[Photo, ...]:
         seen = sheets(prepared.view)
         prepared.stack = drawn.get(seen) or prepared.stack
         drawn[seen] = prepared.stack
-        photos.append(run(prepared, everything(prepared)))
+        photos.append(run(prepared, everything(prepared, timed=False)))
     return tuple(photos)
 
 
