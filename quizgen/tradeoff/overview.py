@@ -153,6 +153,43 @@ def panel(report: Report, inputs: str, title: str, axes: Axes, said: dict[str, s
     return "".join(parts)
 
 
+LANE, LANES_TOP, LANES_BOTTOM = 50, 26, 40
+"""Height of a formula's line, and the room above the first one and below the last one."""
+
+
+def lanes_height(report: Report) -> int:
+    """Height of the picture that ``lanes`` draws."""
+    return LANES_TOP + LANE * len(report.families) + LANES_BOTTOM
+
+
+def lanes(report: Report, said: dict[str, str], time: str) -> str:
+    """Each formula on a line of its own: both arrows along time, each with its words.
+
+    The first step is said above the line, the second one below it, so that no words meet.
+    """
+    bottom = lanes_height(report) - LANES_BOTTOM
+    parts = [text(RIGHT, 15, said["each"], "end", "head")]
+    for at in (1.0, 10.0, 100.0, 1e3, 1e4, 1e5):
+        parts.append(line(_X(at), bottom, _X(at), LANES_TOP, "grid"))
+        parts.append(text(_X(at), bottom + 16, time_text(at)))
+    for number, family in enumerate(report.families, 1):
+        y = LANES_TOP + LANE * number - LANE / 2
+        parts += [text(14, y + 4, str(number), kind="head"), *_lane(road(family, "hard"), y, said)]
+    return "".join([*parts, text(RIGHT, bottom + 32, time, "end")])
+
+
+def _lane(one: Road, y: float, said: dict[str, str]) -> list[str]:
+    a, b, c = ((_X(way.time), y) for way in one)
+    first, second = cost(one.printed, one.stable), cost(one.stable, one.proven)
+    return [
+        text(LEFT, y - 10, cost_text(first, said), "start"),
+        text(RIGHT, y + 20, cost_text(second, said), "end"),
+        _arrow(b, c),
+        _arrow(a, b),
+        circle(*a, "second", 4),
+    ]
+
+
 def _at(way: Way) -> tuple[float, float]:
     return _X(way.time), _Y(way.digits)
 

@@ -35,6 +35,7 @@ from quizgen.tradeoff.plot import (
     Mark,
     accuracy_panel,
     document,
+    front_panel,
     script,
     style,
     time_text,
@@ -55,7 +56,10 @@ def write(report: Report, folder: Path, command: str) -> list[Path]:
              for family in report.families}  # fmt: skip
     plots |= {f"{family.name}-input": document([input_panel(family, "en")], family.name)
               for family in report.families}  # fmt: skip
-    plots |= {key: knob_plot(key, curves, "en") for key, curves in report.knobs}
+    plots |= {key: document(knob_panels(key, curves, "en"), words("en")["knob"][key]["title"])
+              for key, curves in report.knobs}  # fmt: skip
+    plots["each"] = document([each_panel(report, "en")], words("en")["overview"]["each"],
+                             overview.lanes_height(report))  # fmt: skip
     plots["overview"] = document(overview_panels(report, "en"), words("en")["overview"]["title"])
     made = {f"{name}.svg": svg for name, svg in plots.items()}
     made["tradeoff.json"] = json.dumps(as_data(report, command), indent=1) + "\n"
@@ -97,7 +101,8 @@ def _layouts() -> jinja2.Environment:
         faces={weight: bangla_uri(name) for name, weight in (("Regular", 400), ("Bold", 700))},
         words=words,
         front=lambda rungs: _front(rungs, "hard"),
-        alone=lambda panel, title: document([panel], title),
+        alone=lambda panel, title, *height: document([panel], title, *height),
+        lanes_height=overview.lanes_height,
         overview_panels=overview_panels,
         sentence=sentence,
         steps_text=steps_text,
@@ -115,7 +120,8 @@ def _layouts() -> jinja2.Environment:
         lost=lost,
         counted=counted,
         product_sentence=product_sentence,
-        knob_plot=knob_plot,
+        knob_panels=knob_panels,
+        each_panel=each_panel,
     )
     return layouts
 
@@ -143,6 +149,12 @@ def overview_panels(report: Report, lang: str) -> list[str]:
         overview.panel(report, which, text["page"][which], _axes(lang), text["overview"])
         for which in overview.INPUTS
     ]
+
+
+def each_panel(report: Report, lang: str) -> str:
+    """Every formula on a line of its own, hard inputs, each step with what it costs and brings."""
+    text = words(lang)
+    return overview.lanes(report, text["overview"], text["page"]["x"])
 
 
 def sentence(report: Report, lang: str) -> str:
@@ -239,9 +251,14 @@ def spread_text(spent: Timing) -> str:
     return f"{time_text(1e9 * spent.low)} – {time_text(1e9 * spent.high)}"
 
 
-def knob_plot(key: str, curves: tuple[Curve, ...], lang: str) -> str:
-    """Work-precision plot of one setting."""
-    text = words(lang)["knob"][key]
+def knob_panels(key: str, curves: tuple[Curve, ...], lang: str) -> list[str]:
+    """Work-precision plot of one setting; of the camera, one for each scene that has a choice."""
+    unit, time = words(lang)["knob"][key]["error"], words(lang)["table"]["work"]
     lines = [(c.label, [(p.label, p.time.median, p.error) for p in c.points]) for c in curves]
-    panel = work_panel(lines, text["error"], words(lang)["table"]["work"])
-    return document([panel], text["title"])
+    if key != "camera":
+        return [work_panel(lines, unit, time)]
+    return [
+        front_panel(name, points, pareto([(spent, off) for _, spent, off in points]), unit, time)
+        for name, points in lines
+        if len(points) > 1
+    ]

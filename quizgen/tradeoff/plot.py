@@ -8,7 +8,7 @@ as a phone.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 from html import escape
 from importlib.resources import files
@@ -237,7 +237,31 @@ KINDS = ("on", "second", "third")
 
 def work_panel(curves: Sequence[tuple[str, Sequence[Setting]]], unit: str, time: str) -> str:
     """Time (log) against error (log), one line per curve, each point with its setting."""
-    points = [point for _, settings in curves for point in settings]
+    x, y, axes = _work_axes([point for _, settings in curves for point in settings], unit, time)
+    return axes + _curves(x, y, curves)
+
+
+def front_panel(
+    name: str, settings: Sequence[Setting], best: Collection[int], unit: str, time: str
+) -> str:
+    """The same of one curve; a line joins the settings that no other one beats."""
+    x, y, axes = _work_axes(settings, unit, time)
+    labels = Labels(BOUNDS)
+    places = [(x(spent), y(off)) for _, spent, off in settings]
+    front = sorted(places[i] for i in best)
+    parts = [axes, text(RIGHT, TOP + 6, name, "end", "head"), path(front, "front")]
+    labels.written(RIGHT, TOP + 6, name, "end")
+    for i, (px, py) in enumerate(places):
+        parts.append(circle(px, py, "on" if i in best else "off", 4))
+        labels.keep_clear(px, py)
+    parts += [
+        label(labels.place(said, *at)) for (said, _, _), at in zip(settings, places, strict=True)
+    ]
+    return "".join(parts)
+
+
+def _work_axes(points: Sequence[Setting], unit: str, time: str) -> tuple[Scale, Scale, str]:
+    """Axes that hold all settings."""
     seconds = [max(p[1], 1e-9) for p in points]
     errors = [p[2] for p in points if p[2] > 0] or [1.0]
     floor = max(min(errors) / 10, 1e-18)
@@ -251,7 +275,7 @@ def work_panel(curves: Sequence[tuple[str, Sequence[Setting]]], unit: str, time:
     for at in decades(y):
         parts.append(line(x.start, y(at), x.end, y(at), "grid"))
         parts.append(text(x.start - 5, y(at) + 4, power_text(at), "end"))
-    return "".join(parts) + _curves(x, y, curves)
+    return x, y, "".join(parts)
 
 
 def _below(value: float) -> float:

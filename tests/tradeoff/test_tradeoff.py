@@ -187,11 +187,16 @@ def test_work_precision_curves_fall():
     inverse_z, in_z = curves["layers"]
     assert [round(p.error, -1) for p in inverse_z.points][:3] == [70, 30, 20]
     assert all(a.error < b.error for a, b in zip(inverse_z.points, in_z.points, strict=True))
-    (landscape,) = curves["camera"]
-    assert [p.label for p in landscape.points] == ["=", "0.1", "0.5", "2", "8", "32"]
+    landscape, texture = curves["camera"]
+    assert [p.label for p in landscape.points] == ["=", "0.1", "0.5", "2", "32"]  # 8 is as 2
+    assert texture.label == "texture"
     for point in landscape.points[1:]:
         assert point.error <= float(point.label)
-    assert len(landscape.points[0].note) > len(landscape.points[-1].note) > 0
+    assert landscape.points[0].note.startswith("defocus, motion blur, shot noise")
+    assert landscape.points[-1].note == (
+        "−defocus, −motion blur, −shot noise, −dark current, −full well, −read noise, "
+        "−quantisation, gamma (table)"
+    )
     normal = [p.error for p in curves["photons"][0].points]
     assert normal == sorted(normal, reverse=True)
 
@@ -212,9 +217,7 @@ def test_command_writes_page_plots_and_data(tmp_path):
     page = (tmp_path / "tradeoff.html").read_text("utf-8")
     assert "http" not in page.replace("http://www.w3.org/2000/svg", "")
     assert "src=" not in page.replace("src:url(data:", "").replace("src=data:", "")
-    panels = (
-        2 * 2 + 1
-    )  # overview and family, on exam and on hard inputs; the family along its input
+    panels = 2 * 2 + 1 + 1  # overview and family, twice each; the steps; the family along its input
     assert page.count("<svg") == panels * len(languages())
     data = json.loads((tmp_path / "tradeoff.json").read_text("utf-8"))
     assert [rung["key"] for rung in data["families"][0]["rungs"]][:3] == [
