@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 import struct
 from collections.abc import Callable
 from io import BytesIO
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, SupportsFloat
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +30,14 @@ _TURNED: dict[object, Callable[[png.Codes], png.Codes]] = {
     8: lambda pixels: pixels.swapaxes(0, 1)[::-1],
 }
 """What brings pixels upright, by EXIF's number for how the camera was held."""
+_SHOT = 0x8769
+_SHOT_WITH = {
+    "shutter": (0x829A, 1.0),
+    "f_number": (0x829D, 1.0),
+    "focal_length": (0x920A, 1e-3),
+    "iso": (0x8827, 1.0),
+}
+"""Settings of a camera by EXIF's numbers, and what makes base units of their values."""
 _QUALITY = 95
 _BROKEN = (OSError, SyntaxError, ArithmeticError, LookupError, struct.error, TypeError)
 
@@ -55,6 +64,34 @@ def decode(data: bytes) -> png.Codes:
         return _upright(pixels.reshape(*pixels.shape[:2], -1), file.getexif())
     except _BROKEN as error:
         raise ValueError("a broken JPEG file") from error
+
+
+def shot_with(data: bytes) -> dict[str, float]:
+    """Settings of the camera that took a photograph, in base units, as far as its EXIF says.
+
+    Parameters
+    ----------
+    data : bytes
+        Of a file that `decode` can read.
+    """
+    try:
+        exif = _jpeg(data).getexif() if data.startswith(_JPEG) else png.exif(data)
+        said = exif.get_ifd(_SHOT)
+    except _BROKEN:
+        return {}
+    found = {name: _positive(said.get(tag)) * unit for name, (tag, unit) in _SHOT_WITH.items()}
+    return {name: value for name, value in found.items() if value}
+
+
+def _positive(value: object) -> float:
+    """A number > 0, or 0 for what is none."""
+    if not isinstance(value, SupportsFloat):
+        return 0.0
+    try:
+        number = float(value)
+    except ZeroDivisionError:
+        return 0.0
+    return number if 0.0 < number < math.inf else 0.0
 
 
 def _jpeg(data: bytes) -> JpegImageFile:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +26,7 @@ from quizgen.camera.values import (
     pair,
     quantity,
     several,
+    truth,
     whole,
     words,
 )
@@ -94,7 +96,7 @@ def _readers(table: str) -> Readers:
     if table != "camera":
         return SCENE if table == "scene" else THING
     named = {name: setting.read for name, setting in effects.settings().items()}
-    return {"sensor_width": quantity("m"), **named}
+    return {"sensor_width": quantity("m"), "exif": truth, **named}
 
 
 _HEADER = re.compile(r"\s*\[\[?\s*([\w-]+)\s*\]\]?")
@@ -176,13 +178,33 @@ def load(path: str | Path) -> tuple[Scene, Camera]:
         _thing(file, which, table) for which, table in enumerate(file.tables.get("thing", []))
     ]
     scene = _scene(file, tuple(things))
-    camera = _camera(file, scene.width)
+    values = file.read("camera", 0, file.tables.get("camera", {}))
+    if values.pop("exif", False):
+        scene = replace(scene, exif=_shot_with(file, values))
+    camera = _camera(file, {**scene.exif, **values}, scene.width)
     _check_effects(file, View(scene, camera))
     return scene, camera
 
 
-def _camera(file: _File, columns: int) -> Camera:
-    values = file.read("camera", 0, file.tables.get("camera", {}))
+def _shot_with(file: _File, given: Mapping[str, object]) -> dict[str, float]:
+    """What a photograph's file says of its camera and the scene does not.
+
+    An f-number needs to know the size of a pixel, and the ISO value of a metered picture has been
+    made up for by its aperture and time.
+    """
+    name = file.tables.get("scene", {}).get("image")
+    if name is None:
+        raise file.fail("camera", 0, "exif", "exif needs an image")
+    said = codecs.shot_with(read_bytes(file.path.parent / name, SceneError, LARGEST_PICTURE))
+    sized = "pixel_pitch" in given or "sensor_width" in given
+    needs = {"f_number": sized and "pinhole" not in given, "iso": "light_value" in given}
+    taken = {key: x for key, x in said.items() if needs.get(key, True) and key not in given}
+    if not said:
+        raise file.fail("camera", 0, "exif", f"{name} does not say how it was taken")
+    return taken
+
+
+def _camera(file: _File, values: dict[str, Any], columns: int) -> Camera:
     if (width := values.pop("sensor_width", None)) is not None:
         if "pixel_pitch" in values:
             raise file.fail("camera", 0, "sensor_width", "give sensor_width or pixel_pitch")

@@ -6,7 +6,8 @@ Positions count from the centre of the picture, x to the right and y down.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
 from functools import cache, cached_property
 from pathlib import Path
 from typing import NamedTuple
@@ -135,6 +136,8 @@ class Scene:
         Seed of every random effect.
     title : str
         Shown by the command line.
+    exif : mapping of str to float
+        Settings of the camera that were read from the picture's file, in base units.
     file : pathlib.Path or None
         What it was read from: errors that show only when it is photographed name it.
     """
@@ -149,6 +152,7 @@ class Scene:
     question: tuple[str, ...] = ()
     seed: int = 0
     title: str = ""
+    exif: Mapping[str, float] = field(default_factory=dict)
     file: Path | None = None
 
     @cached_property

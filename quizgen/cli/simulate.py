@@ -53,6 +53,8 @@ class Shot:
     seed: int
     idle: dict[str, str]
     """Settings that do nothing, and what they need."""
+    exif: dict[str, float]
+    """Settings that the photograph's file said, in base units."""
     really: dict[str, float]
     """What each effect really changes, where that was asked."""
     times: dict[str, float]
@@ -133,9 +135,9 @@ def _shoot(scene: str, options: Options, told: Progress) -> Shot:
     again = options["everything"] or options["compare"] is not None
     photo = run(prepared, what, told, last=not again)
     times = {"read": read, "planned": planned, "drawn": photo.drawn_ms}
-    title, seed = prepared.given.scene.title or scene, prepared.given.scene.seed
-    idle = effects.idle(prepared.given)
-    shot = Shot(title, photo, None, seed, idle, {}, {**times, "effects": photo.measured_ms})
+    seen, idle = prepared.given.scene, effects.idle(prepared.given)
+    times["effects"] = photo.measured_ms
+    shot = Shot(seen.title or scene, photo, None, seen.seed, idle, dict(seen.exif), {}, times)
     if again:
         shot.whole = run(prepared, everything(prepared), told)
     if options["compare"] is not None:
@@ -194,6 +196,7 @@ def summary(shot: Shot) -> dict[str, Any]:
         "skipped": [_skip(item, shot) for item in what.skipped],
         "absent": list(what.absent),
         "idle": shot.idle,
+        "exif": shot.exif,
         "seed": shot.seed,
         "budget_dn": what.budget,
         "predicted_error_dn": what.predicted_error_dn,
@@ -269,6 +272,9 @@ def _print_totals(shot: Shot, report: dict[str, Any]) -> None:
     tell("; ".join(f"{name} {spent:.0f} ms" for name, spent in shot.times.items()))
     if what.absent:
         tell(f"not in this camera: {', '.join(what.absent)}")
+    if shot.exif:
+        said = ", ".join(f"{name} {value:g}" for name, value in shot.exif.items())
+        tell(f"from the photograph's file: {said}")
     for name, need in shot.idle.items():
         tell(f"{name} does nothing without {need}")
     if whole is not None:

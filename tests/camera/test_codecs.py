@@ -7,9 +7,9 @@ import cv2
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from PIL import Image, ImageOps
+from PIL import ExifTags, Image, ImageOps
 
-from quizgen.camera import codecs
+from quizgen.camera import SceneError, codecs
 from quizgen.camera.reading import load
 from quizgen.cli.simulate import simulate
 
@@ -89,3 +89,50 @@ def test_another_ending_is_refused_before_anything_is_made(tmp_path):
     assert "cannot write" in str(result.exception)
     assert ".png, .jpg, .jpeg" in str(result.exception)
     assert not out.exists()
+
+
+def photograph(tmp_path, camera, **said):
+    """A scene of a JPEG whose EXIF says something, by Pillow's names of the tags."""
+    exif = Image.Exif()
+    exif.get_ifd(0x8769).update({getattr(ExifTags.Base, name): x for name, x in said.items()})
+    Image.fromarray(smooth()).save(tmp_path / "photo.jpg", exif=exif)
+    path = tmp_path / "s.toml"
+    path.write_text(f'[scene]\nimage = "photo.jpg"\n[camera]\nexif = true\n{camera}', "utf-8")
+    return path
+
+
+SAID = {"FocalLength": 35.0, "FNumber": 2.8, "ExposureTime": 1 / 250, "ISOSpeedRatings": 400}
+
+
+def test_a_photograph_says_how_it_was_taken(tmp_path):
+    path = photograph(tmp_path, 'sensor_width = "23.6 mm"\nshutter = "1/60 s"', **SAID)
+    scene, camera = load(path)
+    assert scene.exif == pytest.approx({"f_number": 2.8, "focal_length": 0.035})
+    assert camera.given["f_number"] == pytest.approx(2.8)
+    assert camera.given["shutter"] == pytest.approx(1 / 60)  # the scene's own
+    assert "iso" not in camera.given
+    told = CliRunner().invoke(simulate, [str(path), "--json"])
+    assert json.loads(told.stdout)["exif"] == dict(scene.exif)
+    assert "from the photograph's file: f_number 2.8, focal_length 0.035" in CliRunner().invoke(simulate, [str(path)]).output  # fmt: skip
+
+
+def test_iso_is_taken_beside_a_light_value_and_the_f_number_beside_a_pitch(tmp_path):
+    bright = 'sensor_width = "23.6 mm"\nlight_value = 12'
+    assert load(photograph(tmp_path, bright, **SAID))[1].given["iso"] == 400
+    assert set(load(photograph(tmp_path, "", **SAID))[0].exif) == {"focal_length", "shutter"}
+
+
+def test_without_asking_nothing_is_taken(tmp_path):
+    path = photograph(tmp_path, "", **SAID)
+    path.write_text('[scene]\nimage = "photo.jpg"\n', "utf-8")
+    scene, camera = load(path)
+    assert scene.exif == camera.given == {}
+
+
+def test_what_a_file_does_not_say_is_told(tmp_path):
+    with pytest.raises(SceneError, match=r"s\.toml:4: photo\.jpg does not say how it was taken"):
+        load(photograph(tmp_path, "", FNumber=0.0))
+    path = tmp_path / "s.toml"
+    path.write_text("[camera]\nexif = true", "utf-8")
+    with pytest.raises(SceneError, match=r"s\.toml:2: exif needs an image"):
+        load(path)
