@@ -24,6 +24,14 @@ def histogram(image: Numbers, bins: int = 256, top: float = 1.0) -> NDArray[np.i
     image : numpy.ndarray
         Any shape. With integer pictures use ``top = 255`` and 256 bins: one bin per level.
     """
-    steps = bins - 1 if np.issubdtype(image.dtype, np.integer) else bins
-    index = np.clip((image.astype(np.float64) * (steps / top)).astype(np.int64), 0, bins - 1)
-    return np.bincount(index.reshape(-1), minlength=bins)
+    if image.dtype == np.uint8:  # each level once, not each pixel
+        counts = np.bincount(image.reshape(-1), minlength=256)
+        index = _bins(np.arange(256), bins, top)
+        return np.bincount(index, counts, bins).astype(np.int64)
+    return np.bincount(_bins(image, bins, top).reshape(-1), minlength=bins)
+
+
+def _bins(values: Numbers, bins: int, top: float) -> NDArray[np.int64]:
+    steps = bins - 1 if np.issubdtype(values.dtype, np.integer) else bins
+    index = (values.astype(np.float64) * (steps / top)).astype(np.int64)
+    return np.clip(index, 0, bins - 1)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import chain
 from math import cos, hypot, pi, sin
 from typing import TYPE_CHECKING
 
 from quizgen.figures._canvas import CLOSE, MOVE, Canvas, Label, Style
-from quizgen.figures._canvas import LINE as STRAIGHT
+from quizgen.figures._canvas import LINE as LINE_TO
 from quizgen.figures._letters import width
 
 if TYPE_CHECKING:
@@ -24,6 +25,8 @@ LABEL = 10.5
 _HEAD, _HALF = 7.0, 2.4
 _CIRCLE = [(cos(2 * pi * i / 24), sin(2 * pi * i / 24)) for i in range(24)]
 
+
+_MOVE, _STRAIGHT, _CLOSE = (bytes([code]) for code in (MOVE, LINE_TO, CLOSE))
 
 INK = Style()
 SHADE = Style(colour="#d2d2d2")
@@ -50,19 +53,19 @@ class Pen:
 
     width: float = WIDTH
     height: float = HEIGHT
-    paths: dict[tuple[str, Style], tuple[list[Point], list[int]]] = field(default_factory=dict)
+    paths: dict[tuple[str, Style], tuple[list[Point], bytearray]] = field(default_factory=dict)
     labels: list[Label] = field(default_factory=list)
 
     def _add(
         self, part: str, style: Style, points: Sequence[Point] | np.ndarray, *, closed: bool
     ) -> None:
-        path, codes = self.paths.setdefault((part, style), ([], []))
+        path, codes = self.paths.setdefault((part, style), ([], bytearray()))
         row = points if isinstance(points, Sequence) else points.tolist()
         path += row
-        codes += [MOVE, *[STRAIGHT] * (len(row) - 1)]
+        codes += _MOVE + _STRAIGHT * (len(row) - 1)
         if closed:
             path.append(row[0])
-            codes.append(CLOSE)
+            codes += _CLOSE
 
     def line(self, part: str, points: Sequence[Point] | np.ndarray, style: Style = LINE) -> None:
         """Draw a polyline."""
@@ -166,7 +169,8 @@ class Pen:
 
         canvas.size(self.width, self.height, background)
         for (part, style), (points, codes) in self.paths.items():
-            canvas.path(part, style, np.array(points, float), np.array(codes, np.uint8))
+            flat = np.fromiter(chain.from_iterable(points), float, 2 * len(points))
+            canvas.path(part, style, flat.reshape(-1, 2), np.frombuffer(codes, np.uint8))
         canvas.labels = self.labels
 
 

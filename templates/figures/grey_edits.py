@@ -103,7 +103,7 @@ def _edited(edit: str, values: Values) -> NDArray[np.uint8]:
     from quizgen.camera import pictures
 
     table = levels(edit, np.arange(256.0), values) / 255
-    return pictures.codes(table.astype(np.float32))[scene()]
+    return pictures.codes(table.astype(np.float32)).take(scene())
 
 
 def _photo(canvas: Canvas, pen: Pen, codes: NDArray[np.uint8], where: tuple[float, ...]) -> None:
