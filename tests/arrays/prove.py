@@ -1,4 +1,4 @@
-"""Prove bounds on the error of the Gaussian tails over their whole domain, with Arb.
+"""Prove bounds on the error of kernels over their whole domain, with Arb.
 
 Run: ``python tests/arrays/prove.py``. Writes ``proofs.tsv``: kernel, bound in units in the last
 place, boxes looked at, and the digest of the code that was proven.
@@ -17,76 +17,19 @@ from __future__ import annotations
 
 import hashlib
 import inspect
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any, NamedTuple
 
-import numpy as np
+from enclosures import ORDER, UNIT, boxes, farthest, on_one
 from flint import arb, arb_series, ctx
 
 from quizgen.arrays import gaussian, polynomial, tables
 
 PROOFS = Path(__file__).with_name("proofs.tsv")
-UNIT = arb(2) ** -53
+DOCS = Path(__file__).parents[2] / "docs/accuracy.md"
+HEAD = "  | kernel | relative error, in 2^-53 | boxes |\n  |---|---|---|\n"
 COMPENSATED = arb(2) ** -80
-ORDER = 14
-"""Terms of the Taylor series on a box."""
-
-
-class Box:
-    """Exact values over a box, and the largest error of the computed ones."""
-
-    def __init__(self, value, error=0):
-        self.value, self.error = arb(value), arb(error)
-
-    def _rounded(self, value, error):
-        return Box(value, (error + UNIT * (abs(value) + error)).upper())
-
-    def __add__(self, other):
-        other = other if isinstance(other, Box) else Box(other)
-        return self._rounded(self.value + other.value, self.error + other.error)
-
-    def __neg__(self):
-        return Box(-self.value, self.error)
-
-    def __sub__(self, other):
-        return self + -(other if isinstance(other, Box) else Box(other))
-
-    def __rsub__(self, other):
-        return Box(other) - self
-
-    def __mul__(self, other):
-        other = other if isinstance(other, Box) else Box(other)
-        error = abs(self.value) * other.error + abs(other.value) * self.error
-        return self._rounded(self.value * other.value, error + self.error * other.error)
-
-    def __truediv__(self, other):
-        value = self.value / other.value
-        error = (self.error + abs(value) * other.error) / (abs(other.value) - other.error)
-        return self._rounded(value, error)
-
-    __radd__, __rmul__ = __add__, __mul__
-
-
-def boxes(low, high, count):
-    """Interval cut into pieces that overlap in their ends."""
-    width = (arb(high) - arb(low)) / count
-    for i in range(count):
-        yield arb(low) + width * (i + arb("0.5")) + arb(0, (width / 2).upper())
-
-
-def farthest(difference, box):
-    """Enclose a function over a box by its Taylor series in the middle."""
-    middle, radius = arb(box.mid()), arb(0, box.rad().upper())
-    terms = difference(arb_series([middle, 1], prec=ORDER)).coeffs()
-    rest = difference(arb_series([box, 1], prec=ORDER)).coeffs()[-1]
-    total = rest
-    for term in reversed(terms[: ORDER - 1]):
-        total = total * radius + term
-    return total
-
-
-def on_one(formula, box):
-    """Run code for arrays on one box."""
-    return formula(np.array([Box(box)], dtype=object))[0]
 
 
 def far_difference(k):
@@ -120,30 +63,139 @@ def near_bound(box):
     return (tail.error + abs(farthest(near_difference, box))) / abs(tail.value)
 
 
+def exact_fraction(parts, x):
+    """Fraction in exact arithmetic, of a series."""
+    values = []
+    for coefficients in parts:
+        total = arb_series([0])
+        for c in reversed(coefficients):
+            total = total * x + c
+        values.append(total)
+    return values[0] / values[1]
+
+
+def middle_difference(share):
+    """Exact probability between 0 and the fraction's quantile, less the share asked for."""
+    k = share * exact_fraction(gaussian._QUANTILE_MIDDLE, gaussian._WAY - share * share)
+    return (k / arb(2).sqrt()).erf() / 2 - share
+
+
+def middle_bound(share):
+    """Relative error of the quantile next to 1/2.
+
+    Shares up to 1/4 are exact (Sterbenz), others rounded by 2**-55 at most. The probability grows
+    by at least the density a little beyond the quantile found; next to 0 the difference per share
+    is at most its slope.
+    """
+    formula = gaussian._QUANTILE_MIDDLE
+    k = on_one(lambda s: gaussian._fraction(formula, gaussian._WAY - s * s), share)
+    slope, rounded = abs(k.value), k.error / abs(k.value) + UNIT
+    density = (-((share * slope + arb(2) ** -40) ** 2) / 2).exp() * arb(gaussian._PEAK)
+    if share.contains(0):
+        missed = abs(farthest(lambda s: middle_difference(s).derivative(), share))
+        return rounded + missed / (density * slope)
+    missed = abs(farthest(middle_difference, share)) + (0 if share < 0.25 else UNIT / 4)
+    return rounded + missed / (density * share * slope)
+
+
+def near_difference_of_logarithms(root):
+    """Logarithm of the exact tail at the fraction's quantile, less that of p = exp(-root**2)."""
+    k = exact_fraction(gaussian._QUANTILE_NEAR, root - gaussian._NEAR_WAY)
+    return ((k / arb(2).sqrt()).erfc() / 2).log() + root * root
+
+
+def far_difference_of_logarithms(root):
+    """The same below exp(-25), with the polynomial in place of Mills' ratio."""
+    k = exact_fraction(gaussian._QUANTILE_FAR, root - gaussian._FAR_WAY)
+    t, total = (k - 4) / (k + 4), arb_series([0])
+    for c in reversed(tables.MILLS):
+        total = total * t + c
+    return (total / (k + arb("0.75"))).log() - k * k / 2 + root * root
+
+
+def start_error(parts, way, root):
+    """The fraction, how far rounding moves it, and the hazard there, which is above it.
+
+    The logarithm of p is off by two units of 2**-53, its root by half of that and one rounding;
+    the quantile changes with the root by 2 root by the hazard.
+    """
+    found = on_one(lambda r: gaussian._fraction(parts, r - way), root)
+    k = farthest(lambda r: exact_fraction(parts, r - way), root)
+    return k, found.error + 4 * UNIT * root * root / k, k
+
+
+def tail_bound(root):
+    """Relative error of the quantile of a tail between exp(-25) and 0.075."""
+    k, error, hazard = start_error(gaussian._QUANTILE_NEAR, gaussian._NEAR_WAY, root)
+    return (error + abs(farthest(near_difference_of_logarithms, root)) / hazard) / k
+
+
+def newton_bound(root):
+    """Relative error of the quantile after the step of Newton, for tails below exp(-25).
+
+    The step is taken from the double k that was found. What it misses is off by the logarithm of
+    p (two units of 2**-53), the logarithm of Mills' ratio with its own error, and three sums of
+    which the second has the magnitude of k**2/2; what lies below k**2 is kept. The start squared
+    remains, since the hazard grows by at most 1, and the slope taken is off by less than 2**-40.
+    """
+    k, error, hazard = start_error(gaussian._QUANTILE_FAR, gaussian._FAR_WAY, root)
+    k += arb(0, error.upper())
+    ratio = on_one(lambda k: gaussian.mills(k)[0], k)
+    missed = abs(farthest(far_difference, k)) / (abs(ratio.value) * (k + arb("0.75")))
+    off = ratio.error / abs(ratio.value) + missed
+    start = error + (abs(farthest(far_difference_of_logarithms, root)) + 2 * missed) / hazard
+    log = abs(ratio.value.log()) + off
+    sums = log + (log + k * k / 2) + arb(2) ** -30
+    miss = 2 * UNIT * root * root + off + 2 * UNIT * log + UNIT * sums + COMPENSATED
+    return (miss / hazard + start * start + start * arb(2) ** -40) / k + UNIT
+
+
+class Piece(NamedTuple):
+    """What is proven: relative error on a box, the domain, into how many boxes it is cut."""
+
+    bound: Callable[[Any], Any]
+    low: float
+    high: float
+    count: int
+    code: tuple[Any, ...]
+
+    def digest(self):
+        """Of everything that the proven functions run."""
+        return hashlib.sha256("".join(map(inspect.getsource, self.code)).encode()).hexdigest()[:16]
+
+
+TAIL = (gaussian.mills, gaussian.far_tail, gaussian.near_tail, polynomial.horner, tables)
+QUANTILE = (gaussian, polynomial.horner, tables)
 PIECES = {
-    "gaussian.far_tail": (far_bound, 0.6999, 37.5, 4000),
-    "gaussian.near_tail": (near_bound, 0.0, 0.7, 200),
+    "gaussian.far_tail": Piece(far_bound, 0.6999, 37.5, 4000, TAIL),
+    "gaussian.near_tail": Piece(near_bound, 0.0, 0.7, 200, TAIL),
+    "gaussian.quantile next to 1/2": Piece(middle_bound, 0.0, 0.42501, 400, QUANTILE),
+    "gaussian.quantile to exp(-25)": Piece(tail_bound, 1.609, 5.0001, 2000, QUANTILE),
+    "gaussian.quantile below exp(-25)": Piece(newton_bound, 4.9999, 27.285, 4000, QUANTILE),
 }
-"""What is proven: relative error on a box, the domain, and into how many boxes it is cut."""
 
 
-def digest():
-    """Of everything that the proven functions run."""
-    parts = (gaussian.mills, gaussian.far_tail, gaussian.near_tail, polynomial.horner, tables)
-    return hashlib.sha256("".join(map(inspect.getsource, parts)).encode()).hexdigest()[:16]
-
-
-def worst(bound, low, high, count):
+def worst(piece):
     """Units in the last place: a unit is at least UNIT relative to the value."""
-    return max(float((bound(box) / UNIT).upper()) for box in boxes(low, high, count))
+    cut = boxes(piece.low, piece.high, piece.count)
+    return max(float((piece.bound(box) / UNIT).upper()) for box in cut)
+
+
+def table():
+    """Rows of the record, as the documents print them."""
+    rows = (line.split("\t") for line in PROOFS.read_text().splitlines())
+    return "\n".join(f"  | {name} | {bound} | {count} |" for name, bound, count, _ in rows)
 
 
 def main():
     ctx.prec, ctx.cap = 300, ORDER
     rows = [
-        f"{name}\t{worst(*piece):.2f}\t{piece[-1]}\t{digest()}" for name, piece in PIECES.items()
+        f"{name}\t{worst(piece):.2f}\t{piece.count}\t{piece.digest()}"
+        for name, piece in PIECES.items()
     ]
     PROOFS.write_text("\n".join(rows) + "\n")
+    before, _, rest = DOCS.read_text().partition(HEAD)
+    DOCS.write_text(before + HEAD + table() + "\n\n" + rest.partition("\n\n")[2])
     print(PROOFS.read_text(), end="")
 
 
