@@ -123,7 +123,7 @@ def source(view: View, rows: slice = slice(None)) -> tuple[Image, Image]:
     return x[rows], y[rows]
 
 
-_BAND = 480
+_BAND = 240
 """Rows that are read at once."""
 _KEPT = 1_000_000
 """Pixels of the largest map that is kept as a whole: 8 MB."""
