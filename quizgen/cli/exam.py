@@ -310,4 +310,6 @@ def _again(options: Options) -> list[str]:
         words += ["--blueprint", options["blueprint"]]
     for named in options["bank"]:
         words += ["--bank", str(named)]
+    for named in options["trust_bank"]:
+        words += ["--trust-bank", str(named)]
     return words + ["--trust"] * options["trust"]

@@ -74,7 +74,12 @@ def lint(**options: Unpack[Options]) -> None:
     stop the others.
     """
     folders = (options["folder"],) if options["folder"] else ()
-    whole = open_bank({"bank": (*folders, *options["bank"]), "trust": options["trust"]})
+    given: BankOptions = {
+        "bank": (*folders, *options["bank"]),
+        "trust": options["trust"],
+        "trust_bank": options["trust_bank"],
+    }
+    whole = open_bank(given)
     only = [whole.home(name) for name in options["only"]]
     asked = {part: tuple(own for home, own in only if home is part) for part in whole.parts}
     found = [

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, ParamSpec, TypedDict, TypeVar
 
@@ -42,18 +42,25 @@ class BankOptions(TypedDict):
 
     bank: tuple[Path, ...]
     trust: bool
+    trust_bank: tuple[Path, ...]
 
 
 def bank_options(command: Callable[P, T]) -> Callable[P, T]:
-    """Add ``--bank`` and ``--trust``."""
-    trust = click.option("--trust", is_flag=True, help="Run the Python of --bank this time.")
+    """Add ``--bank``, and ``--trust`` or ``--trust-bank`` for whose Python runs."""
+    trust = click.option("--trust", is_flag=True, help="Run the Python of every --bank this time.")
+    one = click.option(
+        "--trust-bank",
+        type=click.Path(path_type=Path),
+        multiple=True,
+        help="Run the Python of this --bank this time, and of no other one.",
+    )
     bank = click.option(
         "--bank",
         type=click.Path(path_type=Path),
         multiple=True,
         help="Another bank: its folder or name; several are mixed.",
     )
-    return bank(trust(command))
+    return bank(trust(one(command)))
 
 
 def open_bank(options: BankOptions) -> Bank:
@@ -62,17 +69,60 @@ def open_bank(options: BankOptions) -> Bank:
     from quizgen.bank.mixed import opened
 
     roots = [root_of(named) for named in options["bank"]]
-    return opened([(str(root), is_trusted(root, options)) for root in roots])
+    allowed = _allowed(roots, options)
+    return opened([(str(root), is_trusted(root, allowed)) for root in roots])
 
 
-def is_trusted(root: Path, options: BankOptions) -> bool:
-    """Whether a bank's Python may run: by ``--trust``, as remembered, or by asking whoever types.
+def _allowed(roots: Sequence[Path], options: BankOptions) -> set[Path]:
+    """Banks whose Python may run this time, as the command line says.
+
+    Raises
+    ------
+    click.BadParameter
+        If ``--trust-bank`` names a bank that ``--bank`` does not.
+    """
+    from quizgen.bank.found import root_of
+
+    found = {root.resolve() for root in roots}
+    if options["trust"]:
+        _tell_all(roots)
+        return found
+    chosen = {root_of(named).resolve(): named for named in options["trust_bank"]}
+    for root, named in chosen.items():
+        if root not in found:
+            told = ", ".join(map(str, options["bank"])) or "none"
+            raise click.BadParameter(
+                f"{named} is not among the banks of --bank ({told})", param_hint="--trust-bank"
+            )
+    return {*chosen}
+
+
+def _tell_all(roots: Sequence[Path]) -> None:
+    """Name the banks whose Python ``--trust`` lets run, where it is that of more than one."""
+    from quizgen.bank.folder import builtin_root
+    from quizgen.bank.found import python_of
+
+    ours = builtin_root().resolve()
+    bring = [str(root) for root in roots if root.resolve() != ours and python_of(root)]
+    if len(bring) > 1:
+        said = f"--trust lets the Python of {len(bring)} banks run: {', '.join(bring)}"
+        click.echo(f"quizgen: {visible(said)}", err=True)
+
+
+def is_trusted(root: Path, allowed: Collection[Path]) -> bool:
+    """Whether a bank's Python may run: as typed, as remembered, or by asking whoever types.
 
     Where nobody can be asked it is said at once that it does not run.
+
+    Parameters
+    ----------
+    root : Path
+    allowed : collection of Path
+        Folders of the banks that the command line trusts.
     """
     from quizgen.bank.folder import builtin_root
 
-    if options["trust"] or root.resolve() == builtin_root().resolve():
+    if root.resolve() in {*allowed, builtin_root().resolve()}:
         return True
     from quizgen.bank.found import is_remembered, python_of, remember
 

@@ -24,6 +24,7 @@ SOLVER = "solvers/forces/newton.py"
 @pytest.fixture
 def root(tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "home"))
+    monkeypatch.chdir(tmp_path)
     return write(tmp_path / "mechanics")
 
 
@@ -138,3 +139,51 @@ def test_each_of_several_banks_is_asked_for(root, tmp_path, asked):
     done = run("preview", "second:push", *both)
     assert str(second) in str(done.exception)
     assert len(questions) == 3
+
+
+@pytest.fixture
+def second(root, tmp_path):
+    """Another bank, with Python of its own that differs."""
+    place = write(tmp_path / "second")
+    about = place / "templates" / "bank.toml"
+    about.write_text(FILES["templates/bank.toml"].replace('"mechanics"', '"second"'), "utf-8")
+    (place / SOLVER).write_text(FILES[SOLVER] + "\n# another\n", "utf-8")
+    return place
+
+
+def test_of_two_banks_one_is_trusted(root, second):
+    both = ("--bank", root, "--bank", second)
+    only = (*both, "--trust-bank", root)
+    done = run("preview", "mechanics:push", *only)
+    assert done.exit_code == 0, done.output
+    assert f"{second} brings 2 files of Python" in done.stderr
+    assert str(root) not in done.stderr
+    done = run("preview", "second:push", *only)
+    assert str(done.exception).startswith(f"{second / SOLVER}: this bank brings its own Python")
+    made = run("exam", *both, "--trust-bank", second, "--blueprint", "all.90", "--format", "html",
+               "--out", "paper")  # fmt: skip
+    assert str(made.exception).startswith(f"{root / SOLVER}: this bank brings its own Python")
+    assert not Path("paper").exists()
+
+
+def test_to_trust_all_names_each(root, second):
+    all_of_them = ("--bank", "image-acquisition", "--bank", root, "--bank", second, "--trust")
+    done = run("preview", "second:push", *all_of_them)
+    assert done.exit_code == 0
+    assert done.stderr == f"quizgen: --trust lets the Python of 2 banks run: {root}, {second}\n"
+    assert run("preview", "push", "--bank", root, "--trust").stderr == ""
+
+
+def test_who_is_trusted_must_be_among_the_banks(root, second):
+    done = run("preview", "push", "--bank", root, "--trust-bank", second)
+    assert done.exit_code == 2
+    assert f"{second} is not among the banks of --bank ({root})" in done.output.replace("\n", " ")
+
+
+def test_a_command_to_make_it_again_trusts_the_same_bank(root):
+    done = run("exam", "--bank", root, "--trust-bank", root, "--topic", "forces",
+               "--format", "html", "--out", "paper")  # fmt: skip
+    assert done.exit_code == 0, done.output
+    (again,) = [line for line in done.output.splitlines() if "paper again" in line]
+    assert f"--trust-bank {root}" in again
+    assert " --trust " not in f"{again} "

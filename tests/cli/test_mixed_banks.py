@@ -65,6 +65,7 @@ def test_every_command_that_takes_a_bank_takes_trust_and_several():
         if "--bank" in options:
             assert "--trust" in options, words
             taking[" ".join(words)] = options["--bank"].multiple
+            assert ("--trust-bank" in options) is options["--bank"].multiple, words
     alone = {"new template"}  # writes into one bank
     assert {name for name, several in taking.items() if not several} == alone
     assert taking.keys() - alone == {
