@@ -23,6 +23,7 @@ COMMANDS: dict[str, tuple[list[str], ...]] = {
         [sys.executable, "benchmarks/marking.py"],
         [sys.executable, "benchmarks/web.py"],
     ),
+    "counts": ([sys.executable, "tools/count.py"],),
     "bounds": ([sys.executable, "tests/arrays/prove.py"],),
     "pins": ([sys.executable, "tools/pin.py"],),
     "fonts": (

@@ -67,12 +67,16 @@ def write(report: Report, folder: Path, command: str) -> list[Path]:
     made["tradeoff.md"] = markdown(report, command)
     if report.product is not None:
         made["product.csv"] = product_csv(report.product)
-        counts = msgspec.json.encode(report.product.counted)
-        made["counted.json"] = msgspec.json.format(counts).decode() + "\n"
+        made["counted.json"] = counts_json(report.product.counted)
     page = {"tradeoff.html": html(report, command).encode()}
     pictures = {"overview.png": png(plots["overview"].encode(), 560)}
     texts = {name: text.encode() for name, text in made.items()}
     return write_all(folder, texts | pictures | page)
+
+
+def counts_json(counted: Counted) -> str:
+    """What was counted, as it is recorded."""
+    return msgspec.json.format(msgspec.json.encode(counted)).decode() + "\n"
 
 
 def html(report: Report, command: str) -> str:

@@ -22,8 +22,9 @@ def blur_disc(f: Column, N: Column, s: Column, z: Column) -> Column:
 
 
 def stops(a: Column, b: Column) -> Column:
-    """Stops between two f-numbers."""
-    return np.log1p((b - a) / a) * (2 / np.log(2))
+    """Stops between two f-numbers whose quotient is a double."""
+    more: Column = b - a  # over the smaller one: over the larger the digits would go near -1
+    return np.copysign(np.log1p(np.abs(more) / np.minimum(a, b)), more) * (2 / np.log(2))
 
 
 def scale_error(z: Column, zbar: Column) -> Column:
@@ -38,7 +39,8 @@ def snr_loss(N: Column, s: Column) -> Column:
 
 def falloff(r: Column, f: Column) -> Column:
     """Light lost at r from the centre: 1 - cos^4."""
-    p = r * r / (r * r + f * f)
+    sine = r / np.hypot(r, f)  # squares of r and f might leave the range
+    p = sine * sine
     return p * (2 - p)
 
 

@@ -18,6 +18,7 @@ from quizgen.maths.numbers import to_float
 from quizgen.maths.precision import working_precision
 from quizgen.maths.values import Values
 from quizgen.shapes import decoded
+from quizgen.tradeoff.basis import Basis, basis
 from quizgen.tradeoff.measure import Timing, spread
 from quizgen.tradeoff.solving import ARITHMETICS, FAILURES, Arithmetic, faults, solved, specs
 
@@ -47,6 +48,8 @@ class Counted:
         Over how many templates the questions are spread.
     drawn : int
         How many questions; fewer than ``ROUND`` are extrapolated.
+    basis : Basis
+        What they were counted from.
     faults : dict of str to dict of str to int
         Arithmetic to fault to the number of questions that have it.
     """
@@ -54,6 +57,7 @@ class Counted:
     date: str
     templates: int
     drawn: int
+    basis: Basis
     faults: dict[str, dict[str, int]]
 
     def of_round(self, system: str, fault: str) -> int:
@@ -213,7 +217,7 @@ def count_faults(bank: Bank, drawn: int, told: Callable[[str], None]) -> Counted
         for system, counts in wrong.items():
             counts.update(fault for fault, true in asdict(faults(one, system)).items() if true)
     found = {system: dict(counts) for system, counts in wrong.items()}
-    return Counted(today(), len(bank.paths), drawn, found)
+    return Counted(today(), len(bank.paths), drawn, basis(bank), found)
 
 
 def today() -> str:

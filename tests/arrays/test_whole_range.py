@@ -244,3 +244,11 @@ def test_one_odd_element_is_found_in_a_block(name, place, args, odd):
     values = function(name)(*columns)
     assert np.ma.getmaskarray(values).tolist() == [i == 4 for i in range(9)]
     assert values[0] == function(name)(*(np.array([arg, arg]) for arg in args))[0]
+
+
+@pytest.mark.parametrize("name", ["gaussian.upper_tail", "projection.pixel", "poisson.lower"])
+def test_no_elements_give_no_elements(name):
+    values = function(name)(
+        *[np.empty(0)] * {"projection.pixel": 5, "poisson.lower": 2}.get(name, 1)
+    )
+    assert values.shape == (0,)

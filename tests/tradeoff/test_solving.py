@@ -6,6 +6,7 @@ import pytest
 
 from quizgen.bank.draw import draw
 from quizgen.bank.folder import builtin
+from quizgen.tradeoff.basis import Basis, basis, meaning
 from quizgen.tradeoff.product import Counted, count_faults, measure_product, questions, recorded
 from quizgen.tradeoff.solving import ARITHMETICS, Faults, faults
 
@@ -42,7 +43,7 @@ def test_questions_are_spread_over_the_templates():
 
 
 def test_counts_are_of_ten_thousand():
-    found = Counted("2026-01-01", 10, 150, {"float64": {"digit": 3}})
+    found = Counted("2026-01-01", 10, 150, Basis({}, {}), {"float64": {"digit": 3}})
     assert found.of_round("float64", "digit") == 200
     assert found.of_round("float64", "accepted") == 0
 
@@ -75,3 +76,26 @@ def test_what_is_recorded_was_counted_in_full():
     assert found.faults["exact"] == {}
     assert found.faults["float64"]["rejected"] > 100
     assert set(found.faults) == set(ARITHMETICS)
+
+
+ANEW = "count again: uv run python tools/do.py counts"
+CHANGED = 0.05
+"""Share of templates whose change would move the counts by no more than itself."""
+
+
+def test_what_is_recorded_was_counted_with_this_code():
+    """A change of comments and docstrings makes nothing stale, one of code does."""
+    assert recorded().basis.code == basis(builtin()).code, ANEW
+
+
+def test_what_is_recorded_was_counted_from_these_templates():
+    then, now = recorded().basis.templates, basis(builtin()).templates
+    names = then.keys() | now.keys()
+    changed = [name for name in names if then.get(name) != now.get(name)]
+    assert len(changed) <= CHANGED * len(names), ANEW
+
+
+def test_a_digest_follows_code_and_not_comments():
+    module = 'def f(x):\n    """Said."""\n    # why\n\n    return x + 1\n'
+    assert meaning(module) == meaning("def f(x):\n    return x + 1\n")
+    assert meaning(module) != meaning(module.replace("+ 1", "+ 2"))

@@ -143,6 +143,27 @@ def test_a_plain_line_is_as_accurate_as_a_function_could_be(measured, name):
     assert measured[name]["stable"].hard.digits >= 15
 
 
+EXTREME = [
+    ("stops", (1e-300, 1e7)), ("stops", (1e300, 1e-7)), ("stops", (5e-324, 1e-20)),
+    ("stops", (1.0, 1e-20)), ("stops", (1e-300, 1.0000001e-300)), ("stops", (22.0, 22.0)),
+    ("vignetting", (1e200, 50.0)), ("vignetting", (1e160, 1e160)), ("vignetting", (1e-170, 1e-170)),
+    ("vignetting", (1e-100, 50.0)), ("vignetting", (1.0, 1e-200)), ("vignetting", (0.0, 50.0)),
+]  # fmt: skip
+
+
+def in_many_digits(name, a, b):
+    with mp.workdps(700):
+        a, b = mp.mpf(a), mp.mpf(b)
+        return 2 * mp.log(b / a, 2) if name == "stops" else 1 - (b * b / (a * a + b * b)) ** 2
+
+
+@pytest.mark.parametrize(("name", "args"), EXTREME)
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+def test_plain_lines_hold_at_extremes_too(name, args):
+    found = float(BY_NAME[name].stable(*(np.array([arg, arg]) for arg in args))[0])
+    assert digits(found, float(in_many_digits(name, *args))) >= 15
+
+
 def test_the_textbook_hue_is_the_known_one():
     import colorsys
 
