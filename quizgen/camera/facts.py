@@ -176,12 +176,12 @@ class Facts:
     @property
     def top(self) -> float:
         """Largest value including noise."""
-        return min(self.high + self.reach, self.limits[1])
+        return max(min(self.high + self.reach, self.limits[1]), self.limits[0])
 
     @property
     def bottom(self) -> float:
         """Smallest value including noise."""
-        return max(self.low - self.reach, self.limits[0])
+        return min(max(self.low - self.reach, self.limits[0]), self.limits[1])
 
     @property
     def size(self) -> float:

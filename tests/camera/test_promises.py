@@ -275,3 +275,16 @@ def test_white_as_it_was_drawn_needs_no_full_well():
     )
     assert plan(prepared).predicted_error_dn == 0
     assert [item.effect for item in plan(prepared).skipped] == ["full well"]
+
+
+def test_a_pedestal_above_the_converter_leaves_a_range():
+    """A pedestal of 40 electrons on a well of 3: all is white, and a range of one value is left."""
+    camera = Camera(
+        full_well=3.0, bit_depth=14, bias=40.0, dark_frames=27, normalise=(0.1, 0.9, 0.0, 1.0),
+        white_balance=(0.4, 0.6, 2.7), shot_noise=False,
+    )  # fmt: skip
+    prepared = Prepared(Scene(8, 8, background=(0.9, 0.9, 0.9)), camera)
+    chosen, whole = plan(prepared, budget=1.0), run(prepared, everything(prepared))
+    assert apart(run(prepared, chosen), whole).max() <= chosen.predicted_error_dn + 1e-4
+    facts = Facts(5.0, 6.0, (), noise=0.1, limits=(0.0, 1.0))
+    assert (facts.bottom, facts.top) == (1.0, 1.0)
