@@ -41,6 +41,7 @@ ADVICE = {
     "where a plain number is needed": "divide by a quantity of the same kind",
     "the same in all": "let it depend on what is drawn",
     "figure: shows": "leave it out of draw and alt where quiz is true",
+    "says is read in it": "show it in draw and alt where quiz is true, or leave it out of reads",
     "unknown figure": "use one of these, or write templates/figures/NAME.py in the bank",
     "missing parameter": "give it in values of [figure]",
     "unknown parameter": "leave it out of values, or mend its name",

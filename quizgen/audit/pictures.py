@@ -41,6 +41,7 @@ def figure_problems(draws: Sequence[Draw]) -> Iterator[str]:
                 numbers.update(_numbers(said) if quiz else ())
     if rule.quiz:
         yield from _given_away(shown)
+        yield from _unread(shown, rule.reads)
 
 
 def figure_words(one: Draw, lang: str, *, quiz: bool, drawn: bool = True) -> str:
@@ -78,6 +79,15 @@ def _given_away(shown: Sequence[tuple[Draw, set[str]]]) -> Iterator[str]:
                 yield (
                     f"figure: shows {name} = {example} in the question, where part {place} asks it"
                 )
+
+
+def _unread(shown: Sequence[tuple[Draw, set[str]]], reads: Sequence[str]) -> Iterator[str]:
+    """Quantities that are said to be read in a figure that does not have their numbers."""
+    for name in reads:
+        lacking = [one for one, numbers in shown if digits(one.shown[name]) not in numbers]
+        if lacking:
+            number = digits(lacking[0].shown[name])
+            yield f"figure: has no {name} = {number}, which reads says is read in it"
 
 
 def _stated(one: Draw) -> set[str]:

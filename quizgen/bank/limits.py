@@ -86,6 +86,7 @@ def number(text: Scalar) -> Fraction:
 def problems(rules: Rules) -> Problems:
     """Every field of the rules that holds what it cannot."""
     yield from _names(rules)
+    yield from _read(rules)
     yield from _sizes(rules)
     yield from _claims(rules)
     for name, rule in rules.draw.items():
@@ -110,6 +111,17 @@ def _names(rules: Rules) -> Problems:
     for field, name in pairs:
         if not is_name(name):
             yield field, f"{name!r} is no name (allowed: {NAMES})"
+
+
+def _read(rules: Rules) -> Problems:
+    """What is said to be read in the figure, and cannot be."""
+    if rules.figure is None or not rules.figure.reads:
+        return
+    if not rules.figure.quiz:
+        yield "figure.reads", "nothing is read in a figure with quiz = false"
+    for name in rules.figure.reads:
+        if name not in rules.draw or rules.draw[name].words:
+            yield "figure.reads", f"{name!r} is no drawn number (write it under [draw])"
 
 
 def _sizes(rules: Rules) -> Problems:

@@ -42,11 +42,16 @@ class KeepRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 
 
 class FigureRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
-    """The figure and the formulas of its parameters."""
+    """The figure and the formulas of its parameters.
+
+    ``reads`` are drawn quantities whose numbers stand in it, in a quiz too: levels may ask for
+    steps that begin with them, as with numbers of the text.
+    """
 
     name: str
     values: dict[str, Scalar] = {}
     quiz: bool = True
+    reads: tuple[str, ...] = ()
 
 
 class PartRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):

@@ -10,9 +10,11 @@ import pytest
 from quizgen.audit.lint import lint_template
 from quizgen.bank.draw import draw
 from quizgen.bank.folder import Bank
+from quizgen.marking.mark import mark
 from quizgen.maths.numbers import to_float
 from quizgen.paper.blueprint import load_blueprint
-from quizgen.paper.paper import build
+from quizgen.paper.paper import build, single
+from quizgen.question.levels import level_of
 from quizgen.render import render_paper
 
 ROOT = Path(__file__).parent.parent.parent / "examples" / "filtering"
@@ -155,3 +157,33 @@ def test_a_paper_in_two_languages():
     assert 'lang="de"' in page
     assert "Mock exam: Filtering" in page
     assert "Probeklausur: Filterung" in page
+
+
+READ = {
+    "mean-and-median-with-outlier",
+    "mean-in-the-corner",
+    "sharpen-with-laplacian",
+    "sobel-gradient",
+    "equalise-one-level",
+    "otsu-threshold",
+}
+
+
+@pytest.mark.parametrize("name", sorted(READ | {"erode-dilate-open"}))
+def test_what_is_read_in_a_figure_is_asked_step_by_step_and_turned_round(name):
+    """The figure stays on the page."""
+    for seed in SEEDS:
+        drawn = draw(BANK.template(name), seed)
+        for asked in ("guided", "transfer"):
+            assert level_of(drawn, asked) == asked
+            (item,) = single(BANK.template(name), seed, "de", level=asked).items
+            assert (item.questions[0].figure is not None) is (name in READ)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_first_step_of_the_mean_is_the_sum_of_what_is_drawn(seed):
+    v = values("mean-and-median-with-outlier", seed)
+    seen = [v[f"f_{k}"] for k in (1, 2, 3, 4, 6, 7, 8, 9)] + [v["c"]]
+    template = BANK.template("mean-and-median-with-outlier")
+    (item,) = single(template, seed, "en", level="guided", figures=False).items
+    assert mark(item.keys[0].specs[0], str(int(sum(seen)))).verdict == "correct"

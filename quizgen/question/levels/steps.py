@@ -97,8 +97,9 @@ def _text(drawn: Draw) -> Iterator[Block | Inline]:
 
 @lru_cache(maxsize=128)
 def stated(drawn: Draw) -> frozenset[str]:
-    """Quantities whose numbers the text gives, or that follow from such numbers."""
-    found = {*slots(_text(drawn))}
+    """Quantities whose numbers text or figure give, or that follow from such numbers."""
+    figure = drawn.template.rules.figure
+    found = {*slots(_text(drawn)), *(figure.reads if figure else ())}
     for name, rule in drawn.template.rules.draw.items():
         if rule.formula and names(drawn.template.formula(rule.formula)) <= found:
             found.add(name)
