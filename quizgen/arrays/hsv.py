@@ -10,6 +10,7 @@ from flint import fmpq
 
 from quizgen.arrays.aliases import Array, Numbers, Result
 from quizgen.arrays.domain import REAL
+from quizgen.arrays.double_double import Pair, pairs
 from quizgen.arrays.kernel import Kernel
 
 
@@ -24,23 +25,39 @@ def _to_rgb(H: Array, S: Array, V: Array) -> tuple[Array, ...]:
     # (1 - S) + S a/60 has no cancellation for 0 <= S <= 1, unlike 1 - S b/60.
     rising = V * ((1 - S) + S * (along / 60))
     falling = V * ((1 - S) + S * ((60 - along) / 60))
+    if S.min() < 0 or S.max() > 1:
+        odd = np.flatnonzero(np.broadcast_to((S < 0) | (S > 1), rising.shape))
+        S, V = np.broadcast_to(S, rising.shape), np.broadcast_to(V, rising.shape)
+        along, some, scale = np.broadcast_to(along, rising.shape)[odd], S[odd], V[odd]
+        rising[odd] = scale * _less(some, 60 - pairs(along)[0])
+        falling[odd] = scale * _less(some, pairs(along)[0])
     V = np.broadcast_to(V, rising.shape)
     low = np.broadcast_to(low, rising.shape)
     pick = sector.astype(np.intp)
     R = np.choose(pick, (V, falling, low, low, rising, V))
     G = np.choose(pick, (rising, V, V, falling, low, low))
     B = np.choose(pick, (low, low, rising, V, V, falling))
-    channels = R, np.where(mirrored, B, G), np.where(mirrored, G, B)
-    if S.min() >= 0 and S.max() <= 1:
-        return channels
-    return tuple(np.where((S < 0) | (S > 1), np.nan, channel) for channel in channels)
+    return R, np.where(mirrored, B, G), np.where(mirrored, G, B)
+
+
+def _less(S: Array, degrees: Pair) -> Array:
+    """1 - S degrees/60 to twice the working precision; not a number where that cancels, too."""
+    left: Array = (60 - S * degrees).rounded() / 60
+    return np.where(np.abs(left) < _CLOSE, np.nan, left)
+
+
+_CLOSE = 2.0**-40
 
 
 def _to_rgb_exact(H: fmpq, S: fmpq, V: fmpq) -> tuple[fmpq, ...]:
+    sixths, depth = H / 60, V * S
+    sixths -= 6 * (sixths / 6).floor()
+
     def channel(turn: int) -> fmpq:
-        place = H / 60 + turn
-        place -= 6 * (place / 6).floor()
-        return V - V * S * max(0, min(place, 4 - place, 1))
+        place = sixths + turn
+        if place >= 6:
+            place -= 6
+        return V - depth * max(0, min(place, 4 - place, 1))
 
     return channel(5), channel(3), channel(1)
 

@@ -14,7 +14,26 @@ from quizgen.arrays.rational import decimal, nearest
 
 
 def _pixel(f: Array, pitch: Array, x: Array, z: Array, o: Array) -> Array:
-    return o + f * x / (pitch * z)
+    u: Array = o + f * x / (pitch * z)
+    odd = np.zeros(u.size, dtype=bool)
+    for arg in (f, pitch, x, z, o):
+        size = np.abs(arg)
+        odd |= (size > _REACH) | ((size < 1 / _REACH) & (size > 0))
+    where = np.flatnonzero(odd)
+    if where.size:
+        parts = (arg.take(where) if arg.size > 1 else arg for arg in (f, pitch, x, z, o))
+        u[where] = _pixel_of_mantissas(*parts)
+    return u
+
+
+def _pixel_of_mantissas(f: Array, pitch: Array, x: Array, z: Array, o: Array) -> Array:
+    """The formula with powers of two taken out, so that only the result can leave the range."""
+    (f, f2), (pitch, pitch2), (x, x2), (z, z2), (o, o2) = map(np.frexp, (f, pitch, x, z, o))
+    shift2 = np.where(x == 0, o2, f2 + x2 - pitch2 - z2)
+    most = np.maximum(shift2, o2)
+    total = np.ldexp(f * x / (pitch * z), shift2 - most) + np.ldexp(o, o2 - most)
+    result: Array = np.ldexp(total, most)
+    return result
 
 
 def _pixel_of_decimals(*args: fmpq) -> fmpq:
@@ -54,9 +73,7 @@ _ON_PLANE = Rule(
     lambda _f, _pitch, _x, z, _o: z == 0,
     lambda _f, _pitch, _x, z, _o: bool(z[0] <= 0 <= z[1]),
 )
-_PIXEL = Kernel(
-    _pixel, _SPANS, (_ON_PLANE,), exact=_pixel_of_decimals, reach=_REACH, shortcut=_pixel_at_once
-)
+_PIXEL = Kernel(_pixel, _SPANS, (_ON_PLANE,), shortcut=_pixel_at_once)
 _PIXEL_ALONE = Kernel(_to_be_read, _SPANS, (_ON_PLANE,), exact=_pixel_of_decimals)
 
 
@@ -77,8 +94,9 @@ def pixel(f: Numbers, pitch: Numbers, x: Numbers, z: Numbers, o: Numbers) -> Res
     float or array
         Pixels. Numbers alone are read as the decimals they print as, and the answer is correctly
         rounded: 2 mm, 5 um, -1, 2 and 320 give 120, where doubles give 119.99999999999997. In
-        arrays the formula is taken as it stands, with four roundings of f x/(pitch z) and one of
-        the sum: off by at most 2 units in the last place of the larger of its two terms, each.
+        arrays the formula is taken as it stands: three roundings of f x/(pitch z), each at most one
+        unit in its last place, and one of the sum, half a unit of it. Off by at most 4 units in the
+        last place of the larger of the two terms, whatever the magnitudes.
 
     Raises
     ------

@@ -40,4 +40,4 @@ def decimal(value: float) -> fmpq:
 
 def exactly(args: Sequence[Array], i: SupportsIndex) -> list[fmpq]:
     """Element i of every argument; a single number stands for all elements."""
-    return [fraction(arg[i if arg.size > 1 else 0]) for arg in args]
+    return [fraction(arg.item(i if arg.size > 1 else 0)) for arg in args]

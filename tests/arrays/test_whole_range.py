@@ -17,7 +17,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from ulp import ulps
 
-from quizgen.arrays import distortion, gamma, projection
+from quizgen.arrays import distortion, gamma, hsv, projection
 from quizgen.arrays.domain import DomainError, answered
 
 ANY = st.floats(allow_nan=False, allow_infinity=False)
@@ -220,6 +220,36 @@ def test_ten_million_elements():
     tail = function("gaussian.upper_tail")(k)
     assert tail.size == k.size
     np.testing.assert_array_equal(tail[:1000], function("gaussian.upper_tail")(k[:1000]))
+
+
+def test_pixels_of_arrays_at_any_magnitude():
+    """By exact fractions, where products of the arguments leave the range."""
+    rng = np.random.default_rng(6)
+    columns = np.ldexp(rng.uniform(1, 2, (5, 400)), rng.integers(-1070, 1020, (5, 400)))
+    columns[4, :100] = 0.0
+    columns[2, 50:150] *= -1
+    for value, *row in zip(projection.pixel(*columns), *columns, strict=True):
+        F, P, X, Z, O = map(Fraction, row)  # noqa: N806, E741
+        shift = F * X / (P * Z)
+        larger = max(abs(shift), O)
+        if larger >= 2**1023:
+            assert abs(value) >= 2.0**1023
+        else:
+            most = Fraction(math.ulp(float(larger)))
+            assert abs(Fraction(float(value)) - O - shift) <= 4 * most
+
+
+def test_colours_outside_the_gamut_by_exact_fractions():
+    """Saturation beyond 1 cancels against the place in the sector; a grey one stays 0."""
+    rng = np.random.default_rng(8)
+    hue, much, value = rng.uniform((-400, -3, 0.1), (400, 3, 1), (300, 3)).T
+    hue[:100] = 60 * (1 - 1 / np.abs(much[:100])) + 120 * rng.integers(-2, 2, 100)
+    for row in zip(*hsv.to_rgb(hue, much, value), hue, much, value, strict=True):
+        *values, h, s, v = map(Fraction, row)
+        for turn, value in zip((5, 3, 1), values, strict=True):
+            place = (h / 60 + turn) % 6
+            expected = v - v * s * max(0, min(place, 4 - place, 1))
+            assert abs(value - expected) <= 4 * Fraction(math.ulp(float(expected)))
 
 
 def test_pixels_of_tiny_depths_keep_their_digits():
