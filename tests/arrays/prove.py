@@ -21,10 +21,22 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import counted
 from enclosures import ORDER, UNIT, boxes, farthest, on_one
 from flint import arb, arb_series, ctx
 
-from quizgen.arrays import gaussian, polynomial, tables
+from quizgen.arrays import (
+    depth_of_field,
+    distortion,
+    double_double,
+    gamma,
+    gaussian,
+    luminosity,
+    polynomial,
+    power,
+    projection,
+    tables,
+)
 
 PROOFS = Path(__file__).with_name("proofs.tsv")
 DOCS = Path(__file__).parents[2] / "docs/accuracy.md"
@@ -166,12 +178,24 @@ class Piece(NamedTuple):
 
 TAIL = (gaussian.mills, gaussian.far_tail, gaussian.near_tail, polynomial.horner, tables)
 QUANTILE = (gaussian, polynomial.horner, tables)
+EXACT_SUMS = (double_double.two_sum, double_double.two_product)
+DECODE = (gamma, power, *EXACT_SUMS)
+LIMIT = (depth_of_field, *EXACT_SUMS)
+PIXEL = (projection,)
 PIECES = {
     "gaussian.far_tail": Piece(far_bound, 0.6999, 37.5, 4000, TAIL),
     "gaussian.near_tail": Piece(near_bound, 0.0, 0.7, 200, TAIL),
     "gaussian.quantile next to 1/2": Piece(middle_bound, 0.0, 0.42501, 400, QUANTILE),
     "gaussian.quantile to exp(-25)": Piece(tail_bound, 1.609, 5.0001, 2000, QUANTILE),
     "gaussian.quantile below exp(-25)": Piece(newton_bound, 4.9999, 27.285, 4000, QUANTILE),
+    "gamma.srgb_decode, dim": Piece(counted.dim_bound, 0.0, 0.0405, 1, DECODE),
+    "gamma.srgb_decode, bright (log2)": Piece(counted.decode_bound, -3.4, 427.0, 100, DECODE),
+    "far_limit to 0.3 of hyperfocal": Piece(counted.short_limit_bound, 0.0, 0.30001, 300, LIMIT),
+    "far_limit beyond (log2 of rest)": Piece(counted.long_limit_bound, -40.1, -0.5, 100, LIMIT),
+    "distortion.distort": Piece(counted.distort_bound, 0.0, 1.0, 1, (distortion._distort,)),
+    "fold_radius, k2 = 0": Piece(counted.barrel_bound, 0.0, 1.0, 1, (distortion._fold_of_barrel,)),
+    "luminosity.efficiency": Piece(counted.curve_bound, 0.0, 1.0, 1, (luminosity.Curve.read,)),
+    "projection.pixel, f x/(pitch z)": Piece(counted.term_bound, 0.0, 1.0, 1, PIXEL),
 }
 
 

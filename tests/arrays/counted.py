@@ -1,0 +1,101 @@
+"""Bounds of short formulas by counting their roundings, with their constants checked by Arb.
+
+Each bound is relative, for the doubtful parameter in a box. Exact are differences of neighbours
+within a factor of 2 (Sterbenz), and ``two_sum`` and ``two_product`` together with what they lost.
+"""
+
+from __future__ import annotations
+
+from enclosures import UNIT, Box
+from flint import arb, fmpq
+
+from quizgen.arrays import distortion, gamma
+
+SECOND = 64 * UNIT * UNIT
+"""More than products of the few roundings of a formula."""
+
+
+def one():
+    """A number that is right; products, quotients and roots of such have relative errors."""
+    return Box(arb(1))
+
+
+def relative(box):
+    """Error of a product by its value."""
+    return box.error / abs(box.value)
+
+
+def decode_bound(exponent):
+    """Bound for sRGB above the knee, base about 2**exponent.
+
+    The base and what it lost are exact. The power is right to one unit in the last place, which is
+    two of 2**-53, and makes up for the exponent's rounding; three products and sums follow. Of
+    (1 + l)**2.4 the terms from l**2 on are left out.
+    """
+    high, low = gamma._DECODE
+    log = abs(exponent) * arb(2).log()
+    kept = abs(arb(fmpq(12, 5)) - arb(high) - arb(low)) * log
+    shrink = gamma._SHRINK
+    base = arb("1.055") ** -(arb(12) / 5)
+    constant = abs((arb(shrink.high) + arb(shrink.low)) / base - 1)
+    offset = abs(arb("0.055") - arb(gamma._OFFSET.high) - arb(gamma._OFFSET.low)) / arb("0.095")
+    power = 2 * UNIT + kept + abs(arb(low)) * log * 4 * UNIT + 2 * UNIT
+    return power + constant + 3 * offset + 2 * UNIT + SECOND
+
+
+def dim_bound(_):
+    """Bound for sRGB up to the knee: a quotient by a decimal (half a subnormal unit more below)."""
+    return abs(arb(gamma._SLOPE) / arb("12.92") - 1) + relative(one() / one()) + SECOND
+
+
+def short_limit_bound(share):
+    """Bound for the far limit up to 0.3 of the hyperfocal distance: s/(1 - q).
+
+    In q are five roundings, and it is at most 0.3 and what they change.
+    """
+    q = one() * one() / (one() * one()) * (one() - arb(0))
+    quotient = Box(share, share * relative(q))
+    rest = 1 - quotient
+    return rest.error / abs(rest.value) + UNIT + SECOND
+
+
+def long_limit_bound(exponent):
+    """Bound for the far limit from there on, for a rest of about 2**exponent.
+
+    Square and blur and what they lost are exact, but for eight roundings of what was lost, at most
+    six units: 48 * 2**-106 by the rest, which is at least 2**-40 (closer ones go by exact fractions,
+    and are told from 0 so). Two sums, a quotient, the correction and the quotient of s remain.
+    """
+    return 5 * UNIT + (48 * UNIT * UNIT) / arb(2) ** exponent + SECOND
+
+
+def distort_bound(_):
+    """Bound for distorted positions: what is off is allowed three units of the result.
+
+    Of r**2, two roundings; of k2 r**2, three; their sum with k1, one; its product with r**2, three
+    more, and with x, one: 5 |change| + 3 |k2| r**4, which the code asks for. The last sum adds one.
+    """
+    square = Box(1) * Box(1) + Box(0)
+    bend = Box(1) * square
+    assert relative(bend) < 3 * UNIT + SECOND
+    assert relative(bend * square) < 6 * UNIT + SECOND
+    return distortion._ALLOWED * UNIT + UNIT + SECOND
+
+
+def barrel_bound(_):
+    """Bound for the fold of one coefficient: a product, half of it in the root, and two more."""
+    return relative(one() * one()) / 2 + 2 * UNIT + SECOND
+
+
+def curve_bound(_):
+    """Bound between points of a table: two positive products, their sum and its quotient.
+
+    Wavelengths from 256 nm are multiples of 2**-44, so that both distances are exact.
+    """
+    product = one() * one()
+    return relative((product + product) / one()) + SECOND
+
+
+def term_bound(_):
+    """Bound for f x/(pitch z), the part of a pixel's place that is not its offset."""
+    return relative(one() * one() / (one() * one())) + SECOND
