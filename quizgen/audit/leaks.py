@@ -83,6 +83,11 @@ class Said:
         """Each sentence with its words."""
         return [(sentence, _words(sentence)) for sentence in self.sentences]
 
+    @cached_property
+    def vocabulary(self) -> frozenset[str]:
+        """Words of all sentences."""
+        return frozenset[str]().union(*(words for _, words in self.words))
+
 
 @dataclass(frozen=True)
 class Secret:
@@ -127,12 +132,13 @@ def told(bank: Bank, questions: Sequence[Heard]) -> dict[Leak, str]:
     """
     found: dict[Leak, str] = {}
     for asker, teller in permutations(questions, 2):
-        names = teller.template, asker.template
-        if teller.lang != asker.lang or apart(bank, *names):
+        if teller.lang != asker.lang:
             continue
-        for secret in asker.secrets:
-            for what in dict.fromkeys(_told(secret, teller.said)):
-                found.setdefault(Leak(*names, secret.label, what), teller.lang)
+        what = [(one, said) for one in asker.secrets for said in _told(one, teller.said)]
+        names = teller.template, asker.template
+        if what and not apart(bank, *names):
+            for secret, said in what:
+                found.setdefault(Leak(*names, secret.label, said), teller.lang)
     return found
 
 
@@ -152,13 +158,16 @@ def leaks(paper: Paper) -> list[Leak]:
 
 
 def _told(secret: Secret, other: Said) -> Iterator[str]:
-    for form in secret.formulas.keys() & other.formulas.keys():
-        yield f"formula {secret.formulas[form]} in ${other.formulas[form]}$"
-    yield from (f"number {n}" for n in sorted(secret.numbers & other.numbers))
+    if secret.formulas and other.formulas:
+        for form in secret.formulas.keys() & other.formulas.keys():
+            yield f"formula {secret.formulas[form]} in ${other.formulas[form]}$"
+    if secret.numbers:
+        yield from (f"number {n}" for n in sorted(secret.numbers & other.numbers))
     for sentence, needed, words in secret.words:
-        for line, others in other.words:
-            if needed <= others and len(words & others) >= SAME * len(words):
-                yield f"'{sentence}' in {line!r}"
+        if needed <= other.vocabulary and len(words & other.vocabulary) >= SAME * len(words):
+            for line, others in other.words:
+                if needed <= others and len(words & others) >= SAME * len(words):
+                    yield f"'{sentence}' in {line!r}"
     if secret.points:
         yield from _named_points(secret.points, other)
     places = [other.sentences.index(step) for step in secret.steps if step in other.sentences]

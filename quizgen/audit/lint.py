@@ -15,6 +15,7 @@ import time
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from quizgen.audit.dimensions import dimension_problems
 from quizgen.audit.leaks import Heard, heard
@@ -31,18 +32,30 @@ from quizgen.locale import language, numbers_in
 from quizgen.marking.mark import mark, show
 from quizgen.marking.specs import AnySpec
 from quizgen.maths.numbers import to_float
-from quizgen.question.compose import identity, put_into_words
+from quizgen.question.compose import Key, Question, identity, put_into_words
 from quizgen.question.contract import Built
 from quizgen.question.kinds import build
 from quizgen.question.levels import LEVELS, level
 from quizgen.question.notation import in_notation
 from quizgen.render.text import blocks
 
-COMPOSED = 6
+
+class Share(NamedTuple):
+    """How many of the draws are looked at more closely: one in so many, and no fewer than some."""
+
+    least: int
+    one_in: int
+
+    def of(self, seeds: int) -> int:
+        """The first so many of all."""
+        return max(self.least, seeds // self.one_in)
+
+
+COMPOSED = Share(3, 33)
 """Instances that are put into words in every language."""
-MARKED = 10
+MARKED = Share(5, 20)
 """Instances whose answers and mistakes are typed back in every language."""
-AT_MOST = 50
+AT_MOST = Share(25, 4)
 """Instances among which those with a rare mistake are typed back besides."""
 RARE = 3
 """Times that every mistake is typed back, as far as it is met."""
@@ -50,6 +63,8 @@ VARIED = 4
 """Different questions whose answers cannot all be the same by chance."""
 LEVELLED = 1
 """Instances that are asked at every level, and typed back likewise."""
+Worded = dict[str, tuple[Question, Key]]
+"""An instance in each of its languages."""
 VERBATIM = frozenset({"code", "sketch"})
 """Kinds whose key is printed as a program writes it."""
 
@@ -98,15 +113,14 @@ def lint_template(template: Template, seeds: int = 200, langs: tuple[str, ...] =
     try:
         first = _examine_draws(template, seeds, report, lessons)
         known = [reference(template)] if template.rules.reference is not None else []
-        for one in (*first[:COMPOSED], *known):
-            report.problems += composed_problems(one)
-        for one in (*_telling(first), *known):
+        composed = [_worded(one) for one in (*first[: COMPOSED.of(seeds)], *known)]
+        for worded in composed:
+            report.problems += composed_problems(worded)
+        for one in (*_telling(first, MARKED.of(seeds)), *known):
             report.problems += marking_problems(one)
-        for one in first[:LEVELLED]:
+        for one, worded in zip(first[:LEVELLED], composed, strict=False):
             report.problems += level_problems(one)
-            report.heard += [
-                heard(*put_into_words(one, lang, figures=False)) for lang in template.languages
-            ]
+            report.heard += [heard(question, key) for question, key in worded.values()]
         report.problems += [*figure_problems(first), *_constant(template, report)]
         report.problems += [
             f"part {one.label}: {one.what}" for one in lessons.findings() if one.level == "error"
@@ -117,12 +131,12 @@ def lint_template(template: Template, seeds: int = 200, langs: tuple[str, ...] =
     return report
 
 
-def _telling(draws: list[Draw]) -> Iterator[Draw]:
+def _telling(draws: list[Draw], marked: int) -> Iterator[Draw]:
     """The first draws, and those further ones in which a mistake is met that is rare."""
     met = Counter[tuple[int, str]]()
     for place, one in enumerate(draws):
         mistakes = [(part, trap) for part, traps in enumerate(one.traps) for trap in traps]
-        if place < MARKED or any(met[mistake] < RARE for mistake in mistakes):
+        if place < marked or any(met[mistake] < RARE for mistake in mistakes):
             met.update(mistakes)
             yield one
 
@@ -143,7 +157,7 @@ def _examine_draws(template: Template, seeds: int, report: Report, lessons: Less
             report.traps.update(traps)
         _widen(report, one)
         lessons.add(one)
-        if seed < AT_MOST:
+        if seed < AT_MOST.of(seeds):
             first.append(one)
     report.distinct = len(seen)
     for part in plan_of(template).parts:
@@ -239,11 +253,14 @@ def _question_slots(text: Text) -> Iterator[str]:
             yield from slots(sentence)
 
 
-def composed_problems(one: Draw) -> list[str]:
+def _worded(one: Draw) -> Worded:
+    return {lang: put_into_words(one, lang, figures=False) for lang in one.template.languages}
+
+
+def composed_problems(worded: Worded) -> list[str]:
     """Problems of one instance in all languages."""
     problems: list[str] = []
-    for lang in one.template.languages:
-        question, key = put_into_words(one, lang, figures=False)
+    for lang, (question, key) in worded.items():
         bodies = [question.stem, *(part.body for part in question.parts)]
         shown = " ".join(line for body in bodies for line in blocks(body))
         if re.search(r"\{\{|\}\}|\bnan\b|\binf\b", shown):

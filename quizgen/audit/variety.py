@@ -46,6 +46,7 @@ class Seen:
     most: int = 0
     places: Counter[int] = field(default_factory=Counter)
     longest: Counter[str] = field(default_factory=Counter)
+    _lengths: dict[tuple[str, str], int] = field(default_factory=dict)
 
     @property
     def bits(self) -> float:
@@ -74,8 +75,17 @@ class Seen:
         self.most = max(self.most, len(names))
         self.places.update(place for place, name in enumerate(names, 1) if name in right)
         for filler in fillers:
-            lengths = {name: len(plain(filler.sentence("options", name))) for name in names}
+            lengths = {name: self._length(filler, name) for name in names}
             self.longest[filler.lang] += _longest(lengths) in right
+
+    def _length(self, filler: Filler, name: str) -> int:
+        """Letters of an option; of one that is the same in every draw they are counted once."""
+        known = self._lengths.get((filler.lang, name))
+        if known is None:
+            known = len(plain(filler.sentence("options", name)))
+            if ("options", name) in filler.text.filled:
+                self._lengths[filler.lang, name] = known
+        return known
 
 
 def _longest(lengths: dict[str, int]) -> str:
