@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 
 from quizgen.bank.draw import Draw, Elsewhere, digits, draw
 from quizgen.bank.folder import Bank
-from quizgen.bank.plan import plan_of
+from quizgen.bank.plan import Plan, plan_of
 from quizgen.bank.template import Template
 from quizgen.bank.traps import answer_names
 from quizgen.errors import DrawError
@@ -150,16 +151,23 @@ def _formulas(one: Draw) -> Iterator[Form]:
         yield from asked_formulas(one, index)
 
 
-def asked_formulas(drawn: Draw, index: int) -> dict[Form, str]:
+def asked_formulas(drawn: Draw, index: int) -> Mapping[Form, str]:
     """Forms of the steps to an answer, each also with the steps before it put in, and the key."""
-    found: dict[Form, str] = {}
-    inner: dict[str, Expr] = {}
-    for step in plan_of(drawn.template).parts[index].steps:
-        inner[step.name] = substitute(step.expr, inner)
-        for expr in (step.expr, inner[step.name]):
-            found |= dict.fromkeys(equation(step.name, expr), f"{step.name} = {to_text(expr)}")
+    found = _formulas_of_steps(plan_of(drawn.template), index)
     if answer_of(drawn, index)["kind"] == "expression":
         spec: expression.Spec = build(drawn, index).spec
         formula = author(spec.value, tuple(spec.symbols))
-        found |= dict.fromkeys(equation("", formula), spec.value)
+        return found | dict.fromkeys(equation("", formula), spec.value)
+    return found
+
+
+@lru_cache(maxsize=4096)
+def _formulas_of_steps(plan: Plan, index: int) -> dict[Form, str]:
+    """Those that are the same in every draw."""
+    found: dict[Form, str] = {}
+    inner: dict[str, Expr] = {}
+    for step in plan.parts[index].steps:
+        inner[step.name] = substitute(step.expr, inner)
+        for expr in (step.expr, inner[step.name]):
+            found |= dict.fromkeys(equation(step.name, expr), f"{step.name} = {to_text(expr)}")
     return found
