@@ -114,8 +114,7 @@ class _Sheet:
     def _overview(self) -> str:
         """Table of questions and marks, with room for the marks given."""
         rows = [
-            f"[{item.number}], [{self._titles(item)}], page-of({string(item.number)}), "
-            f"[{_points(item.points)}], []"
+            f"([{item.number}], [{self._titles(item)}], [{_points(item.points)}])"
             for item in self.paper.items
         ]
         main, many = self.langs[:1], self.langs
@@ -127,7 +126,7 @@ class _Sheet:
         total = f"[{_points(self.paper.points)}]"
         return (
             f"#overview({', '.join(f'[{head}]' for head in heads)}, "
-            f"[{words(many, 'paper.sum')}], {total}, ({', '.join(rows)}))"
+            f"[{words(many, 'paper.sum')}], {total}, ({', '.join(rows)},))"
         )
 
     def _titles(self, item: Item) -> str:

@@ -8,6 +8,7 @@ from collections import Counter
 from fractions import Fraction
 
 import numpy as np
+import pikepdf
 import pytest
 import typst
 from PIL import Image
@@ -17,7 +18,7 @@ from quizgen.paper.paper import build, single
 from quizgen.render import html, pdf
 from quizgen.render.room import squares
 from quizgen.render.text import question_text
-from quizgen.render.typ import _fonts
+from quizgen.render.typ import _fonts, compiled
 
 
 @pytest.fixture(scope="module")
@@ -46,8 +47,18 @@ def test_the_cover_has_aids_points_minutes_and_a_table(mock, body):
     assert "pocket calculator" in cover
     assert f'"100 points, {mock.minutes} min' in cover
     assert '[#"100";]' in cover or "[100]" in cover
-    assert cover.count("page-of(") == len(mock.items)
+    rows = re.findall(r"\(\[(\d+)\], \[", cover.partition("#overview(")[2])
+    assert rows == [item.number for item in mock.items]
     assert "Reached" in cover
+
+
+def test_a_table_that_runs_over_the_cover_settles(mock):
+    source = pdf.source(mock, "exam")
+    body = source["main.typ"].replace(b"#overview", b"#v(11cm)\n#overview", 1)
+    with pikepdf.open(io.BytesIO(compiled({**source, "main.typ": body}))) as made:
+        pages = len(made.pages)
+    with pikepdf.open(io.BytesIO(compiled(source))) as usual:
+        assert pages == len(usual.pages) + 1
 
 
 def test_each_calculation_has_room_and_each_statement_two_boxes(mock, body):
