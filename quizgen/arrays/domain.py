@@ -16,9 +16,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
+import msgspec
 import numpy as np
 
 from quizgen.arrays.aliases import Array, Result
@@ -38,8 +38,7 @@ class DomainError(ValueError):
         self.reason = reason
 
 
-@dataclass(frozen=True, slots=True)
-class Span:
+class Span(msgspec.Struct, frozen=True):
     """The interval in which an argument must lie, and the reason given when it does not."""
 
     low: float = -math.inf
@@ -64,8 +63,7 @@ POSITIVE = Span(low=0.0, reason="not-positive")
 NONNEGATIVE = Span(low=0.0, reason="negative", closed=True)
 
 
-@dataclass(frozen=True, slots=True)
-class Rule:
+class Rule(msgspec.Struct, frozen=True):
     """A relation between arguments that must not occur.
 
     ``possible`` takes the limits of the arguments: when it is false, no element breaks the rule

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import cache
 
+import msgspec
 import numpy as np
 
 from quizgen.arrays.aliases import Array, Exact, Flags, Formula, Limits, Numbers, Result
@@ -33,8 +33,7 @@ def _settle_the_allocator() -> None:
     np.empty(16 * BLOCK)
 
 
-@dataclass(frozen=True, slots=True)
-class Kernel:
+class Kernel(msgspec.Struct, frozen=True):
     """A formula, where it has an answer, and where it is trusted.
 
     Parameters

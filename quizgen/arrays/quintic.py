@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
+import msgspec
 import numpy as np
 from flint import fmpq
 
@@ -58,8 +58,7 @@ def room(m: Array, B: Array) -> Pair:
     return 4 + m_pair * m_pair * (27 * B_pair)
 
 
-@dataclass(frozen=True, slots=True)
-class Quintic:
+class Quintic(msgspec.Struct, frozen=True):
     """The equations of a block; A > 0, m > 0."""
 
     A: Array

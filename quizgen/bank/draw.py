@@ -12,6 +12,7 @@ from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+import msgspec
 from flint import fmpq
 
 from quizgen.bank.plan import Plan, admissible, plan_of
@@ -36,8 +37,7 @@ def digits(value: Value) -> str:
     return f"{abs(to_float(value)):.4g}"
 
 
-@dataclass(frozen=True)
-class Elsewhere:
+class Elsewhere(msgspec.Struct, frozen=True):
     """What the other questions of a paper ask: forms of formulas, and numbers by their digits."""
 
     formulas: frozenset[Form] = frozenset()
@@ -78,7 +78,7 @@ class Draw:
     words: Mapping[str, str]
     values: Values
     traps: tuple[tuple[str, ...], ...] = field(default=())
-    elsewhere: Elsewhere = Elsewhere()
+    elsewhere: Elsewhere = field(default_factory=Elsewhere)
     shown_values: Values = field(init=False, repr=False, compare=False)
     _texts: dict[str, str] = field(init=False, repr=False, compare=False, default_factory=dict)
 

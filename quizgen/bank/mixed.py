@@ -228,5 +228,5 @@ class Mixed(Bank):
         part, own = self.home(name)
         found = part.template(own)
         cites = {step: self._formula(part, one) for step, one in found.chain.formulas.items()}
-        chain = replace(found.chain, formulas=cites) if cites else found.chain
+        chain = msgspec.structs.replace(found.chain, formulas=cites) if cites else found.chain
         return replace(found, id=name, rules=self.rules(name), chain=chain)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache, cached_property, partial
 from typing import Any, TypeVar
 
+import msgspec
 from flint import fmpq
 
 from quizgen.bank.rules import KeepRule, Scalar
@@ -34,8 +34,7 @@ def shuffled(key: str, items: Sequence[T]) -> list[T]:
     return [items[i] for i in ranked]
 
 
-@dataclass(frozen=True)
-class _Variable:
+class _Variable(msgspec.Struct, frozen=True):
     """One drawn quantity: its candidates, or the formula that derives it (or its phrase)."""
 
     place: str
@@ -63,8 +62,7 @@ class _Variable:
             raise BankError(f"{self.place}: {error}") from error
 
 
-@dataclass(frozen=True)
-class _Condition:
+class _Condition(msgspec.Struct, frozen=True):
     """A condition over shown values, and the quantities it needs."""
 
     text: str

@@ -9,10 +9,11 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import dataclass
 from itertools import combinations
 from math import comb, prod
 from typing import Any
+
+import msgspec
 
 from quizgen.bank.draw import Draw
 from quizgen.bank.plan import pick
@@ -23,8 +24,7 @@ MIXED = 3
 """Claims of one draw from which on they are neither all true nor all false."""
 
 
-@dataclass(frozen=True, slots=True)
-class Taken:
+class Taken(msgspec.Struct, frozen=True):
     """What one part shows in a draw.
 
     Parameters

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
 from functools import cache, cached_property
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -110,15 +109,14 @@ Case = tuple[str, tuple[Inline, ...]]
 """A condition (empty: always) and the sentence that is said where it holds."""
 
 
-@dataclass(frozen=True)
-class Text:
+class Text(msgspec.Struct, frozen=True, dict=True):
     """The parsed prose of one language."""
 
     title: str
     stem: tuple[Block, ...]
-    sections: Mapping[str, tuple[Block, ...]] = field(default_factory=dict)
-    named: Mapping[str, Mapping[str, tuple[Inline, ...]]] = field(default_factory=dict)
-    cases: Mapping[tuple[str, str], tuple[Case, ...]] = field(default_factory=dict)
+    sections: Mapping[str, tuple[Block, ...]] = msgspec.field(default_factory=dict)
+    named: Mapping[str, Mapping[str, tuple[Inline, ...]]] = msgspec.field(default_factory=dict)
+    cases: Mapping[tuple[str, str], tuple[Case, ...]] = msgspec.field(default_factory=dict)
 
     def sentence(self, section: str, name: str) -> tuple[Inline, ...] | None:
         """A named sentence, or None."""

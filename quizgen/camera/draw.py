@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import groupby
 
+import msgspec
 import numpy as np
 
 from quizgen.camera.body import aperture
@@ -18,8 +18,7 @@ from quizgen.camera.scene import Image, SceneError, Thing
 from quizgen.camera.view import View
 
 
-@dataclass(frozen=True, slots=True)
-class Motion:
+class Motion(msgspec.Struct, frozen=True):
     """How a layer moves: px/s, rad/s about a pivot (px from the first pixel), and its reach."""
 
     velocity: tuple[float, float] = (0.0, 0.0)
@@ -39,8 +38,7 @@ STILL = Motion()
 ALL_CHANNELS = (0, 1, 2)
 
 
-@dataclass(frozen=True, slots=True)
-class Layer:
+class Layer(msgspec.Struct, frozen=True):
     """One depth of the picture.
 
     Parameters
@@ -205,8 +203,7 @@ def motion(thing: Thing, view: View) -> Motion:
     return Motion((across, down), thing.spin, _place(thing, view), reach(thing))
 
 
-@dataclass(frozen=True, slots=True)
-class Sheet:
+class Sheet(msgspec.Struct, frozen=True):
     """A layer before it is drawn: its depth (None for a depth map), motion and things."""
 
     depth: float | None

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Literal
+
+import msgspec
 
 from quizgen.camera.blocks import Work, in_turn
 from quizgen.camera.draw import Layer, Stack, composite
@@ -60,8 +61,7 @@ def on_picture(work: Callable[[Image, View, str], Image]) -> Run:
     return run
 
 
-@dataclass(frozen=True, slots=True)
-class LayerByLayer:
+class LayerByLayer(msgspec.Struct, frozen=True):
     """A run that takes averages of each layer's values, and looks at no other layer.
 
     Such effects in a row are finished for one layer before the next is looked at, and an even
@@ -80,8 +80,7 @@ class LayerByLayer:
         return tuple(self.work(layer, view, rung) for layer in stack)
 
 
-@dataclass(frozen=True, slots=True)
-class PointByPoint:
+class PointByPoint(msgspec.Struct, frozen=True):
     """A run in which every value depends on its own pixel alone.
 
     Such effects in a row share one pass over the picture.
@@ -99,16 +98,14 @@ class PointByPoint:
         return (Layer(in_turn(composite(stack), [self.work(view, rung)])[0]),)
 
 
-@dataclass(frozen=True, slots=True)
-class Rung:
+class Rung(msgspec.Struct, frozen=True):
     """A cheaper way to compute an effect: its name and how far it is from the exact way."""
 
     name: str
     error: Bound
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Effect:
+class Effect(msgspec.Struct, frozen=True, kw_only=True):
     """All that the camera knows of an effect.
 
     Parameters

@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
 
+import msgspec
 import numpy as np
+from msgspec.structs import replace
 
 from quizgen.camera.draw import Layer, Sheet, Stack, sheets
 from quizgen.camera.scene import Image
@@ -51,8 +52,7 @@ UNLIMITED = (-LARGEST, LARGEST)
 _ROWS = 64
 
 
-@dataclass(frozen=True, slots=True)
-class Error:
+class Error(msgspec.Struct, frozen=True):
     """How far two pictures can be apart: a sure part and a random part, 1 = white.
 
     Parameters
@@ -76,7 +76,8 @@ class Error:
             return
         for part in ("sure", "sigma"):
             value = getattr(self, part)
-            object.__setattr__(self, part, math.inf if math.isnan(value) else max(0.0, value))
+            known = math.inf if math.isnan(value) else max(0.0, value)
+            msgspec.structs.force_setattr(self, part, known)
 
     @property
     def total(self) -> float:
@@ -120,8 +121,7 @@ NO_ERROR = Error()
 Limits = tuple[float, float]
 
 
-@dataclass(frozen=True, slots=True)
-class LayerFacts:
+class LayerFacts(msgspec.Struct, frozen=True):
     """Largest step and bend of a layer along x and y, as they can show in the finished stack."""
 
     jump: tuple[float, float]
@@ -133,8 +133,7 @@ class LayerFacts:
         return LayerFacts(jump, (2 * jump[0], 2 * jump[1]))
 
 
-@dataclass(frozen=True, slots=True)
-class Facts:
+class Facts(msgspec.Struct, frozen=True):
     """Upper bounds on a picture.
 
     Parameters

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
 from functools import cache, lru_cache
 from itertools import accumulate
 
+import msgspec
 import numpy as np
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from quizgen.arrays.gaussian import inverse_tail
@@ -27,8 +28,7 @@ _NEVER = 9.8e-10
 """Chance of a normal value above z = 6."""
 
 
-@dataclass(frozen=True, slots=True)
-class Luck:
+class Luck(msgspec.Struct, frozen=True):
     """Random numbers of one effect: every piece of a picture has its own, whoever works on it.
 
     Philox counts: the seed is the key, the number of the piece the upper part of the counter.

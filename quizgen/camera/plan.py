@@ -10,9 +10,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
 from functools import cached_property
 from time import perf_counter
+
+import msgspec
+from msgspec.structs import replace
 
 from quizgen.camera import effects
 from quizgen.camera.camera import Camera
@@ -36,8 +38,7 @@ _ROUNDING = 5e-7
 """What single precision adds to a difference in one step, relative to the largest value."""
 
 
-@dataclass(frozen=True, slots=True)
-class Step:
+class Step(msgspec.Struct, frozen=True):
     """An effect that runs: how, why, and its predicted time in ms."""
 
     effect: str
@@ -47,8 +48,7 @@ class Step:
     predicted_ms: float
 
 
-@dataclass(frozen=True, slots=True)
-class Skipped:
+class Skipped(msgspec.Struct, frozen=True):
     """An effect left out: why, by how many grey levels that can matter, and the ms it saves."""
 
     effect: str
@@ -57,8 +57,7 @@ class Skipped:
     saved_ms: float
 
 
-@dataclass(frozen=True, slots=True)
-class Plan:
+class Plan(msgspec.Struct, frozen=True):
     """What to run.
 
     Parameters
@@ -118,8 +117,7 @@ class Prepared:
         return drawn
 
 
-@dataclass(frozen=True)
-class _Unit:
+class _Unit(msgspec.Struct, frozen=True):
     """Effects that are kept or skipped together, with what each choice costs."""
 
     members: tuple[int, ...]

@@ -7,8 +7,9 @@ given costs nothing and changes nothing.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any, Generic, TypeVar, cast
+
+import msgspec
 
 from quizgen.camera.values import Reader
 
@@ -42,16 +43,14 @@ class Settings:
         return f"{type(self).__name__}({named})"
 
 
-@dataclass(frozen=True)
-class Rule(Generic[Judged_contra]):
+class Rule(msgspec.Struct, Generic[Judged_contra], frozen=True):
     """What a value that is not the identity must fulfil, and what is said after its name if not."""
 
     holds: Callable[[Judged_contra, Settings], bool]
     message: str
 
 
-@dataclass(frozen=True)
-class Setting(Generic[T]):
+class Setting(msgspec.Struct, Generic[T], frozen=True):
     """One key of ``[camera]``.
 
     Parameters

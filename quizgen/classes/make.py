@@ -10,10 +10,12 @@ import hashlib
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from typing import NamedTuple
+
+import msgspec
 
 from quizgen.bank.draw import Draw
 from quizgen.bank.folder import Bank
@@ -316,7 +318,7 @@ def _composed(job: Job, one: Student, bank: Bank, drawn: Sequence[Draw]) -> Pape
 
 def _graded(settings: Settings, one: Student, paper: Paper) -> Paper:
     """A paper with a code that tells nothing of it, for one student."""
-    return replace(
+    return msgspec.structs.replace(
         paper,
         code=code_of(settings.secret, one.id, paper.digest),
         seal=seal_of(settings.secret, one.id, paper.digest),

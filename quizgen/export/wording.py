@@ -9,12 +9,12 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import replace
 from functools import partial, singledispatch
 from html import escape
 from itertools import islice, zip_longest
 
 from markupsafe import Markup
+from msgspec.structs import replace
 
 from quizgen import typeset
 from quizgen.bank.prose import Block, Inline, Words

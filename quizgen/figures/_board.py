@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import lru_cache
 from math import ceil, floor
 from typing import TYPE_CHECKING
+
+import msgspec
 
 from quizgen.figures._figure import Figure
 from quizgen.figures._numbers import given
@@ -25,8 +26,7 @@ LEFT, RIGHT, TOP, FOOT = 26.0, 8.0, 8.0, 18.0
 """Room around the field, at the left and at the foot for numbers."""
 
 
-@dataclass(frozen=True, slots=True)
-class Board:
+class Board(msgspec.Struct, frozen=True):
     """A field to draw in.
 
     Parameters
@@ -74,8 +74,7 @@ class Board:
         return LEFT + (x - left) / (right - left) * wide, FOOT + (y - low) / (high - low) * tall
 
 
-@dataclass(frozen=True, slots=True)
-class Drawing:
+class Drawing(msgspec.Struct, frozen=True):
     """A field to draw in and the lines in it, told in a language."""
 
     board: Board

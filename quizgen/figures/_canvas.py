@@ -6,9 +6,10 @@ Figures are drawn in points from the lower left; SVG counts from the upper left.
 from __future__ import annotations
 
 from base64 import b64encode
-from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Final, NamedTuple
+
+import msgspec
 
 from quizgen.figures._letters import outline
 from quizgen.locale import numbers_in
@@ -28,8 +29,7 @@ BLACK: Final = "#000000"
 Box = tuple[float, float, float, float]
 
 
-@dataclass(frozen=True, slots=True)
-class Style:
+class Style(msgspec.Struct, frozen=True):
     """How a part is painted: line width in points (0 fills instead), colour, dashes."""
 
     width: float = 0.0

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from itertools import chain
 from math import cos, hypot, pi, sin
 from typing import TYPE_CHECKING
@@ -41,7 +40,6 @@ GREY = Style(0.7, "#a0a0a0")
 RED = Style(1.8, "#c00000")
 
 
-@dataclass
 class Pen:
     """Collects strokes, fills and labels of one figure.
 
@@ -51,10 +49,11 @@ class Pen:
         Size of the figure in points. The origin is at the lower left.
     """
 
-    width: float = WIDTH
-    height: float = HEIGHT
-    paths: dict[tuple[str, Style], tuple[list[Point], bytearray]] = field(default_factory=dict)
-    labels: list[Label] = field(default_factory=list)
+    def __init__(self, width: float = WIDTH, height: float = HEIGHT) -> None:
+        self.width = width
+        self.height = height
+        self.paths: dict[tuple[str, Style], tuple[list[Point], bytearray]] = {}
+        self.labels: list[Label] = []
 
     def _add(
         self, part: str, style: Style, points: Sequence[Point] | np.ndarray, *, closed: bool

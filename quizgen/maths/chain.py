@@ -8,9 +8,10 @@ diagnosing all run the same compiled chain. It serialises to plain formulas of t
 from __future__ import annotations
 
 from collections.abc import Container, Iterable, Mapping
-from dataclasses import dataclass, field, fields
 from functools import cached_property
 from typing import TypeAlias
+
+import msgspec
 
 from quizgen.errors import MathError
 from quizgen.maths.precision import PRECISION, working_precision
@@ -22,8 +23,7 @@ Plan: TypeAlias = tuple[tuple[str, Compiled], ...]
 """Quantities to compute, in order, each from the ones given and before it."""
 
 
-@dataclass(frozen=True, slots=True)
-class ChainStep:
+class ChainStep(msgspec.Struct, frozen=True):
     """One step: the quantity it defines, its formula, and the unit it is shown in."""
 
     name: str
@@ -31,8 +31,7 @@ class ChainStep:
     unit: str = ""
 
 
-@dataclass(frozen=True)
-class Chain:
+class Chain(msgspec.Struct, frozen=True, dict=True):
     """Given quantities, steps and traps, compiled for the exact field on first use.
 
     Parameters
@@ -49,12 +48,8 @@ class Chain:
 
     given: Mapping[str, str]
     steps: tuple[ChainStep, ...]
-    traps: Mapping[str, tuple[ChainStep, ...]] = field(default_factory=dict)
-    formulas: Mapping[str, str] = field(default_factory=dict)
-
-    def __getstate__(self) -> dict[str, object]:
-        """What another process is told: it compiles for itself."""
-        return {one.name: getattr(self, one.name) for one in fields(self)}
+    traps: Mapping[str, tuple[ChainStep, ...]] = msgspec.field(default_factory=dict)
+    formulas: Mapping[str, str] = msgspec.field(default_factory=dict)
 
     @cached_property
     def by_name(self) -> dict[str, ChainStep]:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from functools import cache, lru_cache
 from typing import Any
 
 from flint import fmpq
+from msgspec.structs import replace
 
 from quizgen.errors import MathError
 from quizgen.maths.notation import ReadError, parse

@@ -10,8 +10,9 @@ a look of its own needs a line in ``typeset.layout``.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from enum import Enum
+
+import msgspec
 
 MANY = 64
 """Most arguments of an operator that takes any number."""
@@ -31,8 +32,7 @@ class Typed(Enum):
     CONSTANT = "pi"
 
 
-@dataclass(frozen=True, slots=True)
-class Operator:
+class Operator(msgspec.Struct, frozen=True):
     """One operator.
 
     Parameters
@@ -62,7 +62,7 @@ class Operator:
     signs: tuple[str, ...] = ()
     token: str = ""
     folds: bool = False
-    called: Mapping[str, str] = field(default_factory=dict)
+    called: Mapping[str, str] = msgspec.field(default_factory=dict)
     absent: frozenset[str] = frozenset()
 
     def function_in(self, system: str) -> str:

@@ -11,11 +11,12 @@ import builtins
 import math
 import operator
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, partial, reduce
 from operator import itemgetter
 from typing import TypeAlias
+
+import msgspec
 
 from quizgen.errors import MathError
 from quizgen.maths import logic
@@ -33,8 +34,7 @@ Op: TypeAlias = Callable[..., AnyNumber]
 """What an operator does in one number system."""
 
 
-@dataclass(frozen=True, slots=True)
-class NumberSystem:
+class NumberSystem(msgspec.Struct, frozen=True):
     """A number system: how to make a constant and what each operator does.
 
     Operators that take any number of arguments are functions of two: formulas fold them.

@@ -15,10 +15,10 @@ import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 
+import msgspec
 from flint import fmpq
 
 from quizgen.errors import FormulaError
@@ -28,8 +28,7 @@ from quizgen.maths.unit_definitions import Definition, read
 Dimension = tuple[tuple[str, int], ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Unit:
+class Unit(msgspec.Struct, frozen=True):
     """A unit: how it is written, its exact factor to base units, and its dimension."""
 
     text: str

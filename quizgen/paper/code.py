@@ -9,8 +9,9 @@ from __future__ import annotations
 import hashlib
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
+
+import msgspec
 
 from quizgen.bank.levels import CHOICES, EXAM
 from quizgen.errors import ChoiceError, CodeError
@@ -39,8 +40,7 @@ _CODE = re.compile(
 )
 
 
-@dataclass(frozen=True)
-class Code:
+class Code(msgspec.Struct, frozen=True):
     """A code taken apart; its text is what is printed.
 
     Parameters

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import lru_cache
+
+import msgspec
 
 from quizgen.bank.draw import Draw, Elsewhere, digits, draw
 from quizgen.bank.folder import Bank
@@ -33,13 +35,12 @@ DIGITS = 3
 """Digits of a number that is not in another question by chance."""
 
 
-@dataclass
-class _Seen:
+class _Seen(msgspec.Struct):
     """What the questions so far ask and state."""
 
-    questions: set[str] = field(default_factory=set)
-    asked: set[str] = field(default_factory=set)
-    given: set[str] = field(default_factory=set)
+    questions: set[str] = msgspec.field(default_factory=set)
+    asked: set[str] = msgspec.field(default_factory=set)
+    given: set[str] = msgspec.field(default_factory=set)
 
     def add(self, one: Draw) -> None:
         self.questions.add(identity(one))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
@@ -23,8 +22,7 @@ QUARTERS = 4
 """Parts of a point that marks are given in."""
 
 
-@dataclass(frozen=True, slots=True)
-class PartResult:
+class PartResult(msgspec.Struct, frozen=True):
     """One part of a marked paper.
 
     ``marks`` is None where a person has to decide (free text); an answer that could not be read
@@ -65,8 +63,7 @@ class PartResult:
         }
 
 
-@dataclass(frozen=True, slots=True)
-class PaperResult:
+class PaperResult(msgspec.Struct, frozen=True):
     """A marked paper."""
 
     code: str

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
 from decimal import Decimal
 from fractions import Fraction
 from typing import NamedTuple
 
 import msgspec
+from msgspec.structs import replace
 
 from quizgen.bank.draw import Draw
 from quizgen.bank.folder import Bank
@@ -44,8 +44,7 @@ def silent(_name: str) -> None:
     """Progress that nobody watches."""
 
 
-@dataclass(frozen=True)
-class Item:
+class Item(msgspec.Struct, frozen=True):
     """One question of a paper in every language of the paper."""
 
     number: str
@@ -58,8 +57,7 @@ class Item:
         return self.questions[0].points
 
 
-@dataclass(frozen=True)
-class Holder:
+class Holder(msgspec.Struct, frozen=True):
     """Whose paper it is; stands on every page.
 
     Parameters
@@ -74,8 +72,7 @@ class Holder:
     extra: int = 0
 
 
-@dataclass(frozen=True)
-class Paper:
+class Paper(msgspec.Struct, frozen=True):
     """A paper: its questions, and the code that rebuilds it."""
 
     code: str

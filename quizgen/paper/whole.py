@@ -11,10 +11,10 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import NamedTuple
 
+import msgspec
 from msgspec import structs
 
 from quizgen.bank.folder import Bank
@@ -33,8 +33,7 @@ def working_time(minutes: Fraction | int) -> int:
     return math.ceil(minutes * READING)
 
 
-@dataclass(frozen=True, slots=True)
-class Candidate:
+class Candidate(msgspec.Struct, frozen=True):
     """A template that may fill a place, and what it adds to the paper."""
 
     name: str

@@ -5,8 +5,9 @@ from __future__ import annotations
 import hashlib
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from datetime import date
+
+import msgspec
 
 from quizgen.bank.folder import Bank
 from quizgen.practice.results import RECENT, by_topic, to_practise
@@ -17,8 +18,7 @@ FRESH = 5
 """New templates of a day, where no exam says how many."""
 
 
-@dataclass(frozen=True)
-class Standing:
+class Standing(msgspec.Struct, frozen=True):
     """How far something with several templates is known: a topic, a formula.
 
     Parameters

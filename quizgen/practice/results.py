@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from quizgen.practice.state import Outcome
 
@@ -14,8 +15,7 @@ MOST = 3
 """Topics that are named to practise next."""
 
 
-@dataclass(frozen=True)
-class TopicResult:
+class TopicResult(msgspec.Struct, frozen=True):
     """Parts of one topic.
 
     Parameters

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import TypeAlias
+
+import msgspec
 
 from quizgen.bank.folder import Bank
 from quizgen.errors import one_of
@@ -23,8 +24,7 @@ from quizgen.question.solution import PartSolution
 Choose: TypeAlias = Callable[[Sequence[str]], tuple[str, str]]
 
 
-@dataclass(frozen=True)
-class Turn:
+class Turn(msgspec.Struct, frozen=True):
     """One question of a session and its tasks, in order."""
 
     number: int

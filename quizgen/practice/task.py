@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from enum import Enum
 from typing import Any, Generic, Protocol, TypeVar
+
+import msgspec
 
 from quizgen.marking.verdict import Verdict
 from quizgen.paper.key import KeyPart
@@ -29,8 +30,7 @@ class Next(Enum):
     OUT_OF_TRIES = "out of tries"
 
 
-@dataclass(frozen=True)
-class Feedback:
+class Feedback(msgspec.Struct, frozen=True):
     """What is said to an answer.
 
     Parameters

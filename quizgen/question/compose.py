@@ -6,11 +6,11 @@ only a ``Question`` cannot leak an answer.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any
 
+import msgspec
 from markupsafe import Markup
 
 from quizgen.bank.draw import Draw, draw, reference
@@ -37,8 +37,7 @@ from quizgen.question.shown import listed, pieces
 from quizgen.question.solution import Solution
 
 
-@dataclass(frozen=True)
-class Field:
+class Field(msgspec.Struct, frozen=True):
     """One answer field.
 
     Parameters
@@ -80,8 +79,7 @@ class Field:
         return listed(self.asks[1:] if self.control.several else self.asks, " ")
 
 
-@dataclass(frozen=True)
-class Part:
+class Part(msgspec.Struct, frozen=True):
     """One sub-question as the learner sees it."""
 
     label: str
@@ -101,8 +99,7 @@ class Part:
         return Markup("").join((label, blocks(self.body, lang), listed, hints))
 
 
-@dataclass(frozen=True)
-class Question:
+class Question(msgspec.Struct, frozen=True):
     """A question in one language, without anything that gives its answer away."""
 
     template: str
@@ -132,8 +129,7 @@ class Question:
         return str(Markup("").join((head, blocks(self.stem, self.lang), picture, *parts)))
 
 
-@dataclass(frozen=True)
-class Key:
+class Key(msgspec.Struct, frozen=True):
     """Answers, worked solution and everything needed to mark one question."""
 
     template: str

@@ -7,8 +7,9 @@ typed; ``quizgen/question/kinds`` makes that ``Spec`` from a draw and says how a
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from typing import Generic, Literal, NamedTuple, Protocol, TypeVar
+
+import msgspec
 
 from quizgen.bank.draw import Draw
 from quizgen.figures import Board, Line
@@ -32,8 +33,7 @@ class Box(NamedTuple):
     unit: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Control:
+class Control(msgspec.Struct, frozen=True):
     """How a learner answers: all that an output needs to know about a kind.
 
     Parameters
@@ -76,8 +76,7 @@ class Control:
 LINE = Control("line")
 
 
-@dataclass(frozen=True, slots=True)
-class Built(Generic[S]):
+class Built(msgspec.Struct, Generic[S], frozen=True):
     """One part of a draw as its kind makes it.
 
     Parameters
@@ -112,7 +111,7 @@ class Built(Generic[S]):
     statements: tuple[Named, ...] = ()
     source: str = ""
     drawn: tuple[Line, ...] = ()
-    mistakes: Mapping[str, S] = field(default_factory=dict)
+    mistakes: Mapping[str, S] = msgspec.field(default_factory=dict)
 
 
 class QuestionKind(Protocol[S]):

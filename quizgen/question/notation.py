@@ -7,18 +7,20 @@ written. Programs, keys and what is typed back stay as they are.
 
 from __future__ import annotations
 
-from dataclasses import fields, is_dataclass, replace
 from typing import Any, TypeVar
 
 import msgspec
+from msgspec.structs import replace
 
-from quizgen.bank.prose import Items, Paragraph, Styled, Table, Words
+from quizgen.bank.prose import Code, CodeBlock, Formula, Slot, Words
 from quizgen.figures import Drawing
 from quizgen.locale import language, numbers_in
 from quizgen.question.contract import Control
 from quizgen.question.shown import Maths
 
 Said = TypeVar("Said")
+LEFT = (Code, CodeBlock, Control, Drawing, Formula, Slot)
+"""What has no numbers for a learner, or its own way to write them."""
 
 
 def in_notation(lang: str, said: Said) -> Said:
@@ -27,7 +29,7 @@ def in_notation(lang: str, said: Said) -> Said:
     Parameters
     ----------
     lang : str
-    said : prose, or a dataclass that holds some
+    said : prose, or a structure that holds some
         Whatever else it holds stays as it is.
     """
     return said if language(lang).decimal == "." else _written(lang, said)
@@ -38,14 +40,10 @@ def _written(lang: str, said: Any) -> Any:
         return Words(numbers_in(lang, said.text))
     if isinstance(said, Maths):
         return replace(said, lang=lang)
-    if isinstance(said, Styled | Paragraph | Items | Table):
-        names = said.__struct_fields__
-        return msgspec.structs.replace(said, **{n: _written(lang, getattr(said, n)) for n in names})
     if isinstance(said, tuple):
         parts = [_written(lang, part) for part in said]
         return said._make(parts) if hasattr(said, "_make") else tuple(parts)
-    if is_dataclass(said) and not isinstance(said, Control | Drawing | type):
-        return replace(
-            said, **{f.name: _written(lang, getattr(said, f.name)) for f in fields(said)}
-        )
+    if isinstance(said, msgspec.Struct) and not isinstance(said, LEFT):
+        names = said.__struct_fields__
+        return replace(said, **{name: _written(lang, getattr(said, name)) for name in names})
     return said

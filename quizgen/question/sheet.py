@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+
+import msgspec
 
 from quizgen import typeset
 from quizgen.bank.folder import Bank
@@ -19,8 +20,7 @@ NOTES = ("about", "holds", "limits", "beware")
 """What is said about a formula, in the order in which it is said."""
 
 
-@dataclass(frozen=True, slots=True)
-class Said:
+class Said(msgspec.Struct, frozen=True):
     """What is said about a formula in one language."""
 
     lang: str
@@ -30,8 +30,7 @@ class Said:
     """Name and title of the templates that ask for it."""
 
 
-@dataclass(frozen=True, slots=True)
-class Line:
+class Line(msgspec.Struct, frozen=True):
     """A formula: its lines, units of its letters, and what is said about it."""
 
     id: str
@@ -41,8 +40,7 @@ class Line:
     said: tuple[Said, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Group:
+class Group(msgspec.Struct, frozen=True):
     """The formulas of a topic, and its title by language."""
 
     topic: str
@@ -50,8 +48,7 @@ class Group:
     lines: tuple[Line, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Sheet:
+class Sheet(msgspec.Struct, frozen=True):
     """Formulas by topic, and the title of the chapter by language."""
 
     langs: tuple[str, ...]

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from functools import lru_cache
+
+import msgspec
 
 from quizgen import typeset
 from quizgen.bank.prose import Inline, Words
@@ -15,8 +16,7 @@ from quizgen.maths.notation.names import NAME
 from quizgen.typeset.nodes import Word
 
 
-@dataclass(frozen=True, slots=True)
-class Maths:
+class Maths(msgspec.Struct, frozen=True):
     """A formula ready for printing: its layout, how it would be typed, and in which language."""
 
     node: typeset.Node

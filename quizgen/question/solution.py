@@ -6,9 +6,10 @@ The steps come from the solver's chain; the language files add one sentence of w
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import groupby
 from typing import Any
+
+import msgspec
 
 from quizgen.bank.draw import Draw
 from quizgen.bank.prose import Block, Inline, Words
@@ -30,8 +31,7 @@ def as_text(shown: tuple[Inline, ...]) -> str:
     return plain(shown).replace(NBSP, " ")
 
 
-@dataclass(frozen=True, slots=True)
-class Rung:
+class Rung(msgspec.Struct, frozen=True):
     """A hint: what it is, and what it shows.
 
     ``kind`` is ``quantity`` (which one is needed, and why), ``formula`` (with its number on the
@@ -44,8 +44,7 @@ class Rung:
     formula: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Line:
+class Line(msgspec.Struct, frozen=True):
     """One step: the worked formula, why it is taken, and its number on the formula sheet.
 
     ``name``, ``thing`` and ``sides`` are its quantity, in words, and what it is equal to.
@@ -70,8 +69,7 @@ class Line:
         return tuple(found)
 
 
-@dataclass(frozen=True, slots=True)
-class Mistake:
+class Mistake(msgspec.Struct, frozen=True):
     """A known mistake: its name, what went wrong, and the answer it would give.
 
     Of one that is drawn no answer is shown: its points would tell nobody what it looks like.
@@ -87,8 +85,7 @@ class Mistake:
         return as_text(self.shown)
 
 
-@dataclass(frozen=True, slots=True)
-class PartSolution:
+class PartSolution(msgspec.Struct, frozen=True):
     """The worked solution of one part.
 
     ``options`` tells the right answer in words, ``reasons`` why each other choice is wrong,
@@ -110,8 +107,7 @@ class PartSolution:
         return as_text(self.shown)
 
 
-@dataclass(frozen=True, slots=True)
-class Solution:
+class Solution(msgspec.Struct, frozen=True):
     """The worked solution of a question in one language."""
 
     lang: str

@@ -131,7 +131,7 @@ def _parts(
             )
             label = part.id.removeprefix(kept.key.number)
             between = "" if number[-1:].isdigit() or not label else "."
-            yield replace(done, id=f"{number}{between}{label}", number=number)
+            yield structs.replace(done, id=f"{number}{between}{label}", number=number)
 
 
 def _typed(kept: Kept, entry: Entry, response: Response) -> dict[str, Typed]:

@@ -6,7 +6,6 @@ import hashlib
 import secrets
 import time
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from datetime import date
 
 import msgspec
@@ -18,8 +17,7 @@ from quizgen.practice.state import Outcome, PartState
 from quizgen.web.store import Attempt, Learner, Seen, Store, Which
 
 
-@dataclass(frozen=True)
-class Learning:
+class Learning(msgspec.Struct, frozen=True):
     """What a learner does with a bank, kept in a database."""
 
     store: Store

@@ -5,11 +5,11 @@ from __future__ import annotations
 import io
 import re
 import zipfile
-from dataclasses import replace
 from html.parser import HTMLParser
 from xml.etree import ElementTree as ET
 
 import pytest
+from msgspec.structs import replace
 
 from quizgen.bank.prose import Words
 from quizgen.export.asks import Choose, Fill, Numeric, Order, Pairs, Truth, as_pairs

@@ -9,10 +9,10 @@ from __future__ import annotations
 import hashlib
 import json
 import re
-from dataclasses import replace
 from pathlib import Path
 
 from msgspec import to_builtins
+from msgspec.structs import replace
 
 from quizgen.bank.folder import builtin
 from quizgen.cards import build as build_deck

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from msgspec.structs import replace
 
 from quizgen.camera import focus
 from quizgen.camera.body import F_NUMBER, FOCAL_LENGTH, PIXEL_PITCH

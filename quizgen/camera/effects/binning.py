@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
+from msgspec.structs import replace
 
 from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, on_picture

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
+from msgspec.structs import replace
 
 from quizgen.camera.body import NEEDS_FULL_WELL
 from quizgen.camera.costs import measured

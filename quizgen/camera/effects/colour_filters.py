@@ -8,10 +8,10 @@ bells of the usual kind, not those of one maker.
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from quizgen.arrays.luminosity import efficiency

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
+from msgspec.structs import replace
 
 from quizgen.arrays.distortion import fold_radius, inverse_radius
 from quizgen.camera.body import NEEDS_LENS, aperture

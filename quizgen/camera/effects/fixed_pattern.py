@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import msgspec
 import numpy as np
 
 from quizgen.camera.blocks import Work
@@ -30,7 +31,7 @@ def level(view: View) -> float:
 
 def work(view: View, rung: str = "") -> Work:
     """Add pedestal and offsets: they do not depend on the scene's seed."""
-    camera = replace(view, scene=replace(view.scene, seed=0))
+    camera = msgspec.structs.replace(view, scene=replace(view.scene, seed=0))
     sigma = view.camera[FIXED_PATTERN] / electrons_at_white(view)
     spread, bias = normal_noise(sigma, luck(camera, "fixed pattern")), np.float32(level(view))
 
@@ -49,7 +50,7 @@ def skipped(facts: Facts, view: View) -> Error:
 
 def after(facts: Facts, view: View) -> Facts:
     """Brighter by the pedestal; the offsets count as noise."""
-    spread = replace(skipped(facts, view), sure=0.0)
+    spread = msgspec.structs.replace(skipped(facts, view), sure=0.0)
     return noisier(facts.lifted(level(view)), spread)
 
 

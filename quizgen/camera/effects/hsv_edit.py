@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from quizgen.camera.blocks import Work
 from quizgen.camera.costs import measured

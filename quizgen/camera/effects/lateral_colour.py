@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
+from msgspec.structs import replace
 
 from quizgen.camera.costs import at_least_a_call, at_size
 from quizgen.camera.draw import Box, Layer, sheets

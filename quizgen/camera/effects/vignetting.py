@@ -7,10 +7,10 @@ taken out of the integral over the exposure.
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
+from msgspec.structs import replace
 
 from quizgen.camera.blocks import Work, at_pixels
 from quizgen.camera.body import NEEDS_LENS

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -32,13 +31,12 @@ Results = list[tuple[Slip, float]]
 """Slips and what they give."""
 
 
-@dataclass
-class Explainer:
+class Explainer(msgspec.Struct, dict=True):
     """All single slips of one chain, compiled once."""
 
     chain: Chain
-    _slips: dict[str, list[Slip]] = field(default_factory=dict)
-    _last: dict[str, tuple[dict[str, float], Results]] = field(default_factory=dict)
+    _slips: dict[str, list[Slip]] = msgspec.field(default_factory=dict)
+    _last: dict[str, tuple[dict[str, float], Results]] = msgspec.field(default_factory=dict)
     """Target to the numbers met last and what every slip gives there: a class shares a paper."""
 
     @cached_property

@@ -17,8 +17,7 @@ from quizgen.maths.numbers import written
 T = TypeVar("T")
 
 
-@dataclass(frozen=True, slots=True)
-class Scale:
+class Scale(msgspec.Struct, frozen=True):
     """From the numbers on the axes to shares of the width.
 
     Parameters

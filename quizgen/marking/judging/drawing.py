@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 from operator import mul
+
+import msgspec
 
 from quizgen.marking.reading.strokes import Point, Stroke
 
@@ -36,8 +37,7 @@ TINY = 1e-9
 """What is left of a number but rounding."""
 
 
-@dataclass(frozen=True, slots=True)
-class Fit:
+class Fit(msgspec.Struct, frozen=True):
     """A drawn line in the frame of the wanted one, as a curve of second degree.
 
     Parameters
@@ -77,8 +77,7 @@ class Fit:
         return abs(off - self.off(along)) / (2 * self.half)
 
 
-@dataclass(frozen=True, slots=True)
-class Frame:
+class Frame(msgspec.Struct, frozen=True):
     """Coordinates along a wanted line's chord and across it, from its first point."""
 
     origin: Point

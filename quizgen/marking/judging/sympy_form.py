@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import reduce
 from typing import Any
 
 import sympy
+from msgspec.structs import replace
 
 from quizgen.maths.notation import parse
 from quizgen.maths.operators import CONDITIONS

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from quizgen.bank.draw import Draw
 from quizgen.bank.prose import Inline, Words

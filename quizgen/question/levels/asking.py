@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Protocol
+
+import msgspec
 
 from quizgen.bank.draw import Draw
 from quizgen.bank.prose import Block, Inline, Paragraph, Styled
@@ -20,8 +21,7 @@ LEAST = Fraction(1, 4)
 """Marks are given in quarters of a point, so no part is worth less."""
 
 
-@dataclass(frozen=True, slots=True)
-class Asked:
+class Asked(msgspec.Struct, frozen=True):
     """One part: what is said, how it is answered and marked, and its worked solution."""
 
     points: Fraction
@@ -38,8 +38,7 @@ class Asked:
         return self.solved.label
 
 
-@dataclass(frozen=True, slots=True)
-class Asking:
+class Asking(msgspec.Struct, frozen=True):
     """A whole question at a level; its parts and those of its solution belong together."""
 
     stem: tuple[Block, ...]

@@ -7,11 +7,12 @@ belongs to the step in which it happens. Parts without a calculation stay as the
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 
 import msgspec
+from msgspec.structs import replace
 
 from quizgen.bank.draw import Draw
 from quizgen.bank.plan import pick

@@ -8,9 +8,10 @@ mistake makes of the steps.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
+
+from msgspec.structs import replace
 
 from quizgen.bank.draw import Draw
 from quizgen.bank.plan import shuffled
