@@ -15,6 +15,7 @@ from quizgen.marking.reading.rewrites import BANGLA_LETTERS, PICTURES, normalise
 from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, correct, partial, wrong
 from quizgen.maths.notation import ReadError
+from quizgen.patterns import lazy
 
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 _TRUE = frozenset(
@@ -30,22 +31,22 @@ _SHORTEST = 4
 
 _AROUND = " .!()[]{}\"'*_।॥“”‘’«»"
 _QUOTED = " \"'*_“”«»"
-_LABELLED = re.compile(
+_LABELLED = lazy(
     r"[\[(]?(?P<mark>[A-Za-zক-ঞ]|\d{1,2})(?:[\])]? ?[).:=,-]+ ?|[\])] ?| (?!\())(?P<words>\S.+)"
 )
-_BEHIND = re.compile(r"(?P<words>.{2,}?) ?[\[(](?P<mark>[A-Za-zক-ঞ])[\])]")
-_FILLING = re.compile(r"^(?:option|অপশন) ", re.IGNORECASE)
-_IT_IS = re.compile(
+_BEHIND = lazy(r"(?P<words>.{2,}?) ?[\[(](?P<mark>[A-Za-zক-ঞ])[\])]")
+_FILLING = lazy(r"^(?:option|অপশন) ", re.IGNORECASE)
+_IT_IS = lazy(
     r"^(?:(?:it|this|that)(?: is|'s)|the statement is|বিবৃতিটি|es ist|das ist|এটা|এটি) ",
     re.IGNORECASE,
 )
-_PIECES = re.compile(r"[;\n]|,(?=\s*[\[(]?[A-Za-zক-ঞ\d][\])]?\s*[).:=-])")
-_BENGALI = re.compile(r"[\u0980-\u09ff]")
-_SET_OFF = re.compile(r"^[\[(]?(?:[^\W_]|\d{2}) ?[\]).:=-]+ ?[^\s,;]{2}|[\[(][^\W\d_][\])]$")
+_PIECES = lazy(r"[;\n]|,(?=\s*[\[(]?[A-Za-zক-ঞ\d][\])]?\s*[).:=-])")
+_BENGALI = lazy(r"[\u0980-\u09ff]")
+_SET_OFF = lazy(r"^[\[(]?(?:[^\W_]|\d{2}) ?[\]).:=-]+ ?[^\s,;]{2}|[\[(][^\W\d_][\])]$")
 """A letter with a sign before or behind words of more than one letter."""
-_UNFINISHED = re.compile(r"[+/&|(\[{][\s*+/&|(\[{]*$")
+_UNFINISHED = lazy(r"[+/&|(\[{][\s*+/&|(\[{]*$")
 """A sign behind which more was to come: no answer yet."""
-_FILLERS = re.compile(
+_FILLERS = lazy(
     r"(?<![\w\u0980-\u09ff])(?:and|und|or|option|answer|ans|এবং|ও|উত্তর)(?![\w\u0980-\u09ff])",
     re.IGNORECASE,
 )

@@ -14,6 +14,7 @@ from quizgen.marking.reading.source import Source
 from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import HALF, Verdict, correct, partial, wrong
 from quizgen.maths.notation import ReadError
+from quizgen.patterns import lazy
 
 
 class Spec(Worded, kw_only=True, frozen=True):
@@ -51,12 +52,12 @@ class Spec(Worded, kw_only=True, frozen=True):
 SET_OTHERWISE = frozenset({"output-brackets", "output-separators"})
 """Notes on output whose values are right: it earns half."""
 
-_BRACKETS = re.compile(r"[\[\](){}]")
-_SEPARATORS = re.compile(r"[\[\](){},\s]+")
+_BRACKETS = lazy(r"[\[\](){}]")
+_SEPARATORS = lazy(r"[\[\](){},\s]+")
 _STRAIGHT = {**dict.fromkeys("“”„‟«»", '"'), **dict.fromkeys("‘’‚‛", "'")}
 """Quotation marks that an editor puts in place of those of a program."""
-_QUOTES = re.compile(f"[{''.join(_STRAIGHT)}]")
-_INSIDE = re.compile(r"\s*([\[\](){},:=])\s*")
+_QUOTES = lazy(f"[{''.join(_STRAIGHT)}]")
+_INSIDE = lazy(r"\s*([\[\](){},:=])\s*")
 
 
 def folded(text: str) -> str:

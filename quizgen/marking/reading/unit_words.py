@@ -14,6 +14,7 @@ from quizgen.errors import FormulaError
 from quizgen.maths.numbers import rational
 from quizgen.maths.precision import working_precision
 from quizgen.maths.units import SIMPLE, System, Unit, units_in_use
+from quizgen.patterns import lazy
 
 WORDS = {
     "pixel": "px",
@@ -211,11 +212,11 @@ def _spellings(known: System) -> _Spellings:
     return _Spellings(words, {word.lower(): to for word, to in words.items() if len(word) > 3})
 
 
-_POWER_OF_UNIT = re.compile(r"(?<=[^\W\d_])\^?\(?(-?\d)\)?(?!\d)")
-_POINTS = re.compile(r"\. ?")
-_BRACKETS = re.compile(r"[(\[]([^()\[\]*/· ]+)[)\]]")
-_SQUARE = re.compile(r"(?:square |quadrat|বর্গ ?)([^\W\d_][^*/· ]*)", re.IGNORECASE)
-_PART = re.compile(r"[*/·]|[^*/·]+")
+_POWER_OF_UNIT = lazy(r"(?<=[^\W\d_])\^?\(?(-?\d)\)?(?!\d)")
+_POINTS = lazy(r"\. ?")
+_BRACKETS = lazy(r"[(\[]([^()\[\]*/· ]+)[)\]]")
+_SQUARE = lazy(r"(?:square |quadrat|বর্গ ?)([^\W\d_][^*/· ]*)", re.IGNORECASE)
+_PART = lazy(r"[*/·]|[^*/·]+")
 
 
 class TypedUnit(msgspec.Struct, frozen=True):

@@ -15,6 +15,7 @@ from functools import lru_cache
 
 from quizgen.maths.notation.names import FUNCTIONS, GREEK, KEYWORDS
 from quizgen.maths.superscripts import RAISED
+from quizgen.patterns import lazy
 
 GAP = "\u202f"
 """Between groups of three digits: narrow, and no line ends at it."""
@@ -26,11 +27,9 @@ SMALLEST_ZEROS = 4
 
 _RAISED = "[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+"
 _DIGITS = r"\d+(?:\.\d+)?"
-_NUMBER = re.compile(
-    rf"(?P<sign>[-−+]?)(?P<top>{_DIGITS})(?:/(?P<bottom>\d+)|[eE](?P<power>[-−+]?\d+))?"
-)
-_SMALL = re.compile(rf"0\.(?P<zeros>0{{{SMALLEST_ZEROS},}})(?P<first>[1-9])(?P<rest>\d*)")
-POWER = re.compile(rf"(?P<sign>[-−]?)(?P<mantissa>{_DIGITS})·10(?P<power>{_RAISED})")
+_NUMBER = lazy(rf"(?P<sign>[-−+]?)(?P<top>{_DIGITS})(?:/(?P<bottom>\d+)|[eE](?P<power>[-−+]?\d+))?")
+_SMALL = lazy(rf"0\.(?P<zeros>0{{{SMALLEST_ZEROS},}})(?P<first>[1-9])(?P<rest>\d*)")
+POWER = lazy(rf"(?P<sign>[-−]?)(?P<mantissa>{_DIGITS})·10(?P<power>{_RAISED})")
 """A number with a power of ten, as it is written here."""
 
 
@@ -94,7 +93,7 @@ TO_BELOW, FROM_BELOW = str.maketrans(_ON_LINE, BELOW), str.maketrans(BELOW, _ON_
 LETTERS = {word: letter for letter, word in GREEK.items() if letter not in "µ∆"}
 _ACCENTS = {"bar": "\u0304", "hat": "\u0302", "tilde": "\u0303"}
 _SIGNS = {"plus": "+", "minus": "-"}
-_BASE = re.compile(r"(?P<stem>[^\W\d_]+)(?P<digits>\d*)(?P<primes>['′]*)")
+_BASE = lazy(r"(?P<stem>[^\W\d_]+)(?P<digits>\d*)(?P<primes>['′]*)")
 _KEPT = frozenset({*FUNCTIONS, *KEYWORDS})
 
 
@@ -143,7 +142,7 @@ def _stem(stem: str) -> str:
     return LETTERS.get(stem, stem)
 
 
-_FORMULA = re.compile(
+_FORMULA = lazy(
     r"`(?P<quoted>[^`]+)`"
     r"|(?P<log>log(?:2|10)(?=\())"
     r"|(?P<root>(?<![^\W_])sqrt(?=\())"
@@ -154,7 +153,7 @@ _FORMULA = re.compile(
     rf"|(?P<number>(?<![\d.{GAP}]){_DIGITS}(?:[eE][-+]?\d+)?)"
     r"|(?P<sign><=|>=|!=|\*|-)"
 )
-_DOUBLED = re.compile(r"\(\(([^()]+)\)\)")
+_DOUBLED = lazy(r"\(\(([^()]+)\)\)")
 """Brackets in brackets, where a number stands alone in those of a function."""
 _SPELLED = {"<=": "≤", ">=": "≥", "!=": "≠", "*": "·", "-": MINUS}
 
@@ -204,7 +203,7 @@ _WRITERS: dict[str, Callable[[str], str]] = {
 }
 
 
-_WITH_INDEX = re.compile(r"[^\W\d_]+['′]*_[^\W_]+['′]*|(?<![^\W_])[^\W\d_]'(?![^\W_])")
+_WITH_INDEX = lazy(r"[^\W\d_]+['′]*_[^\W_]+['′]*|(?<![^\W_])[^\W\d_]'(?![^\W_])")
 
 
 def names_in(text: str) -> str:
@@ -218,8 +217,8 @@ def names_in(text: str) -> str:
     return _WITH_INDEX.sub(lambda m: name(m[0]), text)
 
 
-_SIGNED = re.compile(r"(?<![\w)\]}.,'\"−-])-(?=\d)|(?<=\d )-(?= \d)")
-_LONG = re.compile(rf"(?<![\w.,{GAP}])\d{{{LONGEST_UNGROUPED + 1},}}(?![\w{GAP}])")
+_SIGNED = lazy(r"(?<![\w)\]}.,'\"−-])-(?=\d)|(?<=\d )-(?= \d)")
+_LONG = lazy(rf"(?<![\w.,{GAP}])\d{{{LONGEST_UNGROUPED + 1},}}(?![\w{GAP}])")
 
 
 def prose(text: str) -> str:
