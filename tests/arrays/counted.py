@@ -6,10 +6,12 @@ within a factor of 2 (Sterbenz), and ``two_sum`` and ``two_product`` together wi
 
 from __future__ import annotations
 
+import numpy as np
 from enclosures import UNIT, Box
 from flint import arb, fmpq
 
-from quizgen.arrays import distortion, gamma
+from quizgen.arrays import distortion, gamma, logarithm
+from quizgen.arrays.polynomial import horner
 
 SECOND = 64 * UNIT * UNIT
 """More than products of the few roundings of a formula."""
@@ -99,3 +101,34 @@ def curve_bound(_):
 def term_bound(_):
     """Bound for f x/(pitch z), the part of a pixel's place that is not its offset."""
     return relative(one() * one() / (one() * one())) + SECOND
+
+
+def log_bound(s):
+    """Relative error of the logarithm as a pair, for (m - 1)/(m + 1) in a box.
+
+    Lost are the error of the polynomial in doubles, the terms it leaves out, what three constants
+    miss, and a few units of 2**-106 by each of ten operations on pairs. With a power of two, the
+    logarithm is at least half of the power's own.
+    """
+    square = s * s
+    rest = logarithm._TAIL
+    kept = horner(rest, np.array([Box(square, (UNIT * square).upper())], dtype=object))[0]
+    left_out = square ** (3 + len(rest)) / (2 * len(rest) + 7) / (1 - square)
+    third, fifth = (
+        abs(arb(pair.high) + arb(pair.low) - exact)
+        for pair, exact in ((logarithm._THIRD, arb(1) / 3), (logarithm._FIFTH, arb(1) / 5))
+    )
+    ln2 = abs((arb(logarithm.LN2.high) + arb(logarithm.LN2.low)) / arb(2).log() - 1)
+    missed = square * third + square**2 * fifth + square**3 * kept.error + left_out
+    return missed + 2 * ln2 + SECOND
+
+
+def pincushion_bound(_):
+    """Bound for the inverse of one coefficient k1 >= 0: a step of Newton from the closed form.
+
+    That is off by at most 256 units: four of each hyperbolic function (taken for granted) and the
+    products, enlarged by a third of an angle below 65. The step squares it, as x f''/f' <= 2; the slope is off by five units of it, and the
+    residual, of ten operations on pairs, by less than 2**-96 of the radius. The sum is rounded.
+    """
+    start = 256 * UNIT
+    return start * start + 8 * UNIT * start + arb(2) ** -96 + UNIT + SECOND

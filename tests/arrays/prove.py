@@ -31,10 +31,12 @@ from quizgen.arrays import (
     double_double,
     gamma,
     gaussian,
+    logarithm,
     luminosity,
     polynomial,
     power,
     projection,
+    quintic,
     tables,
 )
 
@@ -182,6 +184,8 @@ EXACT_SUMS = (double_double.two_sum, double_double.two_product)
 DECODE = (gamma, power, *EXACT_SUMS)
 LIMIT = (depth_of_field, *EXACT_SUMS)
 PIXEL = (projection,)
+LOGARITHM = (logarithm, double_double, polynomial.horner)
+CUBIC = (quintic.cubic, quintic.Quintic.refined, quintic.Quintic.residual, double_double)
 PIECES = {
     "gaussian.far_tail": Piece(far_bound, 0.6999, 37.5, 4000, TAIL),
     "gaussian.near_tail": Piece(near_bound, 0.0, 0.7, 200, TAIL),
@@ -194,6 +198,8 @@ PIECES = {
     "far_limit beyond (log2 of rest)": Piece(counted.long_limit_bound, -40.1, -0.5, 100, LIMIT),
     "distortion.distort": Piece(counted.distort_bound, 0.0, 1.0, 1, (distortion._distort,)),
     "fold_radius, k2 = 0": Piece(counted.barrel_bound, 0.0, 1.0, 1, (distortion._fold_of_barrel,)),
+    "logarithm.log_pair": Piece(counted.log_bound, 0.0, 0.1716, 200, LOGARITHM),
+    "inverse_radius, k1 >= 0, k2 = 0": Piece(counted.pincushion_bound, 0.0, 1.0, 1, CUBIC),
     "luminosity.efficiency": Piece(counted.curve_bound, 0.0, 1.0, 1, (luminosity.Curve.read,)),
     "projection.pixel, f x/(pitch z)": Piece(counted.term_bound, 0.0, 1.0, 1, PIXEL),
 }
@@ -214,7 +220,7 @@ def table():
 def main():
     ctx.prec, ctx.cap = 300, ORDER
     rows = [
-        f"{name}\t{worst(piece):.2f}\t{piece.count}\t{piece.digest()}"
+        f"{name}\t{worst(piece):.4g}\t{piece.count}\t{piece.digest()}"
         for name, piece in PIECES.items()
     ]
     PROOFS.write_text("\n".join(rows) + "\n")
