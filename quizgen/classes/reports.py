@@ -12,7 +12,7 @@ from markupsafe import Markup
 
 from quizgen.classes.grades import Graded
 from quizgen.classes.mark import DROPPED, Marks, PartMark, item_of
-from quizgen.locale import FIRST, known, line_heights, table
+from quizgen.locale import FIRST, amount, known, line_heights, numbers_in, table
 from quizgen.marking.mark import show
 from quizgen.marking.options import Options
 from quizgen.outside import visible
@@ -72,7 +72,7 @@ class Section:
     @property
     def worth(self) -> str:
         """Points that were reached, of those that could be."""
-        return f"{self.marks:g} / {self.points:g}"
+        return numbers_in(self.lang, f"{self.marks:g} / {self.points:g}")
 
     @property
     def practise(self) -> str:
@@ -82,7 +82,9 @@ class Section:
 
     def told(self, words: Mapping[str, str]) -> str:
         """How much was lost."""
-        return words["lost"].format(lost=f"{self.lost:g}", points=f"{self.points:g}")
+        return words["lost"].format(
+            lost=amount(self.lost, self.lang), points=amount(self.points, self.lang)
+        )
 
     @property
     def lost(self) -> float:
@@ -122,7 +124,7 @@ class Report:
     @property
     def total(self) -> str:
         """Points that were reached, of those that could be."""
-        marks, points = f"{self.marks.marks:g}", f"{self.marks.points:g}"
+        marks, points = (amount(one, self.lang) for one in (self.marks.marks, self.marks.points))
         return self.words["total"].format(marks=marks, points=points)
 
     @property
@@ -199,7 +201,7 @@ def _rows(question: KeyQuestion, marks: Marks) -> Iterator[Row]:
             words["solution"]
             if part.spec["kind"] in NOT_TYPED
             else show(part.in_order(), known(marks.lang)),
-            _points(found, words),
+            _points(found, known(marks.lang)),
             message,
             _said(found, words),
         )
@@ -212,12 +214,13 @@ def _typed(typed: str, kind: str, words: Mapping[str, str]) -> str:
     return words["drawn"] if kind == "sketch" else visible(typed, "")
 
 
-def _points(part: PartMark, words: Mapping[str, str]) -> str:
+def _points(part: PartMark, lang: str) -> str:
+    words = table(lang, "classes")["report"]
     if part.status == DROPPED:
-        return words["dropped"]
+        return str(words["dropped"])
     if part.marks is None:
-        return words["undecided"]
-    return f"{part.marks:g} / {part.points:g}"
+        return str(words["undecided"])
+    return numbers_in(lang, f"{part.marks:g} / {part.points:g}")
 
 
 def _said(part: PartMark, words: Mapping[str, str]) -> str:

@@ -204,6 +204,11 @@ def word(lang: str, key: str, **values: object) -> str:
     return text.format(**values) if values else text
 
 
+def amount(value: Fraction | float, lang: str) -> str:
+    """Marks as a number, with the decimal sign of a language: ``2.5``."""
+    return numbers_in(lang, f"{float(value):g}")
+
+
 def marks(points: Fraction, lang: str) -> str:
     """Marks with their word: ``1 point``, ``2.5 points``."""
-    return f"{float(points):g} {word(lang, 'paper.point' if points == 1 else 'paper.points')}"
+    return f"{amount(points, lang)} {word(lang, 'paper.point' if points == 1 else 'paper.points')}"

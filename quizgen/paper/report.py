@@ -6,6 +6,7 @@ import unicodedata
 from collections.abc import Iterable
 from fractions import Fraction
 
+from quizgen.locale import numbers_in
 from quizgen.marking.echo import safe
 from quizgen.marking.messages import words
 from quizgen.outside import csv_text
@@ -48,7 +49,7 @@ def rows(result: PaperResult, lang: str) -> list[tuple[str, list[str]]]:
 
 def _row(part: PartResult, lang: str) -> list[str]:
     shown = words(lang).get(part.status, part.status)
-    marks = f"{points_text(part.marks)} / {points_text(part.points)}"
+    marks = numbers_in(lang, f"{points_text(part.marks)} / {points_text(part.points)}")
     remark = "" if part.blank else part.verdict.message
     read_as = part.verdict.read_as or safe(part.typed)
     return [part.id, shown, marks, read_as, remark]
@@ -68,7 +69,8 @@ def table_lines(result: PaperResult, lang: str, columns: int, paint: bool) -> It
         yield click.style(line, fg=COLOURS[status]) if paint else line
         if cells[4]:
             yield from _wrapped(cells[4], columns)
-    yield f"{table['total']}: {points_text(result.marks)} / {points_text(result.points)}"
+    total = f"{table['total']}: {points_text(result.marks)} / {points_text(result.points)}"
+    yield numbers_in(lang, total)
     if result.asked_back:
         name = "asked-back-one" if result.asked_back == 1 else "asked-back"
         yield table[name].format(count=result.asked_back)

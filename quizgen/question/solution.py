@@ -65,7 +65,8 @@ class Line(msgspec.Struct, frozen=True):
         found = [Rung("quantity", self.thing, self.why)]
         for role, sides in groupby(self.sides, key=lambda side: side.role):
             formula = self.formula if role == FORMULA else ""
-            found.append(Rung(role, (in_line(self.name, tuple(sides)),), formula=formula))
+            shown = msgspec.structs.replace(in_line(self.name, tuple(sides)), lang=self.maths.lang)
+            found.append(Rung(role, (shown,), formula=formula))
         return tuple(found)
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import jinja2
 from markupsafe import Markup
 
-from quizgen.locale import line_heights, marks, word
+from quizgen.locale import amount, line_heights, marks, word
 from quizgen.paper.paper import Paper
 from quizgen.question.markup import OURS, Manner, blocks, display, inline
 from quizgen.render import fonts
@@ -27,7 +27,7 @@ def _layouts(way: Manner = OURS) -> jinja2.Environment:
         display=partial(display, way=way),
         word=word,
         marks=marks,
-        points=lambda worth: f"{float(worth):g}",
+        amount=amount,
         squares=squares,
         drawing=_board,
         svg=lambda figure: Markup(figure.svg.decode()),

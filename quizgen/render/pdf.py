@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
 from typing import Any
 
-from quizgen.locale import marks, word
+from quizgen.locale import amount, marks, word
 from quizgen.paper.paper import Item, Paper
 from quizgen.question.compose import Field, Part, Question
 from quizgen.question.solution import Line, Mistake, PartSolution, Solution
@@ -114,7 +113,7 @@ class _Sheet:
     def _overview(self) -> str:
         """Table of questions and marks, with room for the marks given."""
         rows = [
-            f"([{item.number}], [{self._titles(item)}], [{_points(item.points)}])"
+            f"([{item.number}], [{self._titles(item)}], [{amount(item.points, self.main)}])"
             for item in self.paper.items
         ]
         main, many = self.langs[:1], self.langs
@@ -123,7 +122,7 @@ class _Sheet:
             for name, langs in (("question", many), ("page_of", main), ("points_of", main),
                                 ("reached", main))
         ]  # fmt: skip
-        total = f"[{_points(self.paper.points)}]"
+        total = f"[{amount(self.paper.points, self.main)}]"
         return (
             f"#overview({', '.join(f'[{head}]' for head in heads)}, "
             f"[{words(many, 'paper.sum')}], {total}, ({', '.join(rows)},))"
@@ -284,13 +283,9 @@ def _named(paper: Paper) -> str:
     return " · ".join(map(printable, filter(None, known)))
 
 
-def _points(points: Fraction) -> str:
-    return f"{float(points):g}"
-
-
 def _left_over(part: Part) -> str:
     """What of the page is left goes to calculations, by points; without any it is for notes."""
-    return f"#more-room({_points(part.points)})" if part.field.control.reckoned else "#rest"
+    return f"#more-room({float(part.points):g})" if part.field.control.reckoned else "#rest"
 
 
 def _reasons(part: PartSolution, lang: str) -> str:

@@ -12,7 +12,7 @@ from markupsafe import Markup
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 
-from quizgen.locale import known, language, line_heights, marks, table, word
+from quizgen.locale import amount, known, language, line_heights, marks, table, word
 from quizgen.practice.schedule import day_of
 from quizgen.render.layouts import environment
 from quizgen.web.door import form_token
@@ -88,6 +88,7 @@ def page(request: Request, layout: str, status: int = 200, **content: Any) -> Re
             lang=lang,
             say=words,
             points=lambda count: marks(Fraction(str(count)), lang),
+            amount=lambda count: amount(count, lang),
             site=site,
             token=form_token(request.state.token),
             learner=request.state.learner,

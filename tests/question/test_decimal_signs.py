@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import shutil
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
@@ -10,10 +12,15 @@ from quizgen.bank.draw import draw
 from quizgen.bank.folder import Bank, builtin
 from quizgen.bank.prose import Code, Paragraph, Words
 from quizgen.figures import render
-from quizgen.locale import language
+from quizgen.locale import amount, language, marks
 from quizgen.marking.mark import mark
+from quizgen.paper.key import key_of
+from quizgen.paper.marking import mark_paper
+from quizgen.paper.paper import single
+from quizgen.paper.report import table_lines
 from quizgen.question.compose import compose
 from quizgen.question.notation import in_notation
+from quizgen.render import render_paper
 from quizgen.render.text import blocks, inline
 from quizgen.typeset import latex, mathml, number, spoken, typst
 
@@ -81,3 +88,32 @@ def test_figures_have_it_in_labels_and_in_words():
         assert f"52{sign}5" in labels
         assert f"52{sign}5" in drawn[lang].alt
     assert draw(FILTERING.template("spectrum-of-a-mean"), 0).shown["n"] == 11
+
+
+def test_points_have_it_too():
+    assert [marks(Fraction(1, 2), lang) for lang in ("en", "de")] == ["0.5 points", "0,5 Punkte"]
+    assert [amount(1.75, lang) for lang in ("en", "bn", "de")] == ["1.75", "1.75", "1,75"]
+
+
+def test_points_of_a_paper_and_of_its_report_have_it(tmp_path):
+    shutil.copytree(FILTERING.root, tmp_path / "own")
+    rules = tmp_path / "own/templates/edges/sharpen-with-laplacian/template.toml"
+    rules.write_text(rules.read_text("utf-8").replace("points = 1\n", 'points = "0.5"\n'), "utf-8")
+    own = Bank(tmp_path / "own", trusted=True).template("sharpen-with-laplacian")
+    for lang, half in (("de", "0,5 Punkte"), ("en", "0.5 points")):
+        paper = single(own, 3, lang, figures=False)
+        page = render_paper(paper, "exam", "html").decode()
+        assert half in page.replace("\u00a0", " ")
+        assert f"<td>2{half[1]}5</td>" in page
+        result = mark_paper(key_of(paper), {}, lang)
+        assert list(table_lines(result, lang, 80, paint=False))[-1].endswith(f"0 / 2{half[1]}5")
+
+
+def test_hints_in_plain_text_have_it():
+    template = FILTERING.template("two-gaussians-in-a-row")
+    for lang, sign, other in (("de", ",", "."), ("en", ".", ",")):
+        keys = (compose(template, seed, lang)[1] for seed in range(6))
+        lines = [line for key in keys for part in key.solution.parts for line in part.lines]
+        said = " ".join(inline(rung.shown) for line in lines for rung in line.rungs)
+        assert f"4{sign}5" in said
+        assert f"4{other}5" not in said
