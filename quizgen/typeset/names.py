@@ -116,8 +116,8 @@ def _subscript(part: str, symbol: str) -> Node:
         return Op(_SIGNS[part])
     if len(part) > 1 and _AXES.issuperset(part):
         return Row(tuple(Ident(letter) for letter in part))
-    match = _PART.fullmatch(part) or _MIXED.fullmatch("x" + part)
-    if match is not None and match.re is _MIXED:
+    match = _PART.fullmatch(part)
+    if match is None and _MIXED.fullmatch("x" + part):
         return Word(part)
     if match is None:
         raise RenderError(f"cannot write the name {symbol!r}: subscript {part!r}")
