@@ -4,9 +4,15 @@ import gc
 import os
 import sys
 
+ALGEBRA = "OPENBLAS_NUM_THREADS"
+"""What OpenBLAS, which NumPy loads, reads when it is loaded: how many threads it begins."""
+
 
 def main() -> None:
     """Run the command line; an interrupt while it is still being loaded is one line, too."""
+    # Threads for products of large matrices, of which there are none, took two thirds of the CPU
+    # time in which NumPy is loaded.
+    os.environ.setdefault(ALGEBRA, "1")
     gc.set_threshold(100_000)  # what is loaded stays: to look through it took a tenth of a paper
     try:
         from quizgen.cli.main import main as run

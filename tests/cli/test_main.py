@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 
@@ -80,6 +81,26 @@ main()
 """
     done = run(code, tmp_path)
     assert (done.returncode, done.stderr) == (130, "quizgen: interrupted\n")
+
+
+@pytest.mark.parametrize(("own", "threads"), [(None, "1"), ("2", "2")])
+def test_no_threads_are_begun_for_matrices_unless_somebody_wants_them(tmp_path, own, threads):
+    code = """
+import os, sys
+from quizgen.__main__ import main
+sys.argv = ["quizgen", "templates", "--topic", "eye"]
+main()
+import numpy
+tasks = "/proc/self/task"
+print(os.environ["OPENBLAS_NUM_THREADS"], len(os.listdir(tasks)) if os.path.isdir(tasks) else 0)
+"""
+    home = {name: value for name, value in os.environ.items() if name != "OPENBLAS_NUM_THREADS"}
+    given = home if own is None else {**home, "OPENBLAS_NUM_THREADS": own}
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, env=given,
+                          capture_output=True, text=True, check=True)  # fmt: skip
+    wanted, tasks = done.stdout.split()[-2:]
+    assert wanted == threads
+    assert int(tasks) <= int(threads)
 
 
 @pytest.mark.parametrize(
