@@ -10,6 +10,7 @@ if one is over.
 from __future__ import annotations
 
 import gc
+import os
 import subprocess
 import sys
 from collections import defaultdict
@@ -23,6 +24,7 @@ sys.path.insert(0, str(Path(__file__).parent.parent / "tests" / "figures"))
 from figure_cases import REFERENCE, draws, module, render
 
 from quizgen import figures
+from quizgen.__main__ import ALGEBRA
 from quizgen.camera import kernels
 from quizgen.figures import _canvas
 
@@ -63,14 +65,14 @@ def once(name: str, values: Mapping[str, float]) -> tuple[float, float]:
 
 
 def seconds(code: str) -> float:
-    """CPU seconds of a fresh process."""
+    """CPU seconds of a fresh process, with the threads that a command has."""
 
     def used() -> float:
         found = getrusage(RUSAGE_CHILDREN)
         return found.ru_utime + found.ru_stime
 
     before = used()
-    subprocess.run([sys.executable, "-c", code], check=True)
+    subprocess.run([sys.executable, "-c", code], check=True, env=os.environ | {ALGEBRA: "1"})
     return used() - before
 
 
