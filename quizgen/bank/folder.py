@@ -31,6 +31,8 @@ from quizgen.locale import chosen, languages
 from quizgen.maths.chain import Chain
 from quizgen.outside import NAMES, is_name, located, named, read_bytes
 
+SOLVERS, FIGURES = "solvers", "templates/figures"
+"""Where the Python of a bank stands."""
 _BESIDE = ("blueprints", "cards", "figures", "quantities")
 """Folders beside the topics."""
 PROSE = re.compile(r"[a-z]{2,3}\.md")
@@ -92,11 +94,11 @@ class Bank:
 
     @property
     def _solvers(self) -> Path:
-        return self.root / "solvers"
+        return self.root / SOLVERS
 
     @property
     def _figures(self) -> Path:
-        return self.folder / "figures"
+        return self.root / FIGURES
 
     @property
     def folder(self) -> Path:
@@ -321,7 +323,7 @@ class Bank:
         """Rules, words, solver and figure of a template."""
         rules = self.rules(name)
         figure = rules.figure.name if rules.figure else ""
-        solver = Path("solvers", f"{rules.solver}.py")
+        solver = Path(SOLVERS, f"{rules.solver}.py")
         roots = [root for root in (self.root, builtin_root()) if (root / solver).is_file()]
         python = [*(root / solver for root in roots[:1]), self._figures / f"{figure}.py"]
         return [

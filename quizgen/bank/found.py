@@ -14,15 +14,13 @@ from pathlib import Path
 
 import msgspec
 
-from quizgen.bank.folder import Bank, builtin, builtin_root
+from quizgen.bank.folder import FIGURES, SOLVERS, Bank, builtin, builtin_root
 from quizgen.errors import BankError
 from quizgen.files import write_all
 from quizgen.kept import digest_of
 from quizgen.outside import read_bytes
 
 GROUP = "quizgen.banks"
-PYTHON = ("solvers", "templates/figures")
-"""Where the Python of a bank stands."""
 _FILE = "trusted.json"
 
 
@@ -61,7 +59,7 @@ def root_of(named: Path) -> Path:
 
 def python_of(root: Path) -> list[Path]:
     """The Python that a bank brings."""
-    return sorted(path for kind in PYTHON for path in (root / kind).rglob("*.py"))
+    return sorted(path for kind in (SOLVERS, FIGURES) for path in (root / kind).rglob("*.py"))
 
 
 def digest_of_python(root: Path) -> str:

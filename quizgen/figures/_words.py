@@ -28,8 +28,9 @@ def words_of(module: str, lang: str) -> dict[str, str]:
         If there is no such file, it is no TOML, or it has no table of this figure.
     """
     place = Path(module)
-    file = next(filter(Path.is_file, [place.with_name(f"{lang}.toml")]), None)
-    file = file or place.with_name(f"{FIRST}.toml")
+    file = place.with_name(f"{lang}.toml")
+    if not file.is_file():
+        file = place.with_name(f"{FIRST}.toml")
     sentences = _table(file).get(place.stem)
     if not isinstance(sentences, dict):
         raise BankError(f"{file}: no table [{place.stem}], the figure's sentences")
