@@ -6,6 +6,7 @@ Figures are drawn in points from the lower left; SVG counts from the upper left.
 from __future__ import annotations
 
 from base64 import b64encode
+from collections.abc import Iterable, Sequence
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Final, NamedTuple
 
@@ -23,9 +24,10 @@ MOVE, LINE, CURVE, CLOSE = 1, 2, 3, 79
 """Codes of the points of a path, as fonts have them; a curve has its control point first."""
 _CONTROL: Final = 4
 """The control point of a curve, told from its end."""
-_FORMS: Final = {1: "M %g %g", 2: "L %g %g", 3: "%g %g", 4: "Q %g %g"}
+_FORMS: Final = {1: "M %s %s", 2: "L %s %s", 3: "%s %s", 4: "Q %s %s"}
 BLACK: Final = "#000000"
 
+Point = Sequence[float]
 Box = tuple[float, float, float, float]
 
 
@@ -55,8 +57,8 @@ class Stroke(NamedTuple):
 
     part: str
     style: Style
-    points: NDArray[np.float64]
-    codes: NDArray[np.uint8]
+    points: Sequence[Point]
+    codes: bytes
 
 
 class Label(NamedTuple):
@@ -85,15 +87,13 @@ class Canvas:
         """Put a PNG file, or 8-bit codes, into a box: left, bottom, width and height in points."""
         self.pictures.append((pixels, box))
 
-    def path(
-        self, part: str, style: Style, points: NDArray[np.float64], codes: NDArray[np.uint8]
-    ) -> None:
+    def path(self, part: str, style: Style, points: Sequence[Point], codes: bytes) -> None:
         """Paint a part of the figure."""
         self.strokes.append(Stroke(part, style, points, codes))
 
-    def flipped(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Points as SVG counts them, in hundredths."""
-        return _flipped(points, self.height)
+    def flipped(self, points: Iterable[Point]) -> list[Point]:
+        """Points as SVG counts them, rounded to hundredths."""
+        return [(x / 100, y / 100) for x, y in _flipped(points, self.height)]
 
     def written_in(self, lang: str) -> Canvas:
         """The same with the decimal sign of a language in its labels; itself if they are alike."""
@@ -120,7 +120,7 @@ class Canvas:
 
     def _path(self, stroke: Stroke) -> str:
         closed = stroke.style.width > 0
-        data = _commands(self.flipped(stroke.points), stroke.codes, closed=closed)
+        data = _commands(_flipped(stroke.points, self.height), stroke.codes, closed)
         return _part(stroke.part, data, stroke.style.attribute())
 
     def _paper(self) -> str:
@@ -145,10 +145,10 @@ def _part(name: str, data: str, style: str = "") -> str:
     return f'<g data-part="{name}"><path d="{data}"{style}/></g>'
 
 
-def _flipped(points: NDArray[np.float64], height: float) -> NDArray[np.float64]:
-    import numpy as np
-
-    return np.round((0.0, height) + np.round(points, 2) * (1.0, -1.0), 2) + 0.0
+def _flipped(points: Iterable[Point], height: float) -> list[tuple[int, int]]:
+    """Points in hundredths, from the upper left."""
+    top = round(100 * height)
+    return [(round(100 * x), top - round(100 * y)) for x, y in points]
 
 
 @lru_cache(maxsize=64)
@@ -162,22 +162,47 @@ def _png(codes: bytes, shape: tuple[int, ...]) -> bytes:
 @lru_cache(maxsize=2048)
 def _label(label: Label, height: float) -> str:
     """Commands that draw a label: most stand in the same place in the next figure of the kind."""
-    shape = outline(label.text)
-    points = shape.points * label.size + label.at
+    shape, size, (left, low) = outline(label.text), label.size, label.at
+    points = [(x * size + left, y * size + low) for x, y in shape.points]
     return _commands(_flipped(points, height), shape.codes, closed=False)
 
 
-def _commands(points: NDArray[np.float64], codes: NDArray[np.uint8], *, closed: bool) -> str:
-    """Drawing commands of SVG; an outline that closes goes back to its start first."""
-    import numpy as np
+class _Hundredths(dict[int, str]):
+    """Numbers of hundredths as they are written; most stand in many figures."""
 
-    curves = codes == CURVE
-    kinds = np.where(curves & (np.cumsum(curves) % 2 == 1), _CONTROL, codes)
-    closing = codes == CLOSE
-    if closed:
-        starts = np.maximum.accumulate(np.where(codes == MOVE, np.arange(len(codes)), 0))
-        points = points[np.where(closing, starts, np.arange(len(codes)))]
-    else:
-        points = points[~closing]
-    forms = {**_FORMS, CLOSE: "L %g %g z" if closed else "z"}
-    return " ".join([forms[kind] for kind in kinds.tolist()]) % tuple(points.ravel().tolist())
+    def __missing__(self, number: int) -> str:
+        text = f"{number / 100:g}"
+        if len(self) < 1 << 16:
+            self[number] = text
+        return text
+
+
+_HUNDREDTHS = _Hundredths()
+
+
+def _commands(points: Sequence[tuple[int, int]], codes: bytes, closed: bool) -> str:
+    """Drawing commands of SVG for points in hundredths."""
+    form, order = _form(codes, closed)
+    if len(order) < len(points) or closed:
+        points = [points[place] for place in order]
+    return form % tuple([_HUNDREDTHS[way] for point in points for way in point])
+
+
+@lru_cache(maxsize=1024)
+def _form(codes: bytes, closed: bool) -> tuple[str, list[int]]:
+    """How points with these codes are written, and which of them.
+
+    An outline that closes goes back to its start first; of a fill the start says nothing.
+    """
+    letters, order, start, control = [], [], 0, False
+    for place, code in enumerate(codes):
+        control = code == CURVE and not control
+        if code == MOVE:
+            start = place
+        if code == CLOSE:
+            letters.append("L %s %s z" if closed else "z")
+            order += [start] if closed else []
+        else:
+            letters.append(_FORMS[_CONTROL if control else code])
+            order.append(place)
+    return " ".join(letters), order

@@ -11,15 +11,16 @@ The markup is tiny: ``p'_y = 6 {mm}``. A letter outside braces is italic, ``'`` 
 from __future__ import annotations
 
 import re
+import sys
+from array import array
+from collections.abc import Sequence
 from functools import cache, lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from msgspec import msgpack
 
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
+Point = tuple[float, float]
 
 PACKED = Path(__file__).with_name("letters.msgpack")
 UNITS = 6400.0
@@ -33,8 +34,8 @@ _TOKEN = re.compile(r"(?P<text>\{[^}]*\}|.)(?P<prime>'*)(?:_(?P<sub>\{[^}]*\}|.)
 class Outline(NamedTuple):
     """A laid-out label: points in units of its size, drawing codes, and its width."""
 
-    points: NDArray[np.float64]
-    codes: NDArray[np.uint8]
+    points: Sequence[Point]
+    codes: bytes
     width: float
 
 
@@ -55,13 +56,14 @@ def _packed() -> tuple[dict[str, Packed], dict[str, Packed]]:
 
 @cache
 def _glyph(character: str, italic: bool) -> Outline:
-    import numpy as np
-
     found = _packed()[italic].get(character)
     if found is None:
         raise LookupError(f"no glyph for {character!r}")
-    points = np.frombuffer(found.points, "<i2").reshape(-1, 2) / UNITS
-    return Outline(points, np.frombuffer(found.codes, np.uint8), found.width)
+    steps = array("h", found.points)
+    if sys.byteorder == "big":
+        steps.byteswap()
+    ways = iter([step / UNITS for step in steps])
+    return Outline(list(zip(ways, ways, strict=True)), found.codes, found.width)
 
 
 class Run(NamedTuple):
@@ -120,9 +122,11 @@ def _run(found: list[Run], text: str, x: float, size: float, rise: float) -> flo
 @lru_cache(maxsize=4096)
 def outline(label: str) -> Outline:
     """A label as ``runs`` lays it out: one compound path, and its advance width."""
-    import numpy as np
-
     laid, wide = runs(label)
     glyphs = [_glyph(run.text, italic=run.italic) for run in laid]
-    points = [glyph.points * run.size + run.at for glyph, run in zip(glyphs, laid, strict=True)]
-    return Outline(np.concatenate(points), np.concatenate([one.codes for one in glyphs]), wide)
+    points = [
+        (x * run.size + run.at[0], y * run.size + run.at[1])
+        for glyph, run in zip(glyphs, laid, strict=True)
+        for x, y in glyph.points
+    ]
+    return Outline(points, b"".join(glyph.codes for glyph in glyphs), wide)

@@ -12,15 +12,16 @@ from collections.abc import Iterator, Sequence
 from html import escape
 from itertools import groupby, pairwise
 from math import dist
-from typing import NamedTuple
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING, NamedTuple
 
 from quizgen.figures._bends import Point, bends
 from quizgen.figures._canvas import CLOSE, MOVE, Box, Canvas, Label, Stroke, Style
 from quizgen.figures._letters import runs
 from quizgen.png import small
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 FONTS = "STIX Two Text,STIXGeneral,Times New Roman,Times,Liberation Serif,serif"
 FINE = 20
@@ -71,6 +72,8 @@ def _image(canvas: Canvas, pixels: bytes | NDArray[np.uint8], box: Box) -> str:
 
 def _single(codes: NDArray[np.uint8]) -> tuple[NDArray[np.uint8], int]:
     """A picture whose pixels all stand side by side several times with each once; how often."""
+    import numpy as np
+
     for times in BLOCKS:
         one = codes[::times, ::times]
         if np.array_equal(one.repeat(times, axis=0).repeat(times, axis=1), codes):
@@ -80,6 +83,8 @@ def _single(codes: NDArray[np.uint8]) -> tuple[NDArray[np.uint8], int]:
 
 def _coarse(codes: NDArray[np.uint8]) -> NDArray[np.uint8]:
     """A grey picture in steps that its own noise hides, if it has any."""
+    import numpy as np
+
     noise = np.median(np.abs(np.diff(codes.astype(np.int16), axis=1))) if codes.ndim == 2 else 0
     step = 1 << max(int(noise) // HIDES, 1).bit_length() - 1
     return codes // step * step + step // 2
@@ -101,11 +106,11 @@ def _paint(style: Style) -> str:
 
 def _path(canvas: Canvas, stroke: Stroke) -> str:
     """A part as steps on the grid, each line from where the one before it ended."""
-    points = (canvas.flipped(stroke.points) * FINE).tolist()
-    starts = np.flatnonzero(stroke.codes == MOVE).tolist()
+    points = [(x * FINE, y * FINE) for x, y in canvas.flipped(stroke.points)]
+    starts = [place for place, code in enumerate(stroke.codes) if code == MOVE]
     at, data = (0, 0), ""
     for start, end in pairwise([*starts, len(points)]):
-        row, closed = points[start:end], bool(stroke.codes[end - 1] == CLOSE)
+        row, closed = points[start:end], stroke.codes[end - 1] == CLOSE
         kept = [_rounded(point) for point in bends(row, UNSEEN)]
         data += "m" + _pair(kept[0][0] - at[0], kept[0][1] - at[1])
         if closed:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import chain
 from math import cos, hypot, pi, sin
 from typing import TYPE_CHECKING
 
@@ -164,12 +163,9 @@ class Pen:
         background : str, optional
             Colour of the paper; without it the figure is transparent.
         """
-        import numpy as np
-
         canvas.size(self.width, self.height, background)
         for (part, style), (points, codes) in self.paths.items():
-            flat = np.fromiter(chain.from_iterable(points), float, 2 * len(points))
-            canvas.path(part, style, flat.reshape(-1, 2), np.frombuffer(codes, np.uint8))
+            canvas.path(part, style, points, bytes(codes))
         canvas.labels = self.labels
 
 

@@ -46,7 +46,7 @@ def found(svg):
 def drawn(style, points, codes):
     canvas = Canvas()
     canvas.size(WIDE, HIGH, None)
-    canvas.path("part", style, points, np.asarray(codes, np.uint8))
+    canvas.path("part", style, points, bytes(codes))
     return found(canvas.inside)
 
 
@@ -64,21 +64,21 @@ def test_polygons_and_polylines_are_those_of_matplotlib(style):
     source = random.Random(3)
     for _ in range(40):
         corners = [(source.uniform(1, WIDE - 1), source.uniform(1, HIGH - 1)) for _ in range(5)]
-        points = np.array([*corners, corners[0], *corners[:3]])
+        points = [*corners, corners[0], *corners[:3]]
         codes = [1, 2, 2, 2, 2, 79, 1, 2, 2]
         assert drawn(style, points, codes) == peer(style, points, codes)
 
 
 def test_letters_are_those_of_matplotlib():
     shape = outline("p'_y = 6.25 {mm} σ")
-    points = shape.points * 10.5 + (40, 80)
-    assert drawn(Style(), points, shape.codes) == peer(Style(), points, shape.codes)
+    points = [(x * 10.5 + 40, y * 10.5 + 80) for x, y in shape.points]
+    assert drawn(Style(), points, shape.codes) == peer(Style(), points, list(shape.codes))
 
 
 def test_pictures_lie_under_what_is_drawn():
     canvas = Canvas()
     canvas.size(40, 20, "#ffffff")
-    canvas.path("frame", Style(1.0), np.array([(0.0, 0.0), (4.0, 2.0)]), np.array([1, 2], np.uint8))
+    canvas.path("frame", Style(1.0), [(0.0, 0.0), (4.0, 2.0)], b"\x01\x02")
     canvas.picture(b"PNG", (1, 2, 30, 10))
     assert canvas.inside == (
         '<g><g><path d="M 0 20 L 40 20 L 40 0 L 0 0 z" style="fill: #ffffff"/></g>'

@@ -212,8 +212,9 @@ class _Recorder(pens.Pen):
         super().label(at, text, anchor, size)
         shape = outline(text)
         shift = {"c": 0.5, "l": 0, "r": 1}[anchor] * shape.width * size
-        points = shape.points * size + (at[0] - shift, at[1] - 0.33 * size)
-        self.boxes.append((text, size, *points.min(axis=0), *points.max(axis=0)))
+        x = [at[0] - shift + size * point[0] for point in shape.points]
+        y = [at[1] - 0.33 * size + size * point[1] for point in shape.points]
+        self.boxes.append((text, size, min(x), min(y), max(x), max(y)))
 
 
 @pytest.fixture
