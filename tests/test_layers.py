@@ -23,7 +23,7 @@ LAYERS = {
     "shapes": "",
     "executors": "errors",
     "png": "",
-    "locale": "errors shapes",
+    "locale": "errors shapes outside",
     "maths": "errors patterns shapes outside",
     "arrays": "errors",
     "typeset": "errors patterns shapes locale maths",

@@ -10,8 +10,10 @@ from typing import NamedTuple
 
 from quizgen.audit.decks import card_problems
 from quizgen.audit.leaks import Heard, told
-from quizgen.bank.folder import Bank
+from quizgen.bank.folder import LOCALE, Bank
 from quizgen.errors import QuizgenError
+from quizgen.locale import amiss
+from quizgen.locale.brought import TAG
 
 ADVICE = {
     r"^no \w+\.md": "write it, or leave the language out of languages in bank.toml",
@@ -42,6 +44,10 @@ ADVICE = {
     "the same in all": "let it depend on what is drawn",
     "figure: shows": "leave it out of draw and alt where quiz is true",
     "says is read in it": "show it in draw and alt where quiz is true, or leave it out of reads",
+    "has no such word": "mend its name, or delete the line",
+    "nothing to fill": "use these blanks, or none",
+    "is to be a": "write it so",
+    "is none of language.toml": "rename the file, or delete it",
     "unknown figure": "use one of these, or write templates/figures/NAME.py in the bank",
     "missing parameter": "give it in values of [figure]",
     "unknown parameter": "leave it out of values, or mend its name",
@@ -134,7 +140,7 @@ def _place(bank: Bank, name: str, said: str) -> tuple[Path, int | None, str]:
         if Path(match[1]).suffix:
             file, line = Path(match[1]), int(match[2]) if match[2] else None
         said = said[match.end() :]
-    own = re.match(r"(?:no )?([a-z]{2,3}\.md)\b(?!.* and )(: )?", said)
+    own = re.match(rf"(?:no )?({TAG}\.md)\b(?!.* and )(: )?", said)
     if own:
         file, said = folder / own[1], said[own.end() :] if own[2] else said
     if said.startswith("solver: "):
@@ -234,6 +240,7 @@ def bank_problems(bank: Bank) -> Iterator[Problem]:
             look()
         except QuizgenError as error:
             yield located(bank, "", str(error))
+    yield from (located(bank, "", said) for said in amiss(bank.folder / LOCALE))
     try:
         yield from (located(bank, "", said) for said in card_problems(bank))
     except QuizgenError as error:

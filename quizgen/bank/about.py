@@ -6,7 +6,7 @@ Both may be missing: a bank needs nothing but its templates.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TypeVar
 
@@ -15,6 +15,7 @@ import msgspec
 from quizgen.bank.complaints import in_words
 from quizgen.errors import BankError, FormulaError
 from quizgen.locale import FIRST
+from quizgen.locale.brought import is_tag
 from quizgen.maths.units import System, system
 from quizgen.outside import parse_toml, read_text
 from quizgen.shapes import converted
@@ -110,6 +111,9 @@ def read_about(path: Path) -> About:
         Naming the file and the key, also where this version of quizgen is none it works with.
     """
     about = read_struct(path, About)
+    for lang in about.languages:
+        if not is_tag(lang):
+            raise BankError(f'{path}: languages: {lang!r} is no language (write "fr", or "pt-BR")')
     try:
         system(about.units)
     except FormulaError as error:
@@ -136,3 +140,13 @@ def _check_version(path: Path, requires: str) -> None:
 def in_language(texts: Mapping[str, str], lang: str, otherwise: str) -> str:
     """A text in a language, else in English, else something else."""
     return texts.get(lang) or texts.get(FIRST) or otherwise
+
+
+def marked_with(about: About, answers: Sequence[Mapping[str, object]]) -> Iterator[bytes]:
+    """The words of ``bank.toml`` that a template's answers are marked with."""
+    if any("counts" in answer for answer in answers):
+        yield msgspec.json.encode(about.counted)
+    if any(answer.get("kind") == "gap" for answer in answers):
+        yield msgspec.json.encode(about.terms)
+    if about.units:
+        yield msgspec.json.encode(about.units)

@@ -16,9 +16,14 @@ from functools import cache, cached_property
 from pathlib import Path
 from types import ModuleType
 
-import msgspec
-
-from quizgen.bank.about import About, Curriculum, in_language, read_about, read_struct
+from quizgen.bank.about import (
+    About,
+    Curriculum,
+    in_language,
+    marked_with,
+    read_about,
+    read_struct,
+)
 from quizgen.bank.pages import read_text
 from quizgen.bank.prose import Text
 from quizgen.bank.quantities import Quantities, read_quantities
@@ -27,15 +32,18 @@ from quizgen.bank.solvers import chain_of, forget, module_of
 from quizgen.bank.template import Template, check_against_chain, read_rules
 from quizgen.errors import BankError, QuizgenError
 from quizgen.kept import digest_of
-from quizgen.locale import chosen, languages
+from quizgen.locale import chosen, languages, take_up
+from quizgen.locale.brought import TAG
 from quizgen.maths.chain import Chain
 from quizgen.outside import NAMES, is_name, located, named, read_bytes
 
 SOLVERS, FIGURES = "solvers", "templates/figures"
 """Where the Python of a bank stands."""
-_BESIDE = ("blueprints", "cards", "figures", "quantities")
+LOCALE = "locale"
+"""Where its words of a language stand, a folder for each."""
+_BESIDE = ("blueprints", "cards", "figures", LOCALE, "quantities")
 """Folders beside the topics."""
-PROSE = re.compile(r"[a-z]{2,3}\.md")
+PROSE = re.compile(rf"{TAG}\.md")
 """What a language's file is called."""
 
 
@@ -70,6 +78,7 @@ class Bank:
         self._chains: dict[str, tuple[Chain, bytes]] = {}
         if not self.folder.is_dir():
             raise BankError(f"{root}: no folder 'templates' here")
+        take_up(place=self.folder / LOCALE)
 
     @property
     def parts(self) -> tuple[Bank, ...]:
@@ -118,10 +127,11 @@ class Bank:
     @cached_property
     def languages(self) -> tuple[str, ...]:
         """Languages that the bank says it is written in, else those of its templates."""
-        if self.about.languages:
-            return self.about.languages
-        found = {lang for name in self.paths for lang in self.written_in(name)}
-        return tuple(lang for lang in languages() if lang in found)
+        found = self.about.languages or sorted(
+            {lang for name in self.paths for lang in self.written_in(name)}
+        )
+        take_up(found)
+        return self.about.languages or tuple(lang for lang in languages() if lang in found)
 
     def chosen(self, choice: str) -> tuple[str, ...]:
         """Languages of a choice, the leading one first; ``both`` stands for those of the bank.
@@ -349,9 +359,9 @@ class Bank:
         files = [folder / "template.toml", *prose]
         chain, source = self.chain(rules.solver) if rules.solver else (Chain({}, ()), b"")
         texts = {path.stem: read_text(path) for path in prose}
-        known = languages()
-        order = [lang for lang in known if lang in texts] + sorted(set(texts) - set(known))
-        words = self._words(rules)
+        take_up(sorted(texts))
+        order = [lang for lang in languages() if lang in texts]
+        words = marked_with(self.about, [part.answer for part in rules.part])
         digest = digest_of(*(read_bytes(path, BankError) for path in files), source, *words)
         ordered: dict[str, Text] = {lang: texts[lang] for lang in order}
         quantities = self.quantities.get(rules.solver, Quantities())
@@ -364,16 +374,6 @@ class Bank:
         except QuizgenError as error:
             raise BankError(str(error)) from error
         return template
-
-    def _words(self, rules: Rules) -> Iterator[bytes]:
-        """The words of ``bank.toml`` that a template's answers are marked with."""
-        answers = [part.answer for part in rules.part]
-        if any("counts" in answer for answer in answers):
-            yield msgspec.json.encode(self.about.counted)
-        if any(answer.get("kind") == "gap" for answer in answers):
-            yield msgspec.json.encode(self.about.terms)
-        if self.about.units:
-            yield msgspec.json.encode(self.about.units)
 
     def __iter__(self) -> Iterator[Template]:
         """All templates in alphabetical order."""

@@ -22,7 +22,7 @@ from quizgen.question.shown import Maths
 from quizgen.typeset.nodes import RELATION, Node, Row
 
 _TITLE = re.compile(rb"<title>.*?</title>", re.DOTALL)
-_LANG = re.compile(rb' lang="[a-z]+"')
+_LANG = re.compile(rb' lang="[A-Za-z0-9-]+"')
 
 
 @dataclass(frozen=True, slots=True)

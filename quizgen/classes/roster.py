@@ -20,7 +20,8 @@ from pathlib import Path
 import msgspec
 
 from quizgen.errors import ClassError
-from quizgen.locale import choices
+from quizgen.locale import BOTH, choices
+from quizgen.locale.brought import is_tag
 from quizgen.outside import defused, is_name, parse_csv, read_text, undefused, visible
 from quizgen.paper.paper import Progress, silent
 
@@ -159,8 +160,9 @@ def _student(row: Sequence[str], places: Mapping[str, int], where: str) -> Stude
     one = Student(**cells)
     if not one.id:
         raise ClassError(f"{where}: has no id")
-    if one.lang and one.lang not in choices():
-        raise ClassError(f"{where}: lang {one.lang!r} (allowed: {', '.join(choices())})")
+    if one.lang and one.lang != BOTH and not is_tag(one.lang):
+        known = ", ".join(choices())
+        raise ClassError(f"{where}: lang {one.lang!r} (allowed: {known}, or another of the bank)")
     if one.extra and not _EXTRA.fullmatch(one.extra):
         raise ClassError(f"{where}: extra {one.extra!r} (allowed: such as 25%, or 30 for minutes)")
     return one

@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING, Unpack
 import click
 
 from quizgen.cli.options import (
+    LANGUAGE_HELP,
     SEED,
     BankOptions,
+    Tongue,
     bank_options,
     checked,
     jobs_option,
@@ -18,7 +20,7 @@ from quizgen.cli.options import (
     paying,
     split,
 )
-from quizgen.locale import FIRST, choices
+from quizgen.locale import leading
 
 if TYPE_CHECKING:
     from quizgen.cards import Deck
@@ -32,7 +34,7 @@ A_TEMPLATE = 0.006
 class Options(BankOptions):
     """Which cards, and where to."""
 
-    lang: str
+    lang: str | None
     topics: str | None
     kinds: str | None
     seed: int
@@ -44,8 +46,7 @@ class Options(BankOptions):
 
 
 @click.command()
-@click.option("--lang", type=click.Choice(choices(), case_sensitive=False), default=FIRST,
-              show_default=True, help="Language.")  # fmt: skip
+@click.option("--lang", type=Tongue(both=True), help=LANGUAGE_HELP)
 @click.option("--topic", "topics", help="Only these topics, by comma.")
 @click.option("--kind", "kinds", help="Only these kinds, by comma: vocab, formula, cheat, trap, "
               "figure, truth, choice, question.")  # fmt: skip
@@ -80,14 +81,13 @@ def _deck(options: Options) -> Deck:
     from quizgen.cards import build
 
     bank = open_bank(options)
+    lang = options["lang"] or leading(bank.languages)
     if options["marks"] is not None:
         from quizgen.cards.mistakes import from_marks
 
-        return from_marks(
-            options["marks"], options["lang"], bank=bank, blueprint=options["blueprint"]
-        )
+        return from_marks(options["marks"], lang, bank=bank, blueprint=options["blueprint"])
     return build(
-        options["lang"],
+        lang,
         topics=split(options["topics"]),
         kinds=split(options["kinds"]),
         seed=options["seed"],

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple, Unpack
 
 import click
 
-from quizgen.cli.options import BankOptions, bank_options
+from quizgen.cli.options import BankOptions, Tongue, bank_options
 from quizgen.errors import KeyFileError
 from quizgen.locale import FIRST, languages
 from quizgen.marking.echo import safe
@@ -53,7 +53,7 @@ class Options(BankOptions):
 @click.argument("answers", type=click.Path(path_type=Path), nargs=-1, required=True)
 @click.option(
     "--lang",
-    type=click.Choice(languages(), case_sensitive=False),
+    type=Tongue(),
     help="Language of the remarks [the form's own].",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print JSON instead of a table.")

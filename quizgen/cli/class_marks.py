@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import click
 
-from quizgen.cli.options import MOST_JOBS, Whole, checked, split
+from quizgen.cli.options import MOST_JOBS, Tongue, Whole, checked, split
 from quizgen.cli.terminal import many, one_line, tell
-from quizgen.locale import FIRST, languages
+from quizgen.locale import FIRST
 
 if TYPE_CHECKING:
     from quizgen.classes.history import Change
@@ -168,7 +168,7 @@ def grade(folder: Path, reports: str, *, anonymous: bool) -> None:
 
 @click.command()
 @_folder
-@click.option("--lang", type=click.Choice(languages()), default=FIRST, help="Of the page.")
+@click.option("--lang", type=Tongue(), default=FIRST, help="Of the page.")
 def analyse(folder: Path, lang: str) -> None:
     """Write the item analysis of the class in FOLDER: results/analysis.html."""
     from quizgen.classes.folder import ClassFolder

@@ -9,10 +9,18 @@ from typing import TYPE_CHECKING, Unpack
 import click
 
 from quizgen.cli.class_marks import COMMANDS
-from quizgen.cli.options import BankOptions, bank_options, jobs_option, open_bank, paying, split
+from quizgen.cli.options import (
+    BankOptions,
+    Tongue,
+    bank_options,
+    jobs_option,
+    open_bank,
+    paying,
+    split,
+)
 from quizgen.cli.terminal import Progress, many, one_line, tell
 from quizgen.errors import ClassError
-from quizgen.locale import FIRST, choices
+from quizgen.locale import leading
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -51,8 +59,8 @@ class Options(BankOptions):
 @click.option("--out", type=click.Path(path_type=Path), required=True, help="Folder of the class.")
 @click.option("--blueprint", help="A blueprint's name or TOML file. [default: mock]")
 @click.option("--columns", help="What columns are called: id=Matrikel,name=Name.")
-@click.option("--lang", type=click.Choice(choices(), case_sensitive=False),
-              help=f"Language of who has none in the roster. [default: {FIRST}]")  # fmt: skip
+@click.option("--lang", type=Tongue(both=True),
+              help="Of who has none in the roster; English if the bank has it.")  # fmt: skip
 @click.option("--vary", is_flag=True, help="Other templates of the same kind, too.")
 @click.option("--one-file", is_flag=True, help="Write print.pdf, too: all papers, for the printer.")
 @jobs_option
@@ -137,7 +145,7 @@ def _blueprint(folder: ClassFolder, students: list[Student], options: Options) -
         bank = open_bank(options)
         blueprint = load_blueprint(options["blueprint"] or usual(bank), bank)
         name = folder.path.resolve().name
-        lang = options["lang"] or FIRST
+        lang = options["lang"] or leading(bank.languages)
         folder.create(new_settings(name, bank, blueprint, lang, vary=options["vary"]), students)
         return blueprint
     settings = folder.settings

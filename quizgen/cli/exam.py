@@ -15,9 +15,11 @@ from quizgen.bank.clashes import BETWEEN
 from quizgen.bank.levels import CHOICES, EXAM
 from quizgen.cli.command import command
 from quizgen.cli.options import (
+    LANGUAGE_HELP,
     LEVEL_HELP,
     SEED,
     BankOptions,
+    Tongue,
     Whole,
     bank_options,
     checked,
@@ -28,7 +30,7 @@ from quizgen.cli.options import (
 )
 from quizgen.cli.terminal import Progress, many
 from quizgen.errors import ChoiceError, CodeError, RenderError
-from quizgen.locale import FIRST, choices
+from quizgen.locale import leading
 from quizgen.outside import visible
 from quizgen.paper.code import LARGEST_SEED
 from quizgen.paper.form import FORMS
@@ -79,8 +81,8 @@ class Options(BankOptions):
 @click.option("--minutes", type=Whole(3, 9999), help="As many questions as this time allows.")
 @click.option(
     "--lang",
-    type=click.Choice(choices(), case_sensitive=False),
-    help=f"Language. [default: {FIRST}]",
+    type=Tongue(both=True),
+    help=LANGUAGE_HELP,
 )
 @click.option(
     "--level",
@@ -123,7 +125,8 @@ def _many(options: Options, formats: list[str]) -> None:
         raise ChoiceError("--count makes papers of many seeds; leave --code and --reference out")
     bank, count = open_bank(options), options["count"]
     name = f"answers.{options['form']}"
-    make = partial(_made, bank, _levelled(options, bank), options["lang"] or FIRST, formats, name)
+    lang = options["lang"] or leading(bank.languages)
+    make = partial(_made, bank, _levelled(options, bank), lang, formats, name)
     first = _first_seed(options)
     if first + count - 1 > LARGEST_SEED:
         raise ChoiceError(f"--count: the last of {count} seeds would be beyond {LARGEST_SEED}")
@@ -217,7 +220,7 @@ def _paper(options: Options, tell: Progress) -> Paper:
         given = _blueprint(options, bank) if options["blueprint"] else None
         with compared(partial(_banks_of, options), bank):
             return rebuild(bank, options["code"], given, progress=tell)
-    blueprint, lang = _levelled(options, bank), options["lang"] or FIRST
+    blueprint, lang = _levelled(options, bank), options["lang"] or leading(bank.languages)
     if options["reference"]:
         return reference_paper(bank, blueprint, lang, progress=tell)
     return build(bank, blueprint, _first_seed(options), lang, progress=tell)

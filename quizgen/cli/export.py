@@ -11,8 +11,10 @@ from typing import TYPE_CHECKING, Unpack
 import click
 
 from quizgen.cli.options import (
+    LANGUAGE_HELP,
     SEED,
     BankOptions,
+    Tongue,
     Whole,
     bank_options,
     open_bank,
@@ -22,7 +24,7 @@ from quizgen.cli.options import (
 from quizgen.cli.terminal import Progress
 from quizgen.errors import ChoiceError
 from quizgen.export import FORMATS, TEX, exporter
-from quizgen.locale import FIRST, choices
+from quizgen.locale import leading
 
 if TYPE_CHECKING:
     from quizgen.bank.folder import Bank
@@ -41,7 +43,7 @@ class Options(BankOptions):
     templates: str | None
     variants: int
     seed: int
-    lang: str
+    lang: str | None
     maths: str
     out: Path | None
 
@@ -55,8 +57,7 @@ class Options(BankOptions):
               help="Questions in a slot, as many as there are.")  # fmt: skip
 @click.option("--seed", type=SEED, default=0, show_default=True,
               help="Number that fixes every draw.")  # fmt: skip
-@click.option("--lang", type=click.Choice(choices(), case_sensitive=False), default=FIRST,
-              show_default=True, help="Language.")  # fmt: skip
+@click.option("--lang", type=Tongue(both=True), help=LANGUAGE_HELP)
 @click.option("--maths", type=click.Choice(["mathml", "tex"], case_sensitive=False),
               default="mathml", show_default=True,
               help="How formulas are written: tex for a filter such as MathJax.")  # fmt: skip
@@ -120,7 +121,7 @@ def _items(bank: Bank, options: Options, tell: Progress) -> Iterator[Item]:
     named = [options[key] for key in ("blueprint", "topic", "templates")]
     if len(named) - named.count(None) > 1:
         raise ChoiceError("--blueprint, --topic and --template each name the questions; give one")
-    langs = bank.chosen(options["lang"])
+    langs = bank.chosen(options["lang"] or leading(bank.languages))
     if options["topic"] is None and options["templates"] is None:
         plan = load_blueprint(options["blueprint"] or usual(bank), bank)
         made = partial(of_blueprint, bank, plan)

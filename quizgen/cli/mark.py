@@ -10,13 +10,14 @@ import click
 
 from quizgen.cli.options import language_option
 from quizgen.errors import KeyFileError
+from quizgen.locale import FIRST
 from quizgen.marking.options import DECIMALS
 
 
 class Options(TypedDict):
     """How to read the answer."""
 
-    lang: str
+    lang: str | None
     decimal: str
     settle: bool
 
@@ -48,7 +49,10 @@ def mark(spec: str | None, typed: str | None, *, batch: bool, **options: Unpack[
 
     from quizgen.marking.mark import mark as mark_one
 
-    verdict = mark_one(_inline(spec), typed, **options)
+    verdict = mark_one(
+        _inline(spec), typed, lang=options["lang"] or FIRST, decimal=options["decimal"],
+        settle=options["settle"],
+    )  # fmt: skip
     click.echo(json.dumps(verdict.as_json(), ensure_ascii=False))
 
 

@@ -8,13 +8,24 @@ from typing import ParamSpec, TypeVar
 
 import click
 
-from quizgen.bank.scaffold import FIRST, KINDS, new_bank, new_template
+from quizgen.bank.scaffold import FIRST, KINDS, english_words, new_bank, new_language, new_template
 from quizgen.cli.command import command
+from quizgen.cli.options import Tongue
 from quizgen.errors import BankError
 from quizgen.outside import NAMES, is_name
 
 P = ParamSpec("P")
 T = TypeVar("T")
+
+
+def bank_to_write(function: Callable[P, T]) -> Callable[P, T]:
+    """Add ``--bank``, a folder to write into."""
+    function = click.option("--trust", is_flag=True, expose_value=False,
+                            help="As everywhere beside --bank; nothing of the bank runs here.")(
+                                function)  # fmt: skip
+    return click.option("--bank", "root", type=click.Path(path_type=Path), default=Path(),
+                        help="The bank to write it into (by default where you stand).")(
+                            function)  # fmt: skip
 
 
 @click.group()
@@ -24,12 +35,32 @@ def new() -> None:
 
 @new.command()
 @click.argument("folder", type=click.Path(path_type=Path))
-def bank(folder: Path) -> None:
+@click.option("--lang", "langs", type=Tongue(), multiple=True, default=("en",), show_default=True,
+              help="A language that it is to be written in (may be repeated).")  # fmt: skip
+def bank(folder: Path, langs: tuple[str, ...]) -> None:
     """Write a bank with one question into FOLDER."""
     name = folder.resolve().name
     _must_be_name(name)
-    _write(folder, new_bank(name))
+    _write(folder, new_bank(name, langs))
     _next(folder, FIRST[1])
+
+
+@new.command()
+@click.argument("lang", type=Tongue())
+@bank_to_write
+@click.option("--all", "words", is_flag=True,
+              help="With everything that quizgen says, in English, to be translated.")  # fmt: skip
+def language(lang: str, root: Path, words: bool) -> None:
+    """Write into a bank what quizgen does not know of the language LANG."""
+    from quizgen.locale import SHIPPED
+
+    if (SHIPPED / lang).is_dir():
+        raise BankError(f"quizgen has words for {lang!r} itself")
+    found = new_language(lang)
+    if words:
+        found = {name: data for name, data in found.items() if not (root / name).exists()}
+        found |= english_words(lang)
+    _write(root, found)
 
 
 def _kinds(function: Callable[P, T]) -> Callable[P, T]:
@@ -45,10 +76,7 @@ def _kinds(function: Callable[P, T]) -> Callable[P, T]:
 @new.command()
 @click.argument("place", metavar="TOPIC/NAME")
 @_kinds
-@click.option("--bank", "root", type=click.Path(path_type=Path), default=Path(),
-              help="The bank to write it into (by default where you stand).")  # fmt: skip
-@click.option("--trust", is_flag=True, expose_value=False,
-              help="As everywhere beside --bank; nothing of the bank runs here.")  # fmt: skip
+@bank_to_write
 def template(place: str, kind: str, root: Path) -> None:
     """Write a question TOPIC/NAME into a bank: rules, words and, if it computes, a solver."""
     from quizgen.bank.folder import Bank

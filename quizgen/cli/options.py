@@ -12,7 +12,8 @@ import click
 
 from quizgen.bank.levels import CHOICES, EXAM
 from quizgen.cli.terminal import many
-from quizgen.locale import FIRST, languages
+from quizgen.locale import FIRST, choices, languages
+from quizgen.locale.brought import as_tag, is_tag
 from quizgen.outside import visible
 from quizgen.paper.code import LARGEST_SEED
 
@@ -29,10 +30,35 @@ class Whole(click.IntRange):
     name = "whole number"
 
 
+class Tongue(click.types.StringParamType):
+    """A language, or all of a bank's; which of them a bank has, it says itself."""
+
+    name = "language"
+
+    def __init__(self, *, both: bool = False) -> None:
+        self.both = both
+
+    def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        """A language as it is written elsewhere, whatever the size of its letters."""
+        known = {one.lower(): one for one in self._known()}
+        if value.lower() in known:
+            return known[value.lower()]
+        if not is_tag(as_tag(value)):
+            self.fail(f"{value!r} is no language (such as {', '.join(known)})", param, ctx)
+        return as_tag(value)
+
+    def _known(self) -> tuple[str, ...]:
+        return choices() if self.both else languages()
+
+
 MOST_JOBS = 256
 WORTH = 4.0
 """Seconds of work that are worth another process: it takes one or two to begin."""
 LEVEL_HELP = "As in an exam, step by step, turned round, or by the seed."
+LANGUAGE_HELP = (
+    f"{', '.join(languages())}, or another that the bank has. "
+    f"[default: {FIRST}, or the first that the bank has]"
+)
 SEED = Whole(0, LARGEST_SEED)
 """Seeds of papers, decks and previews."""
 
@@ -141,10 +167,7 @@ def is_trusted(root: Path, allowed: Collection[Path]) -> bool:
 
 def language_option(command: Callable[P, T]) -> Callable[P, T]:
     """Add ``--lang``, one of the languages there are."""
-    kind = click.Choice(languages(), case_sensitive=False)
-    return click.option("--lang", type=kind, default=FIRST, show_default=True, help="Language.")(
-        command
-    )
+    return click.option("--lang", type=Tongue(), help=LANGUAGE_HELP)(command)
 
 
 def own_database() -> str:

@@ -18,6 +18,7 @@ from quizgen.cli.options import (
     open_bank,
     topic_option,
 )
+from quizgen.locale import leading
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -38,7 +39,7 @@ class Options(BankOptions):
 
     topic: str | None
     tier: str | None
-    lang: str
+    lang: str | None
     count: int
     seed: str | None
     level: str
@@ -132,7 +133,7 @@ def _wish(options: Options, bank: Bank) -> Wish:
     topic = None if topic is None else topic_option(bank, topic)
     tier = None if tier is None else checked("--tier", tier, TIERS)
     folder = "+".join(root for root, _ in sources(bank))
-    (lang,), seed = bank.chosen(options["lang"]), options["seed"] or ""
+    (lang,), seed = bank.chosen(options["lang"] or leading(bank.languages)), options["seed"] or ""
     wish = Wish(lang, options["count"], topic, tier, folder, seed, options["level"])
     if not fitting(bank, wish):
         there = [one for one in TIERS if fitting(bank, Wish(lang, topic=topic, tier=one))]

@@ -15,6 +15,7 @@ from quizgen.cli.options import (
     level_option,
     open_bank,
 )
+from quizgen.locale import leading
 
 
 class Options(BankOptions):
@@ -23,7 +24,7 @@ class Options(BankOptions):
     seed: int
     reference: bool
     quiz: bool
-    lang: str
+    lang: str | None
     level: str
     html: Path | None
 
@@ -43,12 +44,11 @@ def preview(name: str, **options: Unpack[Options]) -> None:
     from quizgen.paper.paper import single
     from quizgen.render.text import question_text
 
-    template = open_bank(options).template(name)
+    bank = open_bank(options)
+    template, lang = bank.template(name), options["lang"] or leading(bank.languages)
     seed = REFERENCE if options["reference"] else options["seed"]
     page = options["html"]
-    paper = single(
-        template, seed, options["lang"], level=options["level"], figures=page is not None
-    )
+    paper = single(template, seed, lang, level=options["level"], figures=page is not None)
     if page is None:
         click.echo(question_text(paper.items[0], solved=not options["quiz"]))
         return

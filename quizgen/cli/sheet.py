@@ -7,9 +7,18 @@ from typing import Unpack
 
 import click
 
-from quizgen.cli.options import BankOptions, bank_options, checked, open_bank, split, topic_option
+from quizgen.cli.options import (
+    LANGUAGE_HELP,
+    BankOptions,
+    Tongue,
+    bank_options,
+    checked,
+    open_bank,
+    split,
+    topic_option,
+)
 from quizgen.cli.terminal import many
-from quizgen.locale import FIRST, choices
+from quizgen.locale import leading
 from quizgen.render import RENDERERS
 
 NAME = "formulas"
@@ -18,15 +27,14 @@ NAME = "formulas"
 class Options(BankOptions):
     """Which formulas, and where to."""
 
-    lang: str
+    lang: str | None
     topics: str | None
     formats: str
     out: Path
 
 
 @click.command()
-@click.option("--lang", type=click.Choice(choices(), case_sensitive=False), default=FIRST,
-              show_default=True, help="Language.")  # fmt: skip
+@click.option("--lang", type=Tongue(both=True), help=LANGUAGE_HELP)
 @click.option("--topic", "topics", help="Only these topics, by comma.")
 @click.option("--format", "formats", default=",".join(RENDERERS), show_default=True,
               help="html (with all remarks), pdf (to print); by comma.")  # fmt: skip
@@ -46,7 +54,7 @@ def sheet(**options: Unpack[Options]) -> None:
         )
     bank = open_bank(options)
     topics = [topic_option(bank, name) for name in split(options["topics"])]
-    made = formula_sheet(bank, options["lang"], topics)
+    made = formula_sheet(bank, options["lang"] or leading(bank.languages), topics)
     folder = options["out"]
     for path in write_all(folder, {f"{NAME}.{f}": render_sheet(made, f) for f in formats}):
         click.echo(f"  {path}")

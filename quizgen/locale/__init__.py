@@ -18,6 +18,9 @@ web            the pages of ``quizgen serve``
 ============== ==================================================================
 
 A template has one ``<lang>.md`` besides.
+
+A bank may be written in any other language: ``brought`` reads what it says of it, and English
+stands for the rest.
 """
 
 from __future__ import annotations
@@ -25,6 +28,7 @@ from __future__ import annotations
 import re
 import tomllib
 import unicodedata
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from functools import cache
 from pathlib import Path
@@ -33,6 +37,7 @@ from typing import Any
 import msgspec
 
 from quizgen.errors import QuizgenError, one_of
+from quizgen.locale import brought
 from quizgen.shapes import converted
 
 FIRST = "en"
@@ -44,8 +49,15 @@ BOTH = "both"
 _POINT = re.compile(r"(?<=[0-9])\.(?=[0-9])")
 """A decimal point; there is one in every number until it is written in a language."""
 
-PLACES = [Path(__file__).parent]
-"""Folders that hold languages; one from outside is made known by adding its folder."""
+SHIPPED = Path(__file__).parent
+PLACES = [SHIPPED]
+"""Folders that hold languages; ``take_up`` makes one from outside known."""
+
+_HEARD: list[str] = []
+"""Languages that something is written in and no folder is about."""
+
+LAST = 1000
+"""Place in lists of a language that does not say its own."""
 
 
 class Language(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
@@ -57,16 +69,34 @@ class Language(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     """
 
     name: str
-    english: str
-    order: int
-    script: str
+    english: str = ""
+    order: int = LAST
+    script: str = "Latn"
     line_height: float | None = None
     decimal: str = "."
 
 
 def languages() -> tuple[str, ...]:
     """Every language there is, English first, then by ``order``."""
-    return _found(tuple(PLACES))
+    return _found(tuple(PLACES), tuple(_HEARD))
+
+
+def take_up(langs: Iterable[str] = (), place: Path | None = None) -> None:
+    """Make languages known that something is written in, or a folder of their words.
+
+    Parameters
+    ----------
+    langs : iterable of str
+        What names no language is passed over.
+    place : pathlib.Path, optional
+        Holds a folder for each of its languages.
+    """
+    new = [lang for lang in langs if lang not in languages() and brought.is_tag(lang)]
+    _HEARD.extend(dict.fromkeys(new))
+    if place and place not in PLACES and place.is_dir():
+        PLACES.append(place)
+        table.cache_clear()
+        language.cache_clear()
 
 
 def choices() -> tuple[str, ...]:
@@ -80,36 +110,50 @@ def chosen(choice: str, held: tuple[str, ...]) -> tuple[str, ...]:
     Parameters
     ----------
     choice : str
-        One of ``choices()``.
+        A language, or ``both``.
     held : tuple of str
         The languages of the bank: what ``both`` stands for.
 
     Raises
     ------
     ChoiceError
-        Naming the languages there are.
+        If there is no such language; names those of the bank.
     """
-    one_of("language", choice, choices())
+    if choice not in choices():
+        one_of("language", choice, (*held, BOTH))
     return held if choice == BOTH else (choice,)
 
 
+def leading(held: tuple[str, ...]) -> str:
+    """The language that is meant where none is chosen: English if a bank has it, else its first."""
+    return FIRST if FIRST in held or not held else held[0]
+
+
 @cache
-def _found(places: tuple[Path, ...]) -> tuple[str, ...]:
+def _found(places: tuple[Path, ...], heard: tuple[str, ...]) -> tuple[str, ...]:
     found = {entry.name for place in places for entry in place.iterdir()
-             if (entry / "language.toml").is_file()}  # fmt: skip
+             if (entry / "language.toml").is_file() and brought.is_tag(entry.name)}  # fmt: skip
+    found.update(heard)
     return tuple(sorted(found, key=lambda lang: (lang != FIRST, language(lang).order, lang)))
 
 
 @cache
 def language(lang: str) -> Language:
-    """Name, order and script of a language.
+    """Name, order and script of a language; one that nothing says more of is called as it is named.
 
     Raises
     ------
     QuizgenError
-        If there is no such language.
+        If there is no such language, or its file says something else.
     """
-    return converted(table(lang, "language"), Language)
+    file = _file(lang, "language")
+    if file is None and lang not in _HEARD:
+        raise QuizgenError(f"no language {lang!r} (there are {', '.join(languages())})")
+    try:
+        return converted({"name": lang, "english": lang} | _read(file), Language)
+    except msgspec.ValidationError as error:
+        what, _, key = str(error).partition(" - at `$.")
+        raise QuizgenError(f"{file}: {key.rstrip('`')}{': ' if key else ''}{what}") from error
 
 
 def numbers_in(lang: str, text: str) -> str:
@@ -186,15 +230,66 @@ def table(lang: str, name: str = "interface") -> dict[str, Any]:
     Raises
     ------
     QuizgenError
-        If the language has no such file.
+        If there is no such language or file, or it cannot be read.
     """
-    for place in PLACES:
-        path = place / lang / f"{name}.toml"
-        if path.is_file():
-            return tomllib.loads(path.read_text(encoding="utf-8"))
-    raise QuizgenError(
-        f"no {name} words for language {lang!r} (there are {', '.join(languages())})"
-    )
+    file, english = _file(lang, name), SHIPPED / FIRST / f"{name}.toml"
+    if lang not in languages() or not english.is_file():
+        raise QuizgenError(
+            f"no {name} words for language {lang!r} (there are {', '.join(languages())})"
+        )
+    if file and file.is_relative_to(SHIPPED):
+        return _read(file)
+    return brought.over(table(FIRST, name), _read(file))
+
+
+def sentences() -> list[Path]:
+    """The files that a language may have besides ``language.toml``, in English."""
+    return sorted(path for path in (SHIPPED / FIRST).glob("*.toml") if path.stem != "language")
+
+
+OPEN = frozenset({"letters", "greek", "names"})
+"""Tables of ``speech`` that say only what is not called as it is written."""
+
+
+def amiss(place: Path) -> Iterator[str]:
+    """What is wrong with the words that a bank brings: file, key and what is the matter.
+
+    Parameters
+    ----------
+    place : pathlib.Path
+        Its folder of languages; it may be missing.
+    """
+    known = {path.name: path for path in sentences()}
+    for file in sorted(place.glob("*/*")):
+        lang = file.parent.name
+        try:
+            if not brought.is_tag(lang):
+                yield f"{file}: {lang!r} is no language (call the folder fr, or pt-BR)"
+            elif file.name == "language.toml":
+                language(lang)
+            elif file.name in known:
+                english = _read(known[file.name])
+                for key, what in brought.unsound(english, brought.read(file), OPEN):
+                    yield f"{file}: {key}: {what}"
+            else:
+                yield f"{file}: is none of language.toml, {', '.join(known)}"
+        except QuizgenError as error:
+            yield str(error)
+
+
+def _file(lang: str, name: str) -> Path | None:
+    """Where a language has its words of a kind: the first folder that has some."""
+    files = (place / lang / f"{name}.toml" for place in PLACES)
+    return next(filter(Path.is_file, files), None)
+
+
+def _read(file: Path | None) -> dict[str, Any]:
+    """What a file of words says; our own ones need no checks."""
+    if file is None:
+        return {}
+    if file.is_relative_to(SHIPPED):
+        return tomllib.loads(file.read_text(encoding="utf-8"))
+    return brought.read(file)
 
 
 def word(lang: str, key: str, **values: object) -> str:

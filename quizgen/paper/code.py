@@ -15,7 +15,8 @@ import msgspec
 
 from quizgen.bank.levels import CHOICES, EXAM
 from quizgen.errors import ChoiceError, CodeError
-from quizgen.locale import choices
+from quizgen.locale import BOTH
+from quizgen.locale.brought import TAG
 
 if TYPE_CHECKING:
     from quizgen.bank.template import Template
@@ -36,7 +37,7 @@ _GRADED = re.compile(rf"{GRADED}(-[{SIGNS}]{{{GROUP}}}){{{GROUPS}}}", re.IGNOREC
 
 _LEVELS = "|".join(level for level in CHOICES if level != EXAM)
 _CODE = re.compile(
-    rf"(.+)-(\d{{1,10}}|{REFERENCE})-([a-z]+)(?:-({_LEVELS}))?-([0-9a-f]{{{DIGEST_LENGTH}}})"
+    rf"(.+)-(\d{{1,10}}|{REFERENCE})-({TAG}|{BOTH})(?:-({_LEVELS}))?-([0-9a-f]{{{DIGEST_LENGTH}}})"
 )
 
 
@@ -84,7 +85,7 @@ def parse_code(text: str) -> Code:
     Raises
     ------
     CodeError
-        If it is not a code, that of a graded paper, or of a language that is not installed.
+        If it is not a code, or that of a graded paper.
     """
     if is_graded(text):
         raise CodeError(
@@ -94,11 +95,6 @@ def parse_code(text: str) -> Code:
     match = _CODE.fullmatch(text.strip())
     if match is None:
         raise CodeError(f"{text!r} is not a paper's code (like mock-1234-en-0a1b2c)")
-    if match[3] not in choices():
-        allowed = ", ".join(choices())
-        raise CodeError(
-            f"{text!r} is not a paper's code: language {match[3]!r} (there are {allowed})"
-        )
     blueprint, seed, choice, level, digest = match.groups()
     return Code(blueprint, seed, choice, digest, level or EXAM)
 

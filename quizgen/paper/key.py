@@ -15,6 +15,7 @@ from flint import fmpq
 from quizgen.bank.most import MOST_POINTS
 from quizgen.errors import FormulaError, KeyFileError
 from quizgen.files import read_table
+from quizgen.locale import take_up
 from quizgen.marking.mark import load_spec
 from quizgen.marking.options import Context
 from quizgen.maths.chain import Chain, ChainStep
@@ -234,6 +235,7 @@ def load_key(table: Mapping[str, Any], place: str = "key") -> Key:
         _check_spec(part, place)
     for question in key.questions:
         _check_chain(question, place)
+    take_up(key.langs)
     return key
 
 

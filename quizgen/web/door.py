@@ -110,11 +110,18 @@ def _visitor(scope: Scope, spoken: tuple[str, ...]) -> Learner:
     """Somebody unknown, who has said in which language to be spoken to, or whose browser has."""
     asked = [QueryParams(scope["query_string"]).get("lang", "")]
     asked += [
-        one.partition(";")[0].strip()[:2].lower()
+        one.partition(";")[0].strip()
         for one in Headers(scope=scope).get("accept-language", "").split(",")[:10]
     ]
-    lang = next((one for one in asked if one in spoken), spoken[0])
-    return Learner(0, "", {"lang": lang})
+    by_name = {_primary(lang): lang for lang in reversed(spoken)}
+    by_name |= {lang.lower(): lang for lang in spoken}
+    known = (by_name.get(one.lower()) or by_name.get(_primary(one)) for one in asked)
+    return Learner(0, "", {"lang": next(filter(None, known), spoken[0])})
+
+
+def _primary(lang: str) -> str:
+    """A language without its country: ``pt`` of ``pt-BR``."""
+    return lang.partition("-")[0].lower()
 
 
 def _to_sign_in(scope: Scope) -> Response:

@@ -41,7 +41,7 @@ def test_who_names_a_column_means_no_other(tmp_path):
         ("Matrikel\n1\n", "it has Matrikel"),
         ("id\nab\nc\nAB\n", "lines 2 and 4"),
         ("id,name\n,Ada\n", "line 2: has no id"),
-        ("id,lang\n1,fr\n", "line 2: lang 'fr' (allowed: en, bn, de, both)"),
+        ("id,lang\n1,French\n", "line 2: lang 'French' (allowed: en, bn, de, both, or"),
         ("id,extra\n1,half\n", "line 2: extra 'half'"),
         ('id,name\n1,"' + "x" * 201 + '"\n', "line 2: name is longer"),
     ],

@@ -66,7 +66,7 @@ def test_every_command_that_takes_a_bank_takes_trust_and_several():
             assert "--trust" in options, words
             taking[" ".join(words)] = options["--bank"].multiple
             assert ("--trust-bank" in options) is options["--bank"].multiple, words
-    alone = {"new template"}  # writes into one bank
+    alone = {"new template", "new language"}  # write into one bank
     assert {name for name, several in taking.items() if not several} == alone
     assert taking.keys() - alone == {
         "exam", "check", "practice", "class make", "cards", "sheet", "export", "serve",

@@ -111,4 +111,4 @@ def test_without_its_folder_it_is_refused(tmp_path):
         capture_output=True, text=True, check=False, cwd=tmp_path,
     )  # fmt: skip
     assert done.returncode == 2
-    assert "'pig' is not one of 'en', 'bn', 'de', 'both'" in done.stderr
+    assert "'pig' (allowed: en, bn, both)" in done.stderr

@@ -10,6 +10,7 @@ from importlib.resources import files
 from importlib.resources.abc import Traversable
 
 from quizgen.bank.schemas import SCHEMAS, schema
+from quizgen.locale import languages, sentences
 
 KINDS = {
     "solver": "Something is computed (the usual kind).",
@@ -26,14 +27,44 @@ FIRST = ("example", "travel-time")
 """Topic and name of a new bank's first template."""
 
 
-def new_bank(name: str) -> dict[str, bytes]:
-    """The files of a bank with one question, by their path in it."""
-    blanks = {"BANK": name, "TITLE": _titled(name), "VERSION": version("quizgen")}
-    return {
+def new_bank(name: str, langs: tuple[str, ...]) -> dict[str, bytes]:
+    """The files of a bank with one question, by their path in it.
+
+    Parameters
+    ----------
+    name : str
+        What it is called.
+    langs : tuple of str
+        Languages that it is to be written in; each begins with the English words.
+    """
+    blanks = {"BANK": name, "VERSION": version("quizgen")}
+    blanks["LANGUAGES"] = ", ".join(f'"{lang}"' for lang in langs)
+    blanks["TITLES"] = "\n".join(f'{lang} = "{_titled(name)}"' for lang in langs)
+    blanks["EXAMPLES"] = ", ".join(f'{lang} = "Example"' for lang in langs)
+    found = {
         "templates/bank.toml": _filled(_HERE / "bank.toml", blanks),
         **{f"schemas/{kind}.json": schema(kind) for kind in SCHEMAS},
-        **new_template(*FIRST, "solver", ("en",)),
+        **new_template(*FIRST, "solver", langs),
     }
+    for lang in langs:
+        if lang not in languages():
+            found |= new_language(lang)
+    return found
+
+
+def new_language(lang: str) -> dict[str, bytes]:
+    """What a bank says of a language that quizgen has no words for, by path in the bank."""
+    said = _filled(_HERE / "language.toml", {"LANG": lang})
+    return {f"{_locale(lang)}/language.toml": said}
+
+
+def english_words(lang: str) -> dict[str, bytes]:
+    """All that quizgen says, to be translated, by path in the bank; what is left out stays."""
+    return {f"{_locale(lang)}/{file.name}": file.read_bytes() for file in sentences()}
+
+
+def _locale(lang: str) -> str:
+    return f"templates/locale/{lang}"
 
 
 def new_template(topic: str, name: str, kind: str, langs: tuple[str, ...]) -> dict[str, bytes]:

@@ -1,0 +1,116 @@
+"""Languages that a bank brings: whatever its own files do not say is said in English.
+
+``quizgen new language`` writes such files; ``docs/banks.md`` shows them.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from difflib import get_close_matches
+from pathlib import Path
+from string import Formatter
+from typing import Any
+
+from quizgen.errors import BankError
+from quizgen.outside import parse_toml, read_text
+
+TAG = r"[a-z]{2,3}(?:-[A-Z][a-z]{3})?(?:-(?:[A-Z]{2}|[0-9]{3}))?"
+"""A language as BCP 47 names it: ``fr``, ``pt-BR``, ``sr-Latn``."""
+
+Words = dict[str, Any]
+
+
+def is_tag(text: str) -> bool:
+    """Whether a text names a language.
+
+    Examples
+    --------
+    >>> is_tag("fr"), is_tag("pt-BR"), is_tag("French"), is_tag("../fr")
+    (True, True, False, False)
+    """
+    return re.fullmatch(TAG, text) is not None
+
+
+def as_tag(text: str) -> str:
+    """A language as BCP 47 writes it, whatever the size of its letters.
+
+    Examples
+    --------
+    >>> as_tag("PT-br"), as_tag("sr-latn"), as_tag("French")
+    ('pt-BR', 'sr-Latn', 'french')
+    """
+    first, *rest = text.lower().split("-")
+    return "-".join([first, *(one.title() if len(one) == 4 else one.upper() for one in rest)])
+
+
+def read(file: Path) -> Words:
+    """A file of words that somebody brings.
+
+    Raises
+    ------
+    BankError
+        If it cannot be read or is no TOML; names the file and the line.
+    """
+    return parse_toml(read_text(file, BankError), file, BankError)
+
+
+def over(english: Words, own: Mapping[str, Any]) -> Words:
+    """English words with a language's own in their places.
+
+    What has no place among them stays: letters and names that are spoken are open lists. What
+    stands where English has something of another kind is left out; ``unsound`` tells it.
+    """
+    found = dict(english)
+    for key, value in own.items():
+        there = english.get(key)
+        if isinstance(there, dict) and isinstance(value, dict):
+            found[key] = over(there, value)
+        elif there is None or type(there) is type(value):
+            found[key] = value
+    return found
+
+
+def unsound(english: Words, own: Words, open_lists: frozenset[str]) -> Iterator[tuple[str, str]]:
+    """What a file of words says wrongly: its key, and what is the matter with it.
+
+    Parameters
+    ----------
+    english : dict
+        The same file in English.
+    own : dict
+        What somebody brings.
+    open_lists : frozenset of str
+        Tables that may hold any keys.
+    """
+    for key, value in own.items():
+        there = english.get(key)
+        if there is None:
+            close = " or ".join(map(repr, get_close_matches(key, english, 2)))
+            yield key, "quizgen has no such word" + (f"; did you mean {close}?" if close else "")
+        elif type(there) is not type(value):
+            yield key, f"is to be {_kind(there)}, and not {_kind(value)}"
+        elif isinstance(value, dict) and key not in open_lists:
+            inner = unsound(there, value, frozenset())
+            yield from ((f"{key}.{name}", what) for name, what in inner)
+        elif isinstance(value, str):
+            yield from ((key, what) for what in _blanks_amiss(there, value))
+
+
+def _kind(value: object) -> str:
+    names = {"dict": "a table", "str": "a text", "list": "a list"}
+    return names.get(type(value).__name__, "a number")
+
+
+def _blanks_amiss(english: str, own: str) -> Iterator[str]:
+    try:
+        wanted, found = (
+            {name for _, name, _, _ in Formatter().parse(text) if name is not None}
+            for text in (english, own)
+        )
+    except ValueError as error:
+        yield f"{error} (write {{{{ for a brace)"
+        return
+    for name in sorted(found - wanted):
+        known = ", ".join(f"{{{one}}}" for one in sorted(wanted)) or "none"
+        yield f"there is nothing to fill {{{name}}} with (blanks here: {known})"

@@ -1,0 +1,185 @@
+"""A bank in a language that quizgen has no words for: its own words, and English for the rest."""
+
+from __future__ import annotations
+
+import csv
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pikepdf
+import pytest
+
+from quizgen import locale
+from quizgen.audit.located import bank_problems
+from quizgen.bank.folder import Bank
+from quizgen.locale import brought
+from quizgen.web.door import _visitor
+
+FRENCH = """# Durée d'un trajet
+Une cycliste parcourt {{ s }} à la vitesse constante de {{ v }}.
+
+**Combien de temps met-elle ?** Répondez en secondes.
+
+## steps
+- t: Le temps est la distance divisée par la vitesse.
+
+## traps
+- multiplied: Vous avez multiplié la distance par la vitesse.
+- upside-down: Vous avez divisé la vitesse par la distance.
+
+## check
+En {{ t }}, à {{ v }}, la cycliste parcourt {{ s }}.
+"""
+LANGUAGE = 'name = "français"\nenglish = "French"\ndecimal = ","\n'
+INTERFACE = '[paper]\nexam = "Examen blanc"\npage = "Page {page} sur {pages}"\n'
+MESSAGES = '[practice]\nresumed = "La séance {seed} continue."\n'
+
+
+def quizgen(where: Path, *words: str, typed: str = "", fails: bool = False) -> str:
+    done = subprocess.run(
+        [sys.executable, "-m", "quizgen", *words], cwd=where, input=typed, capture_output=True,
+        text=True, check=False, encoding="utf-8",
+    )  # fmt: skip
+    assert (done.returncode != 0) is fails, done.stderr
+    assert "Traceback" not in done.stderr
+    return done.stdout + done.stderr
+
+
+@pytest.fixture(scope="module")
+def place(tmp_path_factory):
+    """A French bank as its lecturer leaves it, with some words of its own."""
+    folder = tmp_path_factory.mktemp("french")
+    quizgen(folder, "new", "bank", "trajets", "--lang", "fr")
+    templates = folder / "trajets" / "templates"
+    (templates / "example" / "travel-time" / "fr.md").write_text(FRENCH, "utf-8")
+    (templates / "locale" / "fr" / "language.toml").write_text(LANGUAGE, "utf-8")
+    (templates / "locale" / "fr" / "interface.toml").write_text(INTERFACE, "utf-8")
+    return folder
+
+
+BANK = ("--bank", "trajets", "--trust")
+
+
+@pytest.fixture(scope="module")
+def paper(place):
+    quizgen(place, "exam", *BANK, "--topic", "all", "--seed", "5", "--out", "paper")
+    return place / "paper"
+
+
+def test_a_bank_begun_in_other_languages_is_sound(tmp_path):
+    quizgen(tmp_path, "new", "bank", "rutas", "--lang", "es", "--lang", "PT-br")
+    quizgen(tmp_path, "lint", "rutas", "--trust", "--seeds", "30")
+    words = ("--bank", "rutas", "--trust", "--topic", "all", "--format", "html")
+    quizgen(tmp_path, "exam", *words, "--lang", "pt-br", "--out", "paper")
+    page = (tmp_path / "paper" / "exam.html").read_text("utf-8")
+    assert '<html lang="pt-BR"' in page
+    assert "Mock exam" in page
+    code = json.loads((tmp_path / "paper" / "key.json").read_text("utf-8"))["code"]
+    assert "-pt-BR-" in code
+    quizgen(tmp_path, "exam", *words[:3], "--format", "html", "--code", code, "--out", "again")
+    assert (tmp_path / "again" / "exam.html").read_text("utf-8") == page
+
+
+def test_papers_speak_it_without_being_asked(paper):
+    page = (paper / "solutions.html").read_text("utf-8")
+    assert '<html lang="fr"' in page
+    assert "Examen blanc" in page
+    assert "37,5" in page
+    assert "37.5" not in re.sub(r"<(style|script|svg|math)\b.*?</\1>", "", page, flags=re.DOTALL)
+    assert "Worked solutions" in page  # what the bank does not say is English
+
+
+def test_its_printed_pages_say_which_it_is(paper):
+    with pikepdf.open(paper / "exam.pdf") as pdf:
+        assert str(pdf.Root.Lang) == "fr"
+        assert "Examen blanc" in str(pdf.docinfo.Title)
+
+
+def test_what_is_typed_is_marked_and_explained_in_it(place, paper):
+    form = (paper / "answers.toml").read_text("utf-8")
+    for typed, told in (("37,5 s", "37.5"), ("2400 s", "Vous avez multiplié")):
+        (place / "typed.toml").write_text(form.replace('"1" = ""', f'"1" = "{typed}"'), "utf-8")
+        said = quizgen(place, "check", "paper/key.json", "typed.toml", "--json")
+        (part,) = json.loads(said)["parts"]
+        assert told in part["message"] + part["read_as"]
+    assert '"right"' not in said
+
+
+def test_cards_and_practice_speak_it(place):
+    quizgen(place, "cards", *BANK, "--format", "csv", "--out", "cards")
+    with (place / "cards" / "quizgen.csv").open(encoding="utf-8-sig") as stream:
+        (row,) = csv.DictReader(stream)
+    assert "Combien de temps" in row["front"]
+    words = ("practice", *BANK, "--count", "1", "--database", f"sqlite:///{place}/l.sqlite3")
+    assert "Une cycliste parcourt" in quizgen(place, *words, typed="!\n")
+
+
+def test_another_language_names_those_of_the_bank(place):
+    said = quizgen(place, "exam", *BANK, "--topic", "all", "--lang", "it", fails=True)
+    assert "language: 'it' (allowed: fr, both)" in said
+    said = quizgen(place, "exam", *BANK, "--topic", "all", "--lang", "French", fails=True)
+    assert "'French' is no language" in said
+
+
+def test_all_that_is_said_can_be_translated(place):
+    quizgen(place, "new", "language", "nl", "--bank", "trajets", "--all")
+    made = place / "trajets" / "templates" / "locale" / "nl"
+    assert {path.stem for path in made.iterdir()} == {
+        path.stem for path in (locale.SHIPPED / "en").glob("*.toml")
+    }
+    assert "itself" in quizgen(place, "new", "language", "de", "--bank", "trajets", fails=True)
+
+
+@pytest.mark.parametrize(
+    ("file", "text", "said"),
+    [
+        ("fr/interface.toml", '[paper]\nexan = "Examen"', ":2: paper.exan: quizgen has no such word"),
+        ("fr/interface.toml", '[paper]\npage = "{seite}"', ":2: paper.page: there is nothing to fill"),
+        ("fr/interface.toml", '[paper]\npage = "{page"', ":2: paper.page: expected '}'"),
+        ("fr/interface.toml", "[paper]\nexam = 3", ":2: paper.exam: is to be a text"),
+        ("fr/interface.toml", "paper = 'x'", ":1: paper: is to be a table, and not a text"),
+        ("fr/interface.toml", "[paper\n", ": not valid TOML"),
+        ("fr/inter.toml", "", ": is none of language.toml, cards.toml"),
+        ("fr/language.toml", "name = 7", ":1: name: Expected `str`, got `int`"),
+        ("fr/language.toml", 'nam = "x"', "contains unknown field `nam`"),
+        ("French/language.toml", "", ": 'French' is no language (call the folder fr, or pt-BR)"),
+    ],
+)  # fmt: skip
+def test_a_mistake_in_its_words_is_named_with_its_place(tmp_path, monkeypatch, file, text, said):
+    monkeypatch.setattr(locale, "PLACES", [*locale.PLACES])
+    monkeypatch.setattr(locale, "_HEARD", [])
+    wrong = tmp_path / "templates" / "locale" / file
+    wrong.parent.mkdir(parents=True)
+    wrong.write_text(text, "utf-8")
+    locale.language.cache_clear()
+    found = [str(problem) for problem in bank_problems(Bank(tmp_path))]
+    assert any(one.startswith(f"{wrong}{said}") or (str(wrong) in one and said in one)
+               for one in found), found  # fmt: skip
+
+
+def test_what_a_word_stands_for_stays_where_it_does_not_fit():
+    english = {"paper": {"exam": "Mock exam", "page": "Page {page}"}, "letters": {}}
+    own = {"paper": {"exam": "Examen", "page": 3}, "letters": {"x": "iks"}}
+    assert brought.over(english, own) == {
+        "paper": {"exam": "Examen", "page": "Page {page}"}, "letters": {"x": "iks"},
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("lang", ["../../etc", "e", "EN", "english", "en_GB", "en-gb", "", "en\n"])
+def test_what_names_no_language_is_taken_up_by_nothing(lang):
+    before = locale.languages()
+    locale.take_up([lang])
+    assert locale.languages() == before
+    assert not brought.is_tag(lang)
+
+
+@pytest.mark.parametrize(
+    ("asked", "spoken"),
+    [("fr-CH, de;q=0.9", "fr"), ("pt-br", "pt-BR"), ("pt", "pt-BR"), ("it,en;q=0.5", "fr"), ("", "fr")],
+)  # fmt: skip
+def test_a_browser_is_answered_in_the_nearest_language(asked, spoken):
+    scope = {"query_string": b"", "headers": [(b"accept-language", asked.encode())]}
+    assert _visitor(scope, ("fr", "pt-BR")).settings["lang"] == spoken
