@@ -45,6 +45,31 @@ def decode_bound(exponent):
     return power + constant + 3 * offset + 2 * UNIT + SECOND
 
 
+def raised_bound(_):
+    """Bound for powers of normal numbers, exponents to 12/5, while the result is normal.
+
+    The power of the rounded exponent is right to one unit in the last place, two of 2**-53. What
+    the exponent lost by the logarithm is at most 2**-43: as a factor 1 + t it leaves out t**2 and
+    takes a sum and a product, or is itself left out below a unit.
+    """
+    return 4 * UNIT + arb(2) ** -85 + SECOND
+
+
+def hsv_bound(_):
+    """Bound for RGB of hues in sectors, where no sum of different signs cancels.
+
+    The remainder by 360 is exact, the sector is the true one, and what is left of it is exact
+    (Sterbenz). For saturations from 0 to 1 all terms of the sum are positive: the longest has
+    60 - degrees, its quotient, its product, the sum and the product with V. Other saturations take
+    pairs, whose cancellation is at most 2**40, and three roundings.
+    """
+    degrees = Box(1, UNIT)
+    share = relative(one() * (degrees / one()))
+    within = relative(one() * Box(1, max(share, UNIT) + UNIT))
+    outside = 3 * UNIT + arb(2) ** -60
+    return max(within, outside) + SECOND
+
+
 def dim_bound(_):
     """Bound for sRGB up to the knee: a quotient by a decimal (half a subnormal unit more below)."""
     return abs(arb(gamma._SLOPE) / arb("12.92") - 1) + relative(one() / one()) + SECOND

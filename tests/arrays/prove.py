@@ -31,6 +31,7 @@ from quizgen.arrays import (
     double_double,
     gamma,
     gaussian,
+    hsv,
     logarithm,
     luminosity,
     polynomial,
@@ -184,6 +185,7 @@ EXACT_SUMS = (double_double.two_sum, double_double.two_product)
 DECODE = (gamma, power, *EXACT_SUMS)
 LIMIT = (depth_of_field, *EXACT_SUMS)
 PIXEL = (projection,)
+HSV = (hsv._to_rgb, hsv._less, double_double)
 LOGARITHM = (logarithm, double_double, polynomial.horner)
 CUBIC = (quintic.cubic, quintic.Quintic.refined, quintic.Quintic.residual, double_double)
 PIECES = {
@@ -192,6 +194,8 @@ PIECES = {
     "gaussian.quantile next to 1/2": Piece(middle_bound, 0.0, 0.42501, 400, QUANTILE),
     "gaussian.quantile to exp(-25)": Piece(tail_bound, 1.609, 5.0001, 2000, QUANTILE),
     "gaussian.quantile below exp(-25)": Piece(newton_bound, 4.9999, 27.285, 4000, QUANTILE),
+    "power.raised": Piece(counted.raised_bound, 0.0, 1.0, 1, (power,)),
+    "hsv.to_rgb": Piece(counted.hsv_bound, 0.0, 1.0, 1, HSV),
     "gamma.srgb_decode, dim": Piece(counted.dim_bound, 0.0, 0.0405, 1, DECODE),
     "gamma.srgb_decode, bright (log2)": Piece(counted.decode_bound, -3.4, 427.0, 100, DECODE),
     "far_limit to 0.3 of hyperfocal": Piece(counted.short_limit_bound, 0.0, 0.30001, 300, LIMIT),
