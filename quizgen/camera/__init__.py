@@ -5,7 +5,8 @@ picture, and a plan that says what ran, what was left out, why, and by how much 
 Must never know: questions, languages, figures.
 
 ``scene`` holds plain values, ``effects`` one module per effect, ``plan`` decides, ``simulate``
-runs. Pictures are float32 arrays (H, W, 3), linear until ``gamma``; importing needs NumPy only.
+runs. Pictures are arrays (H, W, 3) of the scene's precision, linear until ``gamma``; importing
+needs NumPy only.
 """
 
 from quizgen.camera.camera import Camera

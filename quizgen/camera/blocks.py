@@ -13,7 +13,7 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import NDArray
 
-Image = NDArray[np.float32]
+Image = NDArray[np.floating]
 Work = Callable[[Image, int], None]
 """Changes a flat piece of a picture in place; also gets the piece's number."""
 
@@ -58,7 +58,7 @@ def in_turn(
     Parameters
     ----------
     values : numpy.ndarray
-        float32, any shape.
+        Any shape, float32 or float64.
     works : sequence of callable
         In this order.
     own : bool
@@ -71,7 +71,7 @@ def in_turn(
     numpy.ndarray
         Seconds that each work took.
     """
-    flat = np.ascontiguousarray(values, np.float32).reshape(-1)
+    flat = np.ascontiguousarray(values).reshape(-1)
     result = flat if own else np.empty_like(flat)
     clock: list[list[float]] = []
 
@@ -90,9 +90,10 @@ def in_turn(
 
 def times(factor: float) -> Work:
     """Multiply everything."""
+    scale = float(factor)  # a number of Python takes the precision of the picture
 
     def work(part: Image, _: int) -> None:
-        part *= np.float32(factor)
+        part *= scale
 
     return work
 

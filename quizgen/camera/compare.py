@@ -22,7 +22,7 @@ _GAP = 8
 def difference(planned: Photo, whole: Photo) -> Codes:
     """Difference of two pictures times `GAIN`, as 8-bit codes; black where they agree."""
     apart = np.abs(planned.values - whole.values)
-    return rounded(apart * np.float32(GAIN * GREY_LEVELS))
+    return rounded(apart * (GAIN * GREY_LEVELS))
 
 
 def side_by_side(*pictures: Codes) -> Codes:

@@ -44,7 +44,7 @@ class Layer(msgspec.Struct, frozen=True):
     Parameters
     ----------
     colour : numpy.ndarray
-        Shape (H, W, 3), float32, linear radiance times coverage.
+        Shape (H, W, 3), linear radiance times coverage.
     cover : numpy.ndarray or None
         Shape (H, W, 1) or (H, W, 3), coverage in [0, 1]; None is opaque everywhere.
     depth : float or numpy.ndarray
@@ -96,7 +96,7 @@ def lay_over(layer: Layer, picture: Image) -> Image:
     height = max(1, _BAND // max(1, columns.stop - columns.start))
     for start in range(rows.start, rows.stop, height):
         part = slice(start, min(start + height, rows.stop)), columns
-        _blend(picture[part], np.float32(1.0) - cover[part], layer.colour[part])
+        _blend(picture[part], 1.0 - cover[part], layer.colour[part])
     return picture
 
 
@@ -173,15 +173,15 @@ def _own_axes(thing: Thing, view: View, part: tuple[slice, slice]) -> tuple[Plan
 def _draw_part(thing: Thing, view: View, part: tuple[slice, slice]) -> tuple[Image, Image]:
     x, y = _own_axes(thing, view, part)
     distance = SHAPES[thing.shape](thing, x, y)
-    cover = np.clip(0.5 - distance, 0.0, 1.0).astype(np.float32)[..., None]
-    texture, colour = TEXTURES[thing.texture], np.asarray(thing.colour, np.float32)
-    image = np.empty((*cover.shape[:2], 3), np.float32)
+    cover = np.clip(0.5 - distance, 0.0, 1.0).astype(view.precision)[..., None]
+    texture, colour = TEXTURES[thing.texture], np.asarray(thing.colour, view.precision)
+    image = np.empty((*cover.shape[:2], 3), view.precision)
     if texture is None:
         for channel in range(3):
             np.multiply(cover[..., 0], colour[channel], out=image[..., channel])
         return image, cover
-    share = texture(thing, x, y).astype(np.float32)
-    rest, other = np.float32(1.0) - share, np.asarray(thing.other, np.float32)
+    share = texture(thing, x, y).astype(view.precision)
+    rest, other = 1.0 - share, np.asarray(thing.other, view.precision)
     for channel in range(3):
         mixed = rest * colour[channel] + share * other[channel]
         np.multiply(cover[..., 0], mixed, out=image[..., channel])
@@ -240,9 +240,9 @@ def _background(view: View, sheet: Sheet) -> Layer:
     """What stands behind everything; a picture that is not kept will be drawn upon."""
     scene = view.scene
     if scene.image is not None:
-        image = scene.image.copy() if sheet.things else scene.image
+        image = scene.image.astype(view.precision, copy=bool(sheet.things))
         return Layer(image, depth=scene.depth)
-    flat = np.empty((scene.height, scene.width, 3), np.float32)
+    flat = np.empty((scene.height, scene.width, 3), view.precision)
     flat[0] = scene.background
     flat[1:] = flat[0]
     return Layer(flat, depth=math.inf if sheet.depth is None else sheet.depth, motion=sheet.motion)
@@ -254,7 +254,7 @@ def _add(layer: Layer, thing: Thing, view: View) -> None:
         colour, cover = _draw_part(thing, view, part)
         if not cover.any():
             continue
-        keep = np.float32(1.0) - cover
+        keep = 1.0 - cover
         _blend(layer.colour[part], keep, colour)
         if layer.cover is not None:
             _blend(layer.cover[part], keep, cover)
@@ -287,5 +287,5 @@ def _draw_sheet(sheet: Sheet, view: View) -> Layer:
 
 def _empty(view: View, sheet: Sheet) -> Layer:
     shape = (view.height, view.width)
-    nothing = np.zeros((*shape, 3), np.float32), np.zeros((*shape, 1), np.float32)
+    nothing = np.zeros((*shape, 3), view.precision), np.zeros((*shape, 1), view.precision)
     return Layer(*nothing, math.inf if sheet.depth is None else sheet.depth, sheet.motion)

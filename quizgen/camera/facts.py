@@ -320,7 +320,7 @@ def _differences(
     for part in _slices(colour, every, axis):
         first, second = _extremes(colour[part], axis)
         if cover is not None:
-            first, second = _extremes(colour[part] - np.float32(middle) * cover[part], axis)
+            first, second = _extremes(colour[part] - float(middle) * cover[part], axis)
             edge = _extremes(cover[part], axis)
             first, second = first + edge[0] * span / 2, second + edge[1] * span / 2
         step, bend = max(step, first), max(bend, second)

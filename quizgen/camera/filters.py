@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from quizgen.camera.blocks import for_pieces
 
-Image = NDArray[np.float32]
+Image = NDArray[np.floating]
 
 AGREEMENT = 2e-5
 """Largest difference between the OpenCV and the NumPy path, relative to the largest value."""
@@ -68,6 +68,12 @@ def _opencv_remap_is_exact() -> bool:
     return bool(abs(cv2.remap(ramp, where, where, cv2.INTER_LINEAR)[0, 0] - 0.3) < 1e-6)
 
 
+def _can_remap(image: Image) -> bool:
+    """Whether OpenCV reads a picture of this kind well: it takes places in single precision."""
+    single = image.dtype == np.float32
+    return single and max(image.shape[:2]) < 2**15 and _opencv_remap_is_exact()
+
+
 def warm_up() -> None:
     """Load OpenCV and try it, so that no effect is timed with its import."""
     if opencv() is not None:
@@ -80,7 +86,7 @@ def convolve(image: Image, kernel: NDArray[np.float64]) -> Image:
     Parameters
     ----------
     image : numpy.ndarray
-        Shape (H, W, C), float32.
+        Shape (H, W, C), float32 or float64.
     kernel : numpy.ndarray
         Odd-sized, non-negative.
     """
@@ -91,7 +97,7 @@ def convolve(image: Image, kernel: NDArray[np.float64]) -> Image:
     part = (_lit(image.reshape(len(image), -1), rows), _lit(upright, columns))
     if image[part].size == image.size:
         return _convolved(image, kernel)
-    result = np.zeros(image.shape, np.float32)
+    result = np.zeros(image.shape, image.dtype)
     result[part] = _convolved(image[part], kernel)
     return result
 
@@ -164,7 +170,7 @@ def _rows(image: Image, start: int, stop: int) -> Image:
 
 def _by_slabs(cv2: ModuleType, rows: Image, kernel: NDArray[np.float64], count: int) -> Image:
     """``count`` rows of the result from ``count + len(kernel) - 1`` rows."""
-    total = np.zeros((count, *rows.shape[1:]), np.float32)
+    total = np.zeros((count, *rows.shape[1:]), rows.dtype)
     high = max(1, _DIRECT_AREA // kernel.shape[1])
     for top in range(0, len(kernel), high):
         slab = kernel[top : top + high]
@@ -177,7 +183,7 @@ def _by_slabs(cv2: ModuleType, rows: Image, kernel: NDArray[np.float64], count: 
 def _padded(image: Image, kernel: NDArray[np.float64]) -> Image:
     height, width = image.shape[:2]
     rows, columns = (side // 2 for side in kernel.shape)
-    wide = np.empty((height + 2 * rows, width + 2 * columns, image.shape[2]), np.float32)
+    wide = np.empty((height + 2 * rows, width + 2 * columns, image.shape[2]), image.dtype)
     inner = slice(columns, columns + width)
     wide[rows : rows + height, inner] = image
     wide[:rows, inner], wide[rows + height :, inner] = image[0], image[-1]
@@ -191,12 +197,12 @@ def _convolve_by_shifts(image: Image, kernel: NDArray[np.float64]) -> Image:
     height, width, channels = image.shape
     wide = _padded(image, kernel)
     flat, line = wide.reshape(-1), wide.shape[1] * channels
-    result = np.zeros((height, *wide.shape[1:]), np.float32)
+    result = np.zeros((height, *wide.shape[1:]), image.dtype)
     total = result.reshape(-1)[: height * line - (wide.shape[1] - width) * channels]
     part = np.empty_like(total)
     for row, column in np.argwhere(kernel).tolist():
         start = row * line + column * channels
-        total += np.multiply(flat[start:][: total.size], np.float32(kernel[row, column]), out=part)
+        total += np.multiply(flat[start:][: total.size], float(kernel[row, column]), out=part)
     return np.ascontiguousarray(result[:, :width])
 
 
@@ -232,26 +238,28 @@ def sample(image: Image, x: Image, y: Image) -> Image:
     Parameters
     ----------
     image : numpy.ndarray
-        Shape (H, W, C), float32.
+        Shape (H, W, C), float32 or float64.
     x, y : numpy.ndarray
         Shape (H', W'), positions in px from the centre of the first pixel.
     """
     cv2 = opencv()
-    if cv2 is not None and _opencv_remap_is_exact() and max(image.shape[:2]) < 2**15:
+    if cv2 is not None and _can_remap(image):
         flags = {"borderMode": cv2.BORDER_REPLICATE}
         found = cv2.remap(image, x, y, cv2.INTER_LINEAR, **flags)
-        return np.asarray(found.reshape(*x.shape, image.shape[2]), np.float32)
-    result = np.empty((*x.shape, image.shape[2]), np.float32)
-    for start in range(0, x.shape[0], _ROWS):
-        rows = slice(start, start + _ROWS)
-        result[rows] = _sample_rows(image, x[rows], y[rows])
+        return np.asarray(found.reshape(*x.shape, image.shape[2]))
+    result = np.empty((*x.shape, image.shape[2]), image.dtype)
+
+    def band(start: int, stop: int) -> None:
+        result[start:stop] = _sample_rows(image, x[start:stop], y[start:stop])
+
+    for_pieces(len(result), _ROWS, result.size, band)
     return result
 
 
 def _split(position: Image, length: int) -> tuple[NDArray[np.intp], NDArray[np.intp], Image]:
     position = np.clip(position, 0, length - 1)
     first = position.astype(np.intp)
-    return first, np.minimum(first + 1, length - 1), (position - first).astype(np.float32)
+    return first, np.minimum(first + 1, length - 1), (position - first).astype(position.dtype)
 
 
 def _sample_rows(image: Image, x: Image, y: Image) -> Image:
@@ -262,7 +270,7 @@ def _sample_rows(image: Image, x: Image, y: Image) -> Image:
     left, right = left * channels, right * channels
     corners = upper + left, upper + right, lower + left, lower + right
     flat = np.ascontiguousarray(image).reshape(-1)
-    found = np.empty((*x.shape, channels), np.float32)
+    found = np.empty((*x.shape, channels), image.dtype)
     for channel in range(channels):  # far faster than NumPy's loops over three values
         plane = flat[channel:]
         one, two, three, four = (plane.take(corner) for corner in corners)
@@ -275,16 +283,16 @@ def _sample_rows(image: Image, x: Image, y: Image) -> Image:
 def sample_nearest(image: Image, x: Image, y: Image) -> Image:
     """Read an image at the pixels nearest to fractional positions."""
     height, width = image.shape[:2]
-    column = np.clip(np.floor(x + np.float32(0.5)).astype(np.intp), 0, width - 1)
-    row = np.clip(np.floor(y + np.float32(0.5)).astype(np.intp), 0, height - 1)
+    column = np.clip(np.floor(x + 0.5).astype(np.intp), 0, width - 1)
+    row = np.clip(np.floor(y + 0.5).astype(np.intp), 0, height - 1)
     return np.asarray(image[row, column])
 
 
 def sample_grid(channel: Image, x: NDArray[np.float64], y: NDArray[np.float64]) -> Image:
     """Read one channel (H, W) on a grid of columns x and rows y, bilinearly, edges repeated."""
-    left, right, across = _split(x.astype(np.float32), channel.shape[1])
-    top, bottom, down = _split(y.astype(np.float32), channel.shape[0])
-    result = np.empty((y.size, x.size), np.float32)
+    left, right, across = _split(x.astype(channel.dtype), channel.shape[1])
+    top, bottom, down = _split(y.astype(channel.dtype), channel.shape[0])
+    result = np.empty((y.size, x.size), channel.dtype)
 
     def band(start: int, stop: int) -> None:
         part = slice(start, stop)

@@ -71,16 +71,16 @@ def _blurred_by_depth(sharp: Image, diameters: NDArray[np.floating], rung: str) 
     index = np.clip(np.rint((diameters - middles[0]) / step).astype(int), 0, len(middles) - 1)
     picture = sharp
     for number in range(len(middles) - 1, -1, -1):
-        mask = (index == number)[..., None].astype(np.float32)
+        mask = (index == number)[..., None].astype(sharp.dtype)
         if not mask.any():
             continue
         kernel = disc(float(middles[number]))
         colour, cover = convolve(sharp * mask, kernel), convolve(mask, kernel)
         if picture is sharp:
-            seen = cover > np.float32(1e-3)
-            picture = np.where(seen, colour / np.where(seen, cover, np.float32(1.0)), picture)
+            seen = cover > 1e-3
+            picture = np.where(seen, colour / np.where(seen, cover, 1.0), picture)
         else:
-            picture = colour + (np.float32(1.0) - cover) * picture
+            picture = colour + (1.0 - cover) * picture
     return picture
 
 

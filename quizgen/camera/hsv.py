@@ -7,8 +7,10 @@ together.
 from __future__ import annotations
 
 import math
+from types import ModuleType
 
 import numpy as np
+from numpy.typing import DTypeLike
 
 from quizgen.camera.blocks import BLOCK, Work, in_turn
 from quizgen.camera.filters import opencv
@@ -23,8 +25,8 @@ def rgb_to_hsv(image: Image) -> Image:
     image : numpy.ndarray
         Shape (..., 3), in [0, 1]. Greys get hue 0; black gets saturation 0.
     """
-    cv2 = opencv()
-    if cv2 is not None and image.ndim == 3:
+    cv2 = _of_opencv(image)
+    if cv2 is not None:
         return np.asarray(cv2.cvtColor(np.ascontiguousarray(image), cv2.COLOR_RGB2HSV))
 
     def work(part: Image, _: int) -> None:
@@ -33,32 +35,37 @@ def rgb_to_hsv(image: Image) -> Image:
     return in_turn(image, [work])[0]
 
 
+def _of_opencv(image: Image) -> ModuleType | None:
+    """OpenCV where it takes such a picture: it has no colours in double precision."""
+    return opencv() if image.ndim == 3 and image.dtype == np.float32 else None
+
+
 def _hsv_part(colours: Image) -> Image:
     red, green, blue = colours.T
     value, least = colours.max(axis=1), colours.min(axis=1)
     chroma = value - least
-    safe = np.where(chroma > 0, chroma, np.float32(1.0))
+    safe = np.where(chroma > 0, chroma, 1.0)
     hue = np.where(
         value == red,
         (green - blue) / safe,
         np.where(value == green, (blue - red) / safe + 2, (red - green) / safe + 4),
     )
-    hue = np.where(hue < 0, hue + 6, hue) * np.float32(60.0)
-    hue = np.where((chroma > 0) & (hue < 360), hue, np.float32(0.0))
-    saturation = chroma / np.where(value > 0, value, np.float32(1.0))
+    hue = np.where(hue < 0, hue + 6, hue) * 60.0
+    hue = np.where((chroma > 0) & (hue < 360), hue, 0.0)
+    saturation = chroma / np.where(value > 0, value, 1.0)
     return np.stack([hue, saturation, value], axis=1)
 
 
 def _to_rgb(image: Image) -> Image:
     """Colours of hues in [0, 720) degrees."""
-    cv2 = opencv()
-    if cv2 is not None and image.ndim == 3:
+    cv2 = _of_opencv(image)
+    if cv2 is not None:
         return np.asarray(cv2.cvtColor(image, cv2.COLOR_HSV2RGB))
     hue, saturation, value = np.moveaxis(image, -1, 0)
-    sextant = hue / np.float32(60.0)
+    sextant = hue / 60.0
     parts = []
     for offset in (5.0, 3.0, 1.0):
-        position = np.mod(sextant + np.float32(offset), np.float32(6.0))
+        position = np.mod(sextant + offset, 6.0)
         weight = np.clip(np.minimum(position, 4 - position), 0, 1)
         parts.append(value - value * saturation * weight)
     return np.stack(parts, axis=-1)
@@ -77,26 +84,26 @@ def edit_hsv(image: Image, hue: float = 0.0, saturation: float = 1.0, value: flo
         Factors; results are clipped to 1. Value stays when only hue or saturation change, the
         luminance does not (errata E04, E05).
     """
-    return in_turn(image, [hsv_work(hue, saturation, value)])[0]
+    return in_turn(image, [hsv_work(hue, saturation, value, image.dtype)])[0]
 
 
-def hsv_work(hue: float, saturation: float, value: float) -> Work:
+def hsv_work(hue: float, saturation: float, value: float, kind: DTypeLike) -> Work:
     """`edit_hsv` of a piece."""
     steps = (
-        _colours(1.0, saturation, value),
-        _colours(math.fmod(math.fmod(hue, 360.0) + 360.0, 360.0), 0.0, 0.0),
-        _colours(math.inf, 1.0, 1.0),
+        _colours(1.0, saturation, value, kind),
+        _colours(math.fmod(math.fmod(hue, 360.0) + 360.0, 360.0), 0.0, 0.0, kind),
+        _colours(math.inf, 1.0, 1.0, kind),
     )
     return lambda part, _: _edit_part(part, steps)
 
 
-def _colours(first: float, second: float, third: float) -> Image:
+def _colours(first: float, second: float, third: float, kind: DTypeLike) -> Image:
     """One colour, repeated to the length of a piece."""
-    return np.tile(np.asarray([first, second, third], np.float32), BLOCK // 3)
+    return np.tile(np.asarray([first, second, third], kind), BLOCK // 3)
 
 
 def _edit_part(part: Image, steps: tuple[Image, Image, Image]) -> None:
-    colours = np.clip(part, np.float32(0.0), np.float32(1.0)).reshape(1, -1, 3)
+    colours = np.clip(part, 0.0, 1.0).reshape(1, -1, 3)
     edited = rgb_to_hsv(colours)
     flat = edited.reshape(-1)
     factors, shift, most = (step[: flat.size] for step in steps)

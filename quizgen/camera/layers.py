@@ -53,8 +53,8 @@ def blurred(layer: Layer, kernel: Kernel) -> Layer:
     reach = max(kernel.shape) // 2
     rows, columns = _reached(layer, reach)
     # unlike zeros_like, zeros takes no memory where nothing is written
-    colour: Image = np.zeros(layer.colour.shape, np.float32)
-    cover: Image = np.zeros(layer.cover.shape, np.float32)
+    colour: Image = np.zeros(layer.colour.shape, layer.colour.dtype)
+    cover: Image = np.zeros(layer.cover.shape, layer.cover.dtype)
     band = max(_BAND, 64 * reach)
     for start in range(rows.start, rows.stop, band):
         stop, first = min(start + band, rows.stop), max(start - reach, 0)
@@ -73,7 +73,7 @@ def _within_box(layer: Layer, box: Box, colour: Image, cover: Image) -> Layer:
     """A layer that is empty but for a box."""
     parts = []
     for part in (colour, cover):
-        parts.append(np.zeros((*layer.colour.shape[:2], part.shape[2]), np.float32))
+        parts.append(np.zeros((*layer.colour.shape[:2], part.shape[2]), part.dtype))
         parts[-1][box] = part
     return replace(layer, colour=parts[0], cover=parts[1])
 
@@ -170,7 +170,7 @@ def turned(layer: Layer, angles: Sequence[float | Field], reach: float) -> Layer
         Farthest that anything gets by these angles, px.
     """
     images = [layer.colour] if layer.cover is None else [layer.colour, layer.cover]
-    results = [np.zeros(image.shape, np.float32) for image in images]
+    results = [np.zeros(image.shape, image.dtype) for image in images]
     for tile in _filled(layer, reach):
         for result, mean in zip(results, _turned(images, tile, layer.motion, angles), strict=True):
             result[tile] = mean
@@ -207,12 +207,12 @@ def _turned(
     height, width = images[0].shape[:2]
     x = np.arange(width)[None, tile[1]] - motion.pivot[0]
     y = np.arange(height)[tile[0], None] - motion.pivot[1]
-    totals = [np.zeros((y.size, x.size, image.shape[2]), np.float32) for image in images]
+    totals = [np.zeros((y.size, x.size, image.shape[2]), image.dtype) for image in images]
     for angle in angles:
         by_row = angle if isinstance(angle, float) else angle[tile[0]]
         cosine, sine = np.cos(by_row), np.sin(by_row)
-        column = (cosine * x + sine * y + motion.pivot[0]).astype(np.float32)
-        row = (cosine * y - sine * x + motion.pivot[1]).astype(np.float32)
+        column = (cosine * x + sine * y + motion.pivot[0]).astype(images[0].dtype)
+        row = (cosine * y - sine * x + motion.pivot[1]).astype(images[0].dtype)
         for place, image in enumerate(images):
             totals[place] += sample(image, column, row)
-    return [total * np.float32(1.0 / len(angles)) for total in totals]
+    return [total * (1.0 / len(angles)) for total in totals]

@@ -9,7 +9,7 @@ from itertools import accumulate
 import msgspec
 import numpy as np
 from msgspec.structs import replace
-from numpy.typing import NDArray
+from numpy.typing import DTypeLike, NDArray
 
 from quizgen.arrays.gaussian import inverse_tail
 from quizgen.camera.blocks import Work
@@ -46,9 +46,12 @@ class Luck(msgspec.Struct, frozen=True):
         """Values of a table of 2^16, each as likely."""
         return np.take(table, self._words(piece, count), mode="clip")
 
-    def normal(self, piece: int, count: int) -> Image:
-        """Standard normal values; their distribution function is within 8e-6 of the normal one."""
-        return self.pick(_normals(), piece, count)
+    def normal(self, piece: int, count: int, kind: DTypeLike = np.float32) -> Image:
+        """Standard normal values; their distribution function is within 8e-6 of the normal one.
+
+        The same luck in every precision, rounded to it.
+        """
+        return self.pick(_normals(np.dtype(kind)), piece, count)
 
     def uniform(self, piece: int, count: int) -> NDArray[np.float64]:
         """Values in [0, 1), multiples of 2^-32."""
@@ -59,11 +62,11 @@ WORDS = 1 << 16
 
 
 @cache
-def _normals() -> Image:
+def _normals(kind: np.dtype[np.floating]) -> Image:
     """Normal quantiles in the middle of 2^16 equal probabilities, scaled to variance 1."""
     lower = -np.asarray(inverse_tail((np.arange(WORDS // 2) + 0.5) / WORDS))
     lower /= math.sqrt(float(np.mean(lower * lower)))
-    return np.concatenate([lower, -lower[::-1]]).astype(np.float32)
+    return np.concatenate([lower, -lower[::-1]]).astype(kind)
 
 
 def luck(view: View, effect: str) -> Luck:
@@ -109,10 +112,11 @@ def noisier(facts: Facts, more: Error) -> Facts:
 
 def normal_noise(sigma: float, source: Luck) -> Work:
     """Add normal noise."""
+    scale = float(sigma)
 
     def work(part: Image, piece: int) -> None:
-        spread = source.normal(piece, part.size)
-        spread *= np.float32(sigma)
+        spread = source.normal(piece, part.size, part.dtype)
+        spread *= scale
         part += spread
 
     return work

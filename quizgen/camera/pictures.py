@@ -25,7 +25,7 @@ Codes = NDArray[np.uint8]
 
 def codes(image: Image) -> Codes:
     """8-bit codes of a finished picture in [0, 1], halves rounded upward."""
-    return rounded(image * np.float32(255.0))
+    return rounded(image * 255.0)
 
 
 def hsv_edits(image: Image, value: float, saturation: float, hue: float) -> tuple[Image, ...]:
@@ -62,7 +62,7 @@ def bayer(image: Image, phase: str = "RGGB") -> tuple[Image, Image, Image]:
     height, width = image.shape[:2]
     view = View(Scene(width, height, image=image), Camera(mosaic=phase))
     raw = mosaic.run(image, view)
-    coloured = np.zeros((height, width, 3), np.float32)
+    coloured = np.zeros((height, width, 3), raw.dtype)
     for row, channels in enumerate(mosaic.colour_at(view)):
         for column, channel in enumerate(channels):
             coloured[row::2, column::2, channel] = raw[row::2, column::2, 0]

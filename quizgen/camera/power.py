@@ -16,8 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quizgen.camera.blocks import Work, in_turn
+from quizgen.camera.scene import Precision
 
-Image = NDArray[np.float32]
+Image = NDArray[np.floating]
 
 SRGB_KNEE = 0.0031308
 
@@ -27,7 +28,6 @@ CURVE_ERROR = 1e-6
 _CELLS = 1 << 10
 _SHIFT = np.int32(13)
 _OCTAVES = 127
-_ZERO, _ONE = np.float32(0.0), np.float32(1.0)
 
 Field = NDArray[np.float64]
 
@@ -75,7 +75,7 @@ def by_lines(gamma: str | float) -> Work:
     offsets, slopes = _curve(gamma)
 
     def work(part: Image, _: int) -> None:
-        values = np.clip(part, _ZERO, _ONE)
+        values = np.clip(part, 0.0, 1.0)
         cell = np.right_shift(values.view(np.int32), _SHIFT).astype(np.intp)
         np.take(slopes, cell, out=part, mode="wrap")
         part *= values
@@ -86,7 +86,28 @@ def by_lines(gamma: str | float) -> Work:
 
 
 def _clip(part: Image, _: int) -> None:
-    np.clip(part, _ZERO, _ONE, out=part)
+    np.clip(part, 0.0, 1.0, out=part)
+
+
+def by_powers(gamma: str | float) -> Work:
+    """`encode` in double precision, by the library's powers."""
+    if gamma == "linear":
+        return _clip
+
+    def work(part: Image, _: int) -> None:
+        np.clip(part, 0.0, 1.0, out=part)
+        if gamma != "srgb":
+            np.power(part, 1.0 / float(gamma), out=part)
+            return
+        bright = 1.055 * part ** (1.0 / 2.4) - 0.055
+        part[...] = np.where(part <= SRGB_KNEE, 12.92 * part, bright)
+
+    return work
+
+
+def encoder(gamma: str | float, precision: Precision) -> Work:
+    """The tone curve in the precision of a picture."""
+    return by_lines(gamma) if precision == "float32" else by_powers(gamma)
 
 
 def encode(values: Image, gamma: str | float) -> Image:
@@ -95,12 +116,12 @@ def encode(values: Image, gamma: str | float) -> Image:
     Parameters
     ----------
     values : numpy.ndarray
-        Linear, float32, any shape; clipped to [0, 1] first. Subnormal values count as 0.
+        Linear, any shape, taken in float32; clipped to [0, 1] first. Subnormal values count as 0.
     gamma : str or float
         ``srgb`` (IEC 61966-2-1: 12.92 x below 0.0031308, else 1.055 x^(1/2.4) - 0.055), or an
         exponent g >= 1 for x^(1/g).
     """
-    return in_turn(values, [by_lines(gamma)])[0]
+    return in_turn(values.astype(np.float32, copy=False), [by_lines(gamma)])[0]
 
 
 TABLE = 65535
@@ -108,18 +129,19 @@ TABLE = 65535
 
 
 @cache
-def _tone_table(gamma: str | float) -> Image:
-    return encode((np.arange(TABLE + 1) / TABLE).astype(np.float32), gamma)
+def _tone_table(gamma: str | float, precision: Precision) -> Image:
+    linear = (np.arange(TABLE + 1) / TABLE).astype(precision)
+    return in_turn(linear, [encoder(gamma, precision)])[0]
 
 
-def by_table(gamma: str | float) -> Work:
+def by_table(gamma: str | float, precision: Precision = "float32") -> Work:
     """`encode` after rounding the linear values to 16 bits."""
-    table, top = _tone_table(gamma), np.float32(TABLE)
+    table = _tone_table(gamma, precision)
 
     def work(part: Image, _: int) -> None:
-        scaled = np.clip(part, _ZERO, _ONE)
-        scaled *= top
-        scaled += np.float32(0.5)
+        scaled = np.clip(part, 0.0, 1.0)
+        scaled *= TABLE
+        scaled += 0.5
         np.take(table, scaled.astype(np.intp), out=part, mode="wrap")
 
     return work

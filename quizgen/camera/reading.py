@@ -16,7 +16,16 @@ from quizgen.arrays.gamma import srgb_decode
 from quizgen.camera import codecs, effects
 from quizgen.camera.camera import Camera, nearest
 from quizgen.camera.outlines import SHAPES, SIZES, TEXTURES
-from quizgen.camera.scene import Image, Length, Scene, SceneError, SettingError, Thing
+from quizgen.camera.scene import (
+    PRECISIONS,
+    Image,
+    Length,
+    Precision,
+    Scene,
+    SceneError,
+    SettingError,
+    Thing,
+)
 from quizgen.camera.values import (
     Reader,
     colour,
@@ -78,6 +87,7 @@ SCENE: Readers = {
     "title": words, "width": _SIDE, "height": _SIDE, "background": colour,
     "background_depth": _depth, "image": words, "depth": _depth, "depth_map": words,
     "depth_near": _depth, "depth_far": _depth, "seed": _between(0, 2**63), "question": _questions,
+    "precision": one_of(*PRECISIONS),
 }  # fmt: skip
 
 THING: Readers = {
@@ -159,13 +169,15 @@ class _File:
             raise self.fail("thing", 0, "", f"more than {MOST_THINGS} things")
 
 
-def load(path: str | Path) -> tuple[Scene, Camera]:
+def load(path: str | Path, precision: Precision | None = None) -> tuple[Scene, Camera]:
     """Read a scene and its camera.
 
     Parameters
     ----------
     path : str or Path
         TOML with ``[scene]``, ``[camera]`` and any number of ``[[thing]]``.
+    precision : str, optional
+        What the picture is computed in, whatever the file says.
 
     Raises
     ------
@@ -177,7 +189,7 @@ def load(path: str | Path) -> tuple[Scene, Camera]:
     things = [
         _thing(file, which, table) for which, table in enumerate(file.tables.get("thing", []))
     ]
-    scene = _scene(file, tuple(things))
+    scene = _scene(file, tuple(things), precision)
     values = file.read("camera", 0, file.tables.get("camera", {}))
     if values.pop("exif", False):
         scene = replace(scene, exif=_shot_with(file, values))
@@ -237,8 +249,9 @@ def _thing(file: _File, which: int, table: Mapping[str, object]) -> Thing:
     return thing
 
 
-def _scene(file: _File, things: tuple[Thing, ...]) -> Scene:
+def _scene(file: _File, things: tuple[Thing, ...], precision: Precision | None) -> Scene:
     values = file.read("scene", 0, file.tables.get("scene", {}))
+    kind = values["precision"] = precision or values.get("precision", Scene.precision)
     pixels = values.get("width", Scene.width) * values.get("height", Scene.height)
     if pixels > png.MOST_MEGAPIXELS * 1_000_000:
         raise file.fail("scene", 0, "width", f"more than {png.MOST_MEGAPIXELS} megapixels")
@@ -247,13 +260,13 @@ def _scene(file: _File, things: tuple[Thing, ...]) -> Scene:
         if key in values:
             values[key] = _picture(file, key, values[key])
     if "image" in values:
-        values["image"] = _linear(values["image"])
+        values["image"] = _linear(values["image"], kind)
         values["height"], values["width"] = values["image"].shape[:2]
     if (nearness := values.pop("depth_map", None)) is not None:
         shape = (values.get("height"), values.get("width"))
         if nearness.shape[:2] != shape:
             raise file.fail("scene", 0, "depth_map", "a depth map needs an image of its size")
-        values["depth"] = _depths(nearness, near, far)
+        values["depth"] = _depths(nearness, near, far).astype(kind)
     return Scene(things=things, file=file.path, **values)
 
 
@@ -261,13 +274,13 @@ def _depths(nearness: png.Codes, near: float, far: float) -> Image:
     """White is near, black is far, linear in 1/z."""
     share = nearness[..., 0] / float(np.iinfo(nearness.dtype).max)
     inverse = share / near + (1.0 - share) / far
-    return (1.0 / np.maximum(inverse, 1e-9)).astype(np.float32)
+    return np.asarray(1.0 / np.maximum(inverse, 1e-9))
 
 
-def _linear(codes: png.Codes) -> Image:
+def _linear(codes: png.Codes, precision: Precision) -> Image:
     """Radiance of every code, looked up."""
     top = int(np.iinfo(codes.dtype).max)
-    table = np.asarray(srgb_decode(np.arange(top + 1) / top), np.float32)
+    table = np.asarray(srgb_decode(np.arange(top + 1) / top), precision)
     return np.asarray(table[codes])
 
 

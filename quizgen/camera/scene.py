@@ -10,15 +10,18 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from functools import cache, cached_property
 from pathlib import Path
-from typing import NamedTuple
+from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
 from quizgen.errors import QuizgenError
 
-Image = NDArray[np.float32]
+Image = NDArray[np.floating]
 Colour = tuple[float, float, float]
+Precision = Literal["float32", "float64"]
+"""What a picture is computed in, from drawing to the last effect."""
+PRECISIONS: tuple[Precision, ...] = get_args(Precision)
 
 
 class SceneError(QuizgenError):
@@ -127,7 +130,7 @@ class Scene:
     background_depth : float
         Its distance in m.
     image : numpy.ndarray or None
-        Shape (height, width, 3), float32, linear radiance; replaces the background.
+        Shape (height, width, 3), linear radiance; replaces the background.
     depth : float or numpy.ndarray
         Distance of the picture in m, shape (height, width) if a map.
     question : tuple of str
@@ -138,6 +141,8 @@ class Scene:
         Shown by the command line.
     exif : mapping of str to float
         Settings of the camera that were read from the picture's file, in base units.
+    precision : str
+        What the picture is computed in: random effects draw the same luck in either.
     file : pathlib.Path or None
         What it was read from: errors that show only when it is photographed name it.
     """
@@ -153,6 +158,7 @@ class Scene:
     seed: int = 0
     title: str = ""
     exif: Mapping[str, float] = field(default_factory=dict)
+    precision: Precision = "float32"
     file: Path | None = None
 
     @cached_property

@@ -30,7 +30,8 @@ class Photo(msgspec.Struct, frozen=True):
     Parameters
     ----------
     values : numpy.ndarray
-        Shape (H, W, 3), float32, 1 = white; an ideal camera returns its input untouched.
+        Shape (H, W, 3), 1 = white, of the scene's precision; an ideal camera returns its input
+        untouched.
     plan : Plan
         What was run and what was left out.
     times : dict of str to float
@@ -55,7 +56,7 @@ class Photo(msgspec.Struct, frozen=True):
         codes = np.empty(flat.shape, np.uint8)
 
         def work(start: int, stop: int) -> None:
-            codes[start:stop] = rounded(flat[start:stop] * np.float32(GREY_LEVELS))
+            codes[start:stop] = rounded(flat[start:stop] * GREY_LEVELS)
 
         for_pieces(flat.size, BLOCK, flat.size, work)
         return codes.reshape(self.values.shape)
@@ -226,9 +227,14 @@ def difference_dn(planned: Photo, whole: Photo) -> float:
     return float(np.partition(apart, apart.size - 1 - allowed)[apart.size - 1 - allowed])
 
 
+def farthest_dn(one: Photo, other: Photo) -> float:
+    """Largest difference of two pictures by the same plan, in 8-bit grey levels before rounding."""
+    return float(_apart(one, other).max())
+
+
 def _apart(planned: Photo, whole: Photo) -> Image:
     """Difference of every value in grey levels."""
-    return np.abs(planned.values - whole.values).reshape(-1) * np.float32(GREY_LEVELS)
+    return np.abs(planned.values - whole.values).reshape(-1) * GREY_LEVELS
 
 
 _SLACK = 1e-4

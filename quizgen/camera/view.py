@@ -16,7 +16,7 @@ from quizgen.camera.body import (
     PIXEL_PITCH,
     aperture,
 )
-from quizgen.camera.scene import Image, Scene, SceneError
+from quizgen.camera.scene import Image, Precision, Scene, SceneError
 from quizgen.camera.settings import Settings
 
 
@@ -41,6 +41,11 @@ class View(msgspec.Struct, frozen=True):
     def height(self) -> int:
         """Rows."""
         return self.scene.height
+
+    @property
+    def precision(self) -> Precision:
+        """What the picture is computed in."""
+        return self.scene.precision
 
     @property
     def megapixels(self) -> float:

@@ -22,7 +22,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from quizgen.camera.plan import Skipped, Step
+    from quizgen.camera.plan import Plan, Skipped, Step
+    from quizgen.camera.scene import Precision
     from quizgen.camera.simulate import Photo
 
 HEAD = ("effect", "", "DN", "ms", "took", "")
@@ -37,6 +38,7 @@ class Options(TypedDict):
 
     budget: str
     question: tuple[str, ...]
+    precision: Precision | None
     everything: bool
     compare: Path | None
     out: Path | None
@@ -50,6 +52,8 @@ class Shot:
     title: str
     photo: Photo
     whole: Photo | None
+    single: Photo | None
+    """The same effects in float32, where the picture is in float64."""
     seed: int
     idle: dict[str, str]
     """Settings that do nothing, and what they need."""
@@ -78,6 +82,11 @@ class Shot:
     help="Largest tolerated change in 8-bit grey levels, or same (0.5), visible (2), sketch (8).",
 )
 @click.option("--question", multiple=True, metavar="KIND", help="Keep what decides this question.")
+@click.option(
+    "--precision",
+    type=click.Choice(["float32", "float64"]),
+    help="What to compute in; float64 also says what float32, the default, is off by.",
+)
 @click.option("--all", "everything", is_flag=True, help="Also run everything; show the difference.")
 @click.option(
     "--compare",
@@ -127,7 +136,7 @@ def _shoot(scene: str, options: Options, told: Progress) -> Shot:
 
     started = perf_counter()
     told("reading")
-    prepared = Prepared(*load(_find(scene)))
+    prepared = Prepared(*load(_find(scene), options["precision"]))
     read = (perf_counter() - started) * 1e3
     told("planning")
     what = plan(prepared, question=options["question"] or None, budget=options["budget"])
@@ -137,12 +146,23 @@ def _shoot(scene: str, options: Options, told: Progress) -> Shot:
     times = {"read": read, "planned": planned, "drawn": photo.drawn_ms}
     seen, idle = prepared.given.scene, effects.idle(prepared.given)
     times["effects"] = photo.measured_ms
-    shot = Shot(seen.title or scene, photo, None, seen.seed, idle, dict(seen.exif), {}, times)
+    single = _in_float32(scene, what, told) if seen.precision == "float64" else None
+    shot = Shot(
+        seen.title or scene, photo, None, single, seen.seed, idle, dict(seen.exif), {}, times
+    )
     if again:
         shot.whole = run(prepared, everything(prepared), told)
     if options["compare"] is not None:
         shot.really = really(prepared, photo, told)
     return shot
+
+
+def _in_float32(scene: str, what: Plan, told: Callable[[str], None]) -> Photo:
+    from quizgen.camera.plan import Prepared
+    from quizgen.camera.reading import load
+    from quizgen.camera.simulate import run
+
+    return run(Prepared(*load(_find(scene), "float32")), what, told, last=True)
 
 
 def _write(shot: Shot, options: Options, encode: Callable[[NDArray[np.uint8]], bytes]) -> None:
@@ -186,7 +206,7 @@ def _writer(target: Path | None) -> Callable[[NDArray[np.uint8]], bytes]:
 
 def summary(shot: Shot) -> dict[str, Any]:
     """The plan as plain data; what everything gives only where it was run for comparison."""
-    from quizgen.camera.simulate import difference_dn, is_broken
+    from quizgen.camera.simulate import difference_dn, farthest_dn, is_broken
 
     photo, whole, what = shot.photo, shot.whole, shot.photo.plan
     report: dict[str, Any] = {
@@ -198,12 +218,16 @@ def summary(shot: Shot) -> dict[str, Any]:
         "idle": shot.idle,
         "exif": shot.exif,
         "seed": shot.seed,
+        "precision": str(photo.values.dtype),
         "budget_dn": what.budget,
         "predicted_error_dn": what.predicted_error_dn,
         "predicted_ms": what.predicted_ms,
         "measured_ms": photo.measured_ms,
         "times_ms": shot.times,
     }
+    if shot.single is not None:
+        report["float32_difference_dn"] = farthest_dn(shot.single, photo)
+        report["float32_ms"] = shot.single.measured_ms
     if whole is not None:
         report["difference_dn"] = difference_dn(photo, whole)
         report["everything_ms"] = whole.measured_ms
@@ -270,6 +294,11 @@ def _print_totals(shot: Shot, report: dict[str, Any]) -> None:
         f"effects {report['predicted_ms']:.1f} ms predicted, {report['measured_ms']:.1f} ms taken"
     )
     tell("; ".join(f"{name} {spent:.0f} ms" for name, spent in shot.times.items()))
+    if shot.single is not None:
+        tell(
+            f"float64; the same effects in float32: {report['float32_ms']:.1f} ms, "
+            f"difference {report['float32_difference_dn']:.3g} DN"
+        )
     if what.absent:
         tell(f"not in this camera: {', '.join(what.absent)}")
     if shot.exif:

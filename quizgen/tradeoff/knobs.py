@@ -99,7 +99,7 @@ def _layers(effort: Effort) -> Iterator[Curve]:
     """Depth slices for a blurred picture: largest error of the blur disc in pixels."""
     (f, N, s), pitch = np.array([50.0, 1.8, 3000.0]), 0.005
     depth = 1 / np.linspace(1 / 1000, 1 / 50000, 4001)
-    picture = np.random.default_rng(1).random((256, 256))
+    picture = np.random.default_rng(1).random((128, 128))
 
     def signed(z: Column) -> Column:
         disc: Column = plain.blur_disc(f, N, s, z) * np.sign(z - s) / pitch

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Sequence
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
@@ -32,7 +33,9 @@ from quizgen.tradeoff.data import (
 from quizgen.tradeoff.measure import Measured, Timing, pareto
 from quizgen.tradeoff.plot import (
     Axes,
+    Choices,
     Mark,
+    Setting,
     accuracy_panel,
     document,
     front_panel,
@@ -45,7 +48,7 @@ from quizgen.tradeoff.product import ROUND, Counted, Product
 from quizgen.tradeoff.report import FamilyReport, Peer, Report
 from quizgen.tradeoff.slider import ORDER, lost, places, sweep_panel
 from quizgen.tradeoff.solving import FAULTS
-from quizgen.tradeoff.work import Curve
+from quizgen.tradeoff.work import Curve, Point
 
 HALF_PIXEL = 0.5 / 255
 
@@ -256,13 +259,18 @@ def spread_text(spent: Timing) -> str:
 
 
 def knob_panels(key: str, curves: tuple[Curve, ...], lang: str) -> list[str]:
-    """Work-precision plot of one setting; of the camera, one for each scene that has a choice."""
+    """Work-precision plot of one setting; of the camera, one for each scene that has effects."""
     unit, time = words(lang)["knob"][key]["error"], words(lang)["table"]["work"]
     lines = [(c.label, [(p.label, p.time.median, p.error) for p in c.points]) for c in curves]
     if key != "camera":
         return [work_panel(lines, unit, time)]
     return [
-        front_panel(name, points, pareto([(spent, off) for _, spent, off in points]), unit, time)
-        for name, points in lines
-        if len(points) > 1
+        front_panel(_choices(curve.label, points, curve.points), unit, time)
+        for curve, (_, points) in zip(curves, lines, strict=True)
+        if any(point.time.median > 0.0 for point in curve.points)
     ]
+
+
+def _choices(name: str, settings: Sequence[Setting], points: Sequence[Point]) -> Choices:
+    best = pareto([(spent, off) for _, spent, off in settings])
+    return Choices(name, settings, best, [point.precision for point in points])

@@ -7,6 +7,7 @@ from importlib.resources import as_file, files
 
 from quizgen.camera.plan import Plan, Prepared, everything, plan
 from quizgen.camera.reading import load
+from quizgen.camera.scene import PRECISIONS, Precision
 from quizgen.camera.simulate import difference_dn, run
 from quizgen.tradeoff.measure import Effort, spread
 from quizgen.tradeoff.work import Curve, Point
@@ -17,23 +18,33 @@ BUDGETS = (0.1, 0.5, 2.0, 8.0, 32.0)
 """Grey levels of 255 by which a picture may differ from that of all effects."""
 
 
+_DOUBLES = 2
+"""Photographs in float64 of a plan at most: they take long."""
+
+
 def photographs(effort: Effort) -> Iterator[Curve]:
     """Each scene at every budget that changes its plan: time of the effects, difference found."""
     for name in SCENES[: effort.scenes]:
         with as_file(files("quizgen.camera") / "scenes" / f"{name}.toml") as file:
-            prepared = Prepared(*load(file))
-        whole = run(prepared, everything(prepared))  # the first one warms up
-        chosen = list(_plans(prepared))
-        spent: dict[str, list[float]] = {label: [] for label, _ in chosen}
-        points = []
-        for last in range(effort.photos)[::-1]:
-            for label, what in chosen:  # in turn, so that what else is running hits all alike
-                photo = run(prepared, what)
-                spent[label].append(photo.measured_ms * 1e-3)
-                if not last:
-                    taken = spread(spent[label])
-                    points.append(Point(label, taken, difference_dn(photo, whole), _note(what)))
-        yield Curve(name, tuple(points))
+            prepared = {kind: Prepared(*load(file, kind)) for kind in PRECISIONS}
+        yield Curve(name, tuple(_points(prepared, effort.photos)))
+
+
+def _points(prepared: dict[Precision, Prepared], photos: int) -> Iterator[Point]:
+    """Every plan in every precision; errors are against all effects in float64."""
+    chosen = list(_plans(prepared["float32"]))
+    ways = [(kind, label, what) for kind in PRECISIONS for label, what in chosen]
+    whole, *_ = (run(prepared[kind], chosen[0][1]) for kind in reversed(PRECISIONS))  # warms up
+    spent: dict[tuple[str, str], list[float]] = {(kind, label): [] for kind, label, _ in ways}
+    for last in range(photos)[::-1]:
+        for kind, label, what in ways:  # in turn, so that what else is running hits all alike
+            if kind == "float64" and last >= _DOUBLES:
+                continue
+            photo = run(prepared[kind], what)
+            spent[kind, label].append(photo.measured_ms * 1e-3)
+            if not last:
+                taken, off = spread(spent[kind, label]), difference_dn(photo, whole)
+                yield Point(label, taken, off, _note(what), kind)
 
 
 def _plans(prepared: Prepared) -> Iterator[tuple[str, Plan]]:

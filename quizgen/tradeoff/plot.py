@@ -220,7 +220,11 @@ def accuracy_panel(
 def dot(px: float, py: float, mark: Mark) -> str:
     """A way over whole arrays is a circle, one of single values a square; the best are filled."""
     kind = "on" if mark.front else "off"
-    if mark.scalar:
+    return _point(px, py, kind, square=mark.scalar)
+
+
+def _point(px: float, py: float, kind: str, *, square: bool) -> str:
+    if square:
         return f'<rect x="{px - 4:.1f}" y="{py - 4:.1f}" width="8" height="8" class="{kind}"/>'
     return circle(px, py, kind, 4.5)
 
@@ -241,18 +245,33 @@ def work_panel(curves: Sequence[tuple[str, Sequence[Setting]]], unit: str, time:
     return axes + _curves(x, y, curves)
 
 
-def front_panel(
-    name: str, settings: Sequence[Setting], best: Collection[int], unit: str, time: str
-) -> str:
-    """The same of one curve; a line joins the settings that no other one beats."""
+@dataclass(frozen=True)
+class Choices:
+    """Settings of one thing: which of them no other one beats, and what each was computed in."""
+
+    name: str
+    settings: Sequence[Setting]
+    best: Collection[int]
+    precisions: Sequence[str]
+
+
+def front_panel(choices: Choices, unit: str, time: str) -> str:
+    """The same of one curve: a line joins the best; the second precision has squares."""
+    settings, best = choices.settings, choices.best
+    kinds = list(dict.fromkeys(choices.precisions))
     x, y, axes = _work_axes(settings, unit, time)
     labels = Labels(BOUNDS)
     places = [(x(spent), y(off)) for _, spent, off in settings]
     front = sorted(places[i] for i in best)
-    parts = [axes, text(RIGHT, TOP + 6, name, "end", "head"), path(front, "front")]
-    labels.written(RIGHT, TOP + 6, name, "end")
+    parts = [axes, text(RIGHT, TOP + 6, choices.name, "end", "head"), path(front, "front")]
+    labels.written(RIGHT, TOP + 6, choices.name, "end")
+    for i, kind in enumerate(kinds):
+        at = x.start + 12 + 90 * i, TOP + 2
+        parts += [_point(*at, "off", square=i > 0), text(at[0] + 8, at[1] + 4, kind, "start")]
+        labels.written(at[0] - 8, at[1] + 4, f"## {kind}", "start")
     for i, (px, py) in enumerate(places):
-        parts.append(circle(px, py, "on" if i in best else "off", 4))
+        square = choices.precisions[i] != kinds[0]
+        parts.append(_point(px, py, "on" if i in best else "off", square=square))
         labels.keep_clear(px, py)
     parts += [
         label(labels.place(said, *at)) for (said, _, _), at in zip(settings, places, strict=True)

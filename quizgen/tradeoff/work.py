@@ -9,12 +9,16 @@ from quizgen.tradeoff.measure import Timing
 
 @dataclass(frozen=True)
 class Point:
-    """One setting: its label, the time of a fixed piece of work, the error it leaves, a remark."""
+    """One setting: its label, the time of a fixed piece of work, the error it leaves, a remark.
+
+    ``precision`` is what it was computed in, where settings differ in that.
+    """
 
     label: str
     time: Timing
     error: float
     note: str = ""
+    precision: str = ""
 
 
 @dataclass(frozen=True)

@@ -209,15 +209,19 @@ def test_work_precision_curves_fall():
     assert [round(p.error, -1) for p in inverse_z.points][:3] == [70, 30, 20]
     assert all(a.error < b.error for a, b in zip(inverse_z.points, in_z.points, strict=True))
     landscape, texture = curves["camera"]
-    assert [p.label for p in landscape.points] == ["=", "0.1", "0.5", "2", "32"]  # 8 is as 2
     assert texture.label == "texture"
-    for point in landscape.points[1:]:
-        assert point.error <= float(point.label)
-    assert landscape.points[0].note.startswith("defocus, motion blur, shot noise")
-    assert landscape.points[-1].note == (
-        "−defocus, −motion blur, −shot noise, −dark current, −full well, −read noise, "
-        "−quantisation, gamma (table)"
-    )
+    single, double = landscape.points[:5], landscape.points[5:]
+    for kind, points in (("float32", single), ("float64", double)):
+        assert {point.precision for point in points} == {kind}
+        assert [p.label for p in points] == ["=", "0.1", "0.5", "2", "32"]  # 8 is as 2
+        for point in points[1:]:
+            assert point.error <= float(point.label)
+        assert points[0].note.startswith("defocus, motion blur, shot noise")
+        assert points[-1].note == (
+            "−defocus, −motion blur, −shot noise, −dark current, −full well, −read noise, "
+            "−quantisation, gamma (table)"
+        )
+    assert double[0].error == 0 < single[0].error < 1
     normal = [p.error for p in curves["photons"][0].points]
     assert normal == sorted(normal, reverse=True)
 

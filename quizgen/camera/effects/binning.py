@@ -20,11 +20,11 @@ BINNING = Setting("binning", whole, 1, (between(1, 1000, "px"),))
 def run(image: Image, view: View, rung: str = "") -> Image:
     """Mean of every block, shown as large as the block; blocks at the far border may be cut."""
     side = view.camera[BINNING]
-    sums, counts = image, np.ones((1, 1, 1), np.float32)
+    sums, counts = image, np.ones((1, 1, 1), image.dtype)
     for axis, size in enumerate(image.shape[:2]):
         starts = np.arange(0, size, side)
-        sums = np.add.reduceat(sums, starts, axis=axis, dtype=np.float32)
-        widths = np.diff(np.append(starts, size)).astype(np.float32)
+        sums = np.add.reduceat(sums, starts, axis=axis, dtype=image.dtype)
+        widths = np.diff(np.append(starts, size)).astype(image.dtype)
         counts = counts * widths.reshape([-1 if at == axis else 1 for at in range(3)])
     means = sums / counts
     shown = means.repeat(side, axis=0).repeat(side, axis=1)

@@ -26,7 +26,7 @@ def run(image: Image, view: View, rung: str = "") -> Image:
     """
     result = image.copy()
     columns = result.reshape(len(image), -1)
-    full = np.flatnonzero(columns.max(axis=0) > np.float32(1.0))
+    full = np.flatnonzero(columns.max(axis=0) > 1.0)
     for start in range(0, full.size, _COLUMNS):
         some = full[start : start + _COLUMNS]
         columns[:, some] = _drained(columns[:, some])
@@ -38,18 +38,18 @@ _COLUMNS = 3072
 
 
 def _drained(columns: Image) -> Image:
-    half = np.maximum(columns - np.float32(1.0), np.float32(0.0)) * np.float32(0.5)
-    kept = np.minimum(columns, np.float32(1.0))
+    half = np.maximum(columns - 1.0, 0.0) * 0.5
+    kept = np.minimum(columns, 1.0)
     return _spill(_spill(kept, half)[::-1], half[::-1])[::-1]
 
 
 def _spill(kept: Image, excess: Image) -> Image:
     """Carry excess to the next rows until it finds room."""
-    filled, carried = kept.copy(), np.zeros(kept.shape[1:], np.float32)
+    filled, carried = kept.copy(), np.zeros(kept.shape[1:], kept.dtype)
     spilling = np.flatnonzero(excess.any(axis=1))
     for row in range(spilling[0] if spilling.size else len(kept), len(kept)):
         level = filled[row] + carried
-        filled[row] = np.minimum(level, np.float32(1.0))
+        filled[row] = np.minimum(level, 1.0)
         carried = level - filled[row] + excess[row]
         if row >= spilling[-1] and not carried.any():
             break

@@ -106,7 +106,7 @@ def work(view: View, rung: str = "") -> Work:
     matrix = _mixture(view)
     if rung == "gains":
         matrix = np.diag(matrix.sum(axis=1))
-    weights = matrix.astype(np.float32)
+    weights = matrix.astype(view.precision)
 
     def mixed(part: Image, _: int) -> None:
         scene = [part[channel::3].copy() for channel in range(3)]

@@ -13,7 +13,7 @@ from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, PointByPoint
 from quizgen.camera.facts import Error, Facts
 from quizgen.camera.noise import WORDS, electrons_at_white, luck, noisier, poisson_gap
-from quizgen.camera.scene import Image
+from quizgen.camera.scene import Image, Precision
 from quizgen.camera.settings import NOT_NEGATIVE, SHARE, Rule, Setting, Settings
 from quizgen.camera.values import quantity
 from quizgen.camera.view import View
@@ -39,10 +39,10 @@ def dark_electrons(view: View) -> float:
     return view.camera[DARK_CURRENT] * view.camera[SHUTTER]
 
 
-def _poisson(mean: float) -> Image:
+def _poisson(mean: float, precision: Precision) -> Image:
     """Poisson counts of one mean in the middle of equal probabilities."""
     if not mean:
-        return np.zeros(WORDS, np.float32)
+        return np.zeros(WORDS, precision)
     first = max(0, math.floor(mean - 12.0 * math.sqrt(mean) - 20.0))
     last = math.ceil(mean + 12.0 * math.sqrt(mean) + 40.0)
     chances = [
@@ -50,20 +50,20 @@ def _poisson(mean: float) -> Image:
         for count in range(first, last)
     ]
     middles = (np.arange(WORDS) + 0.5) / WORDS
-    return (np.searchsorted(np.cumsum(chances), middles, side="right") + first).astype(np.float32)
+    return (np.searchsorted(np.cumsum(chances), middles, side="right") + first).astype(precision)
 
 
 def work(view: View, rung: str = "") -> Work:
     """Add the dark charge and its own shot noise; hot pixels are stuck at full well."""
     charge, stuck = luck(view, "dark current"), luck(view, "hot pixels")
     electrons, share = dark_electrons(view), view.camera[HOT_PIXELS]
-    signals = _poisson(electrons) * np.float32(1.0 / electrons_at_white(view))
+    signals = _poisson(electrons, view.precision) * (1.0 / electrons_at_white(view))
 
     def darkened(part: Image, piece: int) -> None:
         if electrons:
             part += charge.pick(signals, piece, part.size)
         if share:
-            part.reshape(-1, 3)[stuck.uniform(piece, part.size // 3) < share] = np.float32(1.0)
+            part.reshape(-1, 3)[stuck.uniform(piece, part.size // 3) < share] = 1.0
 
     return darkened
 

@@ -44,10 +44,10 @@ def _left(view: View) -> float:
 
 def master(shape: tuple[int, ...], view: View) -> Image:
     """Mean of the dark frames, shape (H, W, 3)."""
-    dark = np.float32(dark_electrons(view) / electrons_at_white(view))
+    dark = dark_electrons(view) / electrons_at_white(view)
     left = normal_noise(_left(view), luck(view, "dark frame"))
     works = [fixed_pattern.work(view), times(gain(view)), left]
-    return in_turn(np.full((*shape[:2], 3), dark, np.float32), works, own=True)[0]
+    return in_turn(np.full((*shape[:2], 3), dark, view.precision), works, own=True)[0]
 
 
 def run(image: Image, view: View, rung: str = "") -> Image:

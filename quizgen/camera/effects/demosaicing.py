@@ -36,7 +36,7 @@ def run(raw: Image, view: View, rung: str = "") -> Image:
 def _bilinear(plane: Image, tile: tuple[tuple[int, int], ...]) -> Image:
     """Means of the nearest photosites of each colour, from a plane padded by one."""
     height, width = plane.shape[0] - 2, plane.shape[1] - 2
-    result = np.empty((height, width, 3), np.float32)
+    result = np.empty((height, width, 3), plane.dtype)
 
     def band(start: int, stop: int) -> None:
         _fill(result[start:stop], plane[start : stop + 2], tile)
@@ -68,11 +68,10 @@ def _neighbours(plane: Image, row: int, column: int, *, green: bool) -> dict[str
         return plane[top : top + height - row : 2, left : left + width - column : 2]
 
     level, upright = at(0, -1) + at(0, 1), at(-1, 0) + at(1, 0)
-    half, quarter = np.float32(0.5), np.float32(0.25)
     if green:
-        return {"here": at(0, 0), "level": level * half, "upright": upright * half}
+        return {"here": at(0, 0), "level": level * 0.5, "upright": upright * 0.5}
     corners = (at(-1, -1) + at(-1, 1)) + (at(1, -1) + at(1, 1))
-    return {"here": at(0, 0), "cross": (level + upright) * quarter, "corners": corners * quarter}
+    return {"here": at(0, 0), "cross": (level + upright) * 0.25, "corners": corners * 0.25}
 
 
 def _same_colour(tile: tuple[tuple[int, int], ...], row: int, column: int, channel: int) -> str:

@@ -16,7 +16,7 @@ from quizgen.camera.effect import Effect, LayerByLayer, Rung
 from quizgen.camera.facts import Error, Facts
 from quizgen.camera.filters import sample, sample_nearest
 from quizgen.camera.layers import Field, mixed_axes, resampled, rounding, shifted, within
-from quizgen.camera.scene import Image, SceneError
+from quizgen.camera.scene import Image, Precision, SceneError
 from quizgen.camera.settings import Setting
 from quizgen.camera.values import number
 from quizgen.camera.view import View
@@ -116,7 +116,7 @@ _ROWS = 64
 
 def source(view: View, rows: slice = slice(None)) -> tuple[Image, Image]:
     """Where the pixels of some rows come from; small maps are kept, large ones made when needed."""
-    lens = view.width, view.height, view.focal, view.camera[K1], view.camera[K2]
+    lens = view.width, view.height, view.focal, view.camera[K1], view.camera[K2], view.precision
     if view.width * view.height > _KEPT:
         return _rows(lens, range(view.height)[rows])
     x, y = _kept(lens)
@@ -127,7 +127,7 @@ _BAND = 240
 """Rows that are read at once."""
 _KEPT = 1_000_000
 """Pixels of the largest map that is kept as a whole: 8 MB."""
-_Lens = tuple[int, int, float, float, float]
+_Lens = tuple[int, int, float, float, float, Precision]
 
 
 @lru_cache(maxsize=4)
@@ -140,9 +140,9 @@ def _rows(lens: _Lens, rows: range) -> tuple[Image, Image]:
     width, height = lens[:2]
     across, down = np.arange(width) - (width - 1) / 2, np.arange(height) - (height - 1) / 2
     line = np.asarray(rows)
-    left = quadrant(*lens)[np.minimum(line, height - 1 - line)]
+    left = quadrant(*lens[:5])[np.minimum(line, height - 1 - line)]
     factor = np.concatenate([left, left[:, width // 2 - 1 :: -1]], axis=1)
-    x, y = (np.empty(factor.shape, np.float32) for _ in range(2))
+    x, y = (np.empty(factor.shape, lens[5]) for _ in range(2))
     np.add(factor * across, (width - 1) / 2, out=x, casting="same_kind")
     np.add(factor * down[line, None], (height - 1) / 2, out=y, casting="same_kind")
     return x, y
@@ -156,7 +156,7 @@ def work(layer: Layer, view: View, rung: str = "") -> Layer:
         rows, columns = (
             range(*part.indices(length)) for part, length in zip(box, image.shape, strict=False)
         )
-        result = np.empty((len(rows), len(columns), image.shape[2]), np.float32)
+        result = np.empty((len(rows), len(columns), image.shape[2]), image.dtype)
         for start in range(0, len(rows), _BAND):
             part = rows[start : start + _BAND]
             x, y = source(view, slice(part.start, part.stop))

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import msgspec
-import numpy as np
 
 from quizgen.camera.blocks import Work
 from quizgen.camera.body import NEEDS_FULL_WELL
@@ -33,7 +32,7 @@ def work(view: View, rung: str = "") -> Work:
     """Add pedestal and offsets: they do not depend on the scene's seed."""
     camera = msgspec.structs.replace(view, scene=replace(view.scene, seed=0))
     sigma = view.camera[FIXED_PATTERN] / electrons_at_white(view)
-    spread, bias = normal_noise(sigma, luck(camera, "fixed pattern")), np.float32(level(view))
+    spread, bias = normal_noise(sigma, luck(camera, "fixed pattern")), level(view)
 
     def lifted(part: Image, piece: int) -> None:
         part += bias

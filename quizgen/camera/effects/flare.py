@@ -20,7 +20,7 @@ def run(image: Image, view: View, rung: str = "") -> Image:
     """Take a share of every pixel's light and spread it evenly: the mean brightness is kept."""
     share = view.camera[FLARE]
     veil = share * image.mean(axis=(0, 1), dtype=np.float64)
-    return np.asarray(image * np.float32(1.0 - share) + veil.astype(np.float32))
+    return np.asarray(image * (1.0 - share) + veil.astype(image.dtype))
 
 
 def skipped(facts: Facts, view: View) -> Error:

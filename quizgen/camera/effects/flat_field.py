@@ -21,10 +21,10 @@ FLAT_FIELD = Setting("flat_field", truth, False)
 
 def work(view: View, rung: str = "") -> Work:
     """Divide out the vignetting of an even picture: linear data, mean brightness kept (E31)."""
-    return at_pixels(factors(fall_off_map(view), np.float32(0.0)))
+    return at_pixels(factors(fall_off_map(view), 0.0))
 
 
-def factors(flat: Image, dark: Image | np.float32) -> Image:
+def factors(flat: Image, dark: Image | float) -> Image:
     """Mean of (flat - dark) over its values: what flat-field correction multiplies by.
 
     Parameters
@@ -40,7 +40,7 @@ def factors(flat: Image, dark: Image | np.float32) -> Image:
     light = flat - dark
     if light.min() <= 0:
         raise ValueError("a flat pixel is not brighter than the dark frame")
-    return np.float32(light.mean(dtype=np.float64)) / light
+    return float(light.mean(dtype=np.float64)) / light
 
 
 def _gain(view: View) -> tuple[float, float]:

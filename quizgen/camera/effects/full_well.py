@@ -20,7 +20,7 @@ def work(view: View, rung: str = "") -> Work:
     """A photosite holds no more than its full well."""
 
     def full(part: Image, _: int) -> None:
-        np.minimum(part, np.float32(1.0), out=part)
+        np.minimum(part, 1.0, out=part)
 
     return full
 

@@ -9,7 +9,7 @@ from quizgen.camera.blocks import Work
 from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, PointByPoint, Rung
 from quizgen.camera.facts import DEVIATIONS, Error, Facts
-from quizgen.camera.power import CURVE_ERROR, TABLE, by_lines, by_table, encode_number
+from quizgen.camera.power import CURVE_ERROR, TABLE, by_table, encode_number, encoder
 from quizgen.camera.settings import Rule, Setting, Settings
 from quizgen.camera.values import number
 from quizgen.camera.view import View
@@ -32,7 +32,9 @@ GAMMA = Setting[str | float](
 
 def work(view: View, rung: str = "") -> Work:
     """Encode linear light for display; clips to [0, 1]. The rung ``table`` rounds to 16 bits."""
-    return (by_table if rung == "table" else by_lines)(view.camera[GAMMA])
+    if rung == "table":
+        return by_table(view.camera[GAMMA], view.precision)
+    return encoder(view.camera[GAMMA], view.precision)
 
 
 def _gap(width: float, bottom: float, view: View) -> float:

@@ -37,7 +37,7 @@ def gaussian(sigma: float, source: Luck) -> Work:
 
     def work(part: Image, piece: int) -> None:
         add(part, piece)
-        np.clip(part, np.float32(0.0), np.float32(1.0), out=part)
+        np.clip(part, 0.0, 1.0, out=part)
 
     return work
 

@@ -34,7 +34,8 @@ def present(view: View) -> bool:
 def work(view: View, rung: str = "") -> Work:
     """`edit_hsv` with the camera's parameters."""
     camera = view.camera
-    return hsv_work(math.degrees(camera[HUE]), camera[SATURATION], camera[VALUE])
+    turn = math.degrees(camera[HUE])
+    return hsv_work(turn, camera[SATURATION], camera[VALUE], view.precision)
 
 
 def skipped(facts: Facts, view: View) -> Error:

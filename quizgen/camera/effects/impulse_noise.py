@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
 from msgspec.structs import replace
 
 from quizgen.camera.blocks import Work
@@ -36,8 +35,8 @@ def impulses(share: float, source: Luck) -> Work:
     def work(part: Image, piece: int) -> None:
         draw = source.uniform(piece, part.size // 3)
         pixels = part.reshape(-1, 3)
-        pixels[draw < share / 2] = np.float32(0.0)
-        pixels[draw >= 1.0 - share / 2] = np.float32(1.0)
+        pixels[draw < share / 2] = 0.0
+        pixels[draw >= 1.0 - share / 2] = 1.0
 
     return work
 

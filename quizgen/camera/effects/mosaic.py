@@ -32,7 +32,7 @@ def colour_at(view: View) -> tuple[tuple[int, int], ...]:
 
 def run(image: Image, view: View, rung: str = "") -> Image:
     """Keep one colour per photosite, shape (H, W, 1)."""
-    raw = np.empty((*image.shape[:2], 1), np.float32)
+    raw = np.empty((*image.shape[:2], 1), image.dtype)
     for row, channels in enumerate(colour_at(view)):
         for column, channel in enumerate(channels):
             raw[row::2, column::2, 0] = image[row::2, column::2, channel]

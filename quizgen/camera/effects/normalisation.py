@@ -43,10 +43,11 @@ def stretch_range(
     image: Image, low: float, high: float, new_low: float = 0.0, new_high: float = 1.0
 ) -> Image:
     """Normalise [low, high] to [new_low, new_high] and clip to it on both sides (errata E44)."""
-    share = (image - np.float32(low)) * np.float32(1.0 / (high - low))
-    np.clip(share, np.float32(0.0), np.float32(1.0), out=share)
-    share *= np.float32(new_high - new_low)
-    share += np.float32(new_low)
+    low, high, new_low, new_high = map(float, (low, high, new_low, new_high))
+    share = (image - low) * (1.0 / (high - low))
+    np.clip(share, 0.0, 1.0, out=share)
+    share *= new_high - new_low
+    share += new_low
     return share
 
 

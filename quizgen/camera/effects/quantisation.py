@@ -26,13 +26,13 @@ def _largest_code(view: View) -> int:
 
 def work(view: View, rung: str = "") -> Work:
     """Clip to [0, 1] and round to the converter's codes, halves upward."""
-    top = np.float32(_largest_code(view))
+    top = float(_largest_code(view))
 
     def coded(part: Image, _: int) -> None:
         part *= top
-        part += np.float32(0.5)
+        part += 0.5
         np.floor(part, out=part)
-        np.clip(part, np.float32(0.0), top, out=part)
+        np.clip(part, 0.0, top, out=part)
         part /= top
 
     return coded

@@ -51,17 +51,17 @@ def work(layer: Layer, view: View, rung: str = "") -> Layer:
         return layer
     x = np.arange(view.width)[None, :] - across * times
     y = np.arange(view.height)[:, None] - down * times + np.zeros_like(x)
-    where = _near(x, view.width), _near(y, view.height)
+    where = _near(x, view.width, view), _near(y, view.height, view)
     far = math.hypot(across, down) * float(times[-1, 0])
     return resampled(layer, lambda image, box: sample(image, *(at[box] for at in where)), far)
 
 
-def _near(positions: Field, length: int) -> Image:
+def _near(positions: Field, length: int, view: View) -> Image:
     """Positions beyond the picture brought to its edge, which they show.
 
     Samplers hold no larger whole numbers than 2^31.
     """
-    return np.clip(positions, -1.0, length).astype(np.float32)
+    return np.clip(positions, -1.0, length).astype(view.precision)
 
 
 def skipped(facts: Facts, view: View) -> Error:

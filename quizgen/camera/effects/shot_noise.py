@@ -105,17 +105,17 @@ def work(view: View, rung: str = "") -> Work:
     The rung ``gaussian`` uses the normal law with the same mean and variance (errata E23).
     """
     source, well = luck(view, "shot noise"), electrons_at_white(view)
-    to_electrons, to_signal = np.float32(well), np.float32(1.0 / well)
+    to_electrons, to_signal = float(well), 1.0 / well
 
     def counted(part: Image, piece: int) -> None:
-        np.maximum(part, np.float32(0.0), out=part)
+        np.maximum(part, 0.0, out=part)
         part *= to_electrons
-        part[...] = poisson_quantiles(part, source.normal(piece, part.size))
+        part[...] = poisson_quantiles(part, source.normal(piece, part.size, part.dtype))
         part *= to_signal
 
     def spread(part: Image, piece: int) -> None:
-        np.maximum(part, np.float32(0.0), out=part)
-        part += np.sqrt(part * to_signal) * source.normal(piece, part.size)
+        np.maximum(part, 0.0, out=part)
+        part += np.sqrt(part * to_signal) * source.normal(piece, part.size, part.dtype)
 
     return spread if rung == "gaussian" else counted
 

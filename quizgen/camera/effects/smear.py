@@ -21,7 +21,7 @@ SMEAR = Setting("smear", quantity("%"), 0.0, (NEEDS_FULL_WELL, SHARE))
 def run(image: Image, view: View, rung: str = "") -> Image:
     """Light that falls in while a CCD shifts its rows: a share of each column's mean."""
     mean = image.mean(axis=0, keepdims=True, dtype=np.float64)
-    return np.asarray(image + (view.camera[SMEAR] * mean).astype(np.float32))
+    return np.asarray(image + (view.camera[SMEAR] * mean).astype(image.dtype))
 
 
 def skipped(facts: Facts, view: View) -> Error:

@@ -18,7 +18,7 @@ from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, PointByPoint
 from quizgen.camera.facts import Error, Facts
 from quizgen.camera.layers import Field
-from quizgen.camera.scene import Image
+from quizgen.camera.scene import Image, Precision
 from quizgen.camera.settings import Rule, Setting, Settings
 from quizgen.camera.values import number, truth
 from quizgen.camera.view import View
@@ -69,11 +69,13 @@ def fall_off_map(view: View) -> Image:
     """`fall_off` at every pixel, shape (H, W, 1)."""
     camera = view.camera
     focal = view.focal if camera[NATURAL] else 0.0
-    return _fall_off_map(view.width, view.height, focal, camera[MECHANICAL])
+    return _fall_off_map(view.width, view.height, focal, camera[MECHANICAL], view.precision)
 
 
 @lru_cache(maxsize=2)
-def _fall_off_map(width: int, height: int, focal: float, mechanical: float) -> Image:
+def _fall_off_map(
+    width: int, height: int, focal: float, mechanical: float, precision: Precision
+) -> Image:
     """One quadrant, mirrored."""
     x, y = (width - 1) / 2, (height - 1) / 2
     right, lower = np.arange((width + 1) // 2) - x, np.arange((height + 1) // 2) - y
@@ -83,7 +85,7 @@ def _fall_off_map(width: int, height: int, focal: float, mechanical: float) -> I
         kept = kept * rim_overlap(mechanical * np.sqrt(squared) / math.hypot(x, y))
     kept = np.concatenate([kept, kept[:, width // 2 - 1 :: -1]], axis=1)
     kept = np.concatenate([kept, kept[height // 2 - 1 :: -1]], axis=0)
-    return kept.astype(np.float32)[..., None]
+    return kept.astype(precision)[..., None]
 
 
 def work(view: View, rung: str = "") -> Work:

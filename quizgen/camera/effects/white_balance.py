@@ -26,7 +26,7 @@ WHITE_BALANCE = Setting(
 
 def work(view: View, rung: str = "") -> Work:
     """Multiply the channels by their gains."""
-    gains = np.tile(np.asarray(view.camera[WHITE_BALANCE], np.float32), BLOCK // 3)
+    gains = np.tile(np.asarray(view.camera[WHITE_BALANCE], view.precision), BLOCK // 3)
 
     def balanced(part: Image, _: int) -> None:
         part *= gains[: part.size]
