@@ -157,3 +157,24 @@ def pincushion_bound(_):
     """
     start = 256 * UNIT
     return start * start + 8 * UNIT * start + arb(2) ** -96 + UNIT + SECOND
+
+
+def barrel_inverse_bound(exponent):
+    """Bound for the inverse of one coefficient k1 < 0, of a slope of about 2**exponent at the root.
+
+    With t the root by the fold, the slope is 1 - t**2 and the second derivative -2 t by the fold.
+    The closed form is off by at most 256 units: the arc sine is taken from both its legs, of which
+    one comes from a pair, and the sine by a third, below 30 degrees, loses nothing (four units of
+    each are taken for granted). The residual is off by 8 * 2**-106 of the root: products with a
+    number that is exact lose 3, 5 and 3 of what they are multiplied with, a third of the root, and
+    the sum of the two pairs, whose upper halves cancel exactly, less than 3. Where the slope is no
+    less than 2**-12 of m/x, one step of Newton squares the start, and the slope taken is off by
+    4 units of 1. Elsewhere the polynomial around the start is solved, its slope being known as
+    well as its residual: what the residual is off by moves the root by no more than the root of
+    it, where the slope vanishes; what is relative moves the step, which is short.
+    """
+    start, slope = 256 * UNIT, arb(2) ** exponent
+    residual = 8 * UNIT * UNIT
+    steep = start * start / slope + start * 4 * UNIT / slope + residual / slope
+    flat = residual.sqrt() + 2 * (6 * UNIT).sqrt() * start + SECOND
+    return (steep if slope > arb(2) ** -12 else flat) + UNIT + SECOND

@@ -188,6 +188,7 @@ PIXEL = (projection,)
 HSV = (hsv._to_rgb, hsv._less, double_double)
 LOGARITHM = (logarithm, double_double, polynomial.horner)
 CUBIC = (quintic.cubic, quintic.Quintic.refined, quintic.Quintic.residual, double_double)
+BARREL = (quintic, double_double)
 PIECES = {
     "gaussian.far_tail": Piece(far_bound, 0.6999, 37.5, 4000, TAIL),
     "gaussian.near_tail": Piece(near_bound, 0.0, 0.7, 200, TAIL),
@@ -204,6 +205,9 @@ PIECES = {
     "fold_radius, k2 = 0": Piece(counted.barrel_bound, 0.0, 1.0, 1, (distortion._fold_of_barrel,)),
     "logarithm.log_pair": Piece(counted.log_bound, 0.0, 0.1716, 200, LOGARITHM),
     "inverse_radius, k1 >= 0, k2 = 0": Piece(counted.pincushion_bound, 0.0, 1.0, 1, CUBIC),
+    "inverse_radius, k1 < 0, k2 = 0 (log2 of slope)": Piece(
+        counted.barrel_inverse_bound, -60.0, 0.0, 60, BARREL
+    ),
     "luminosity.efficiency": Piece(counted.curve_bound, 0.0, 1.0, 1, (luminosity.Curve.read,)),
     "projection.pixel, f x/(pitch z)": Piece(counted.term_bound, 0.0, 1.0, 1, PIXEL),
 }
