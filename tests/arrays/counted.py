@@ -178,3 +178,63 @@ def barrel_inverse_bound(exponent):
     steep = start * start / slope + start * 4 * UNIT / slope + residual / slope
     flat = residual.sqrt() + 2 * (6 * UNIT).sqrt() * start + SECOND
     return (steep if slope > arb(2) ** -12 else flat) + UNIT + SECOND
+
+
+def pmf_short_bound(_):
+    """Bound for Poisson probabilities by the definition, while they are normal.
+
+    Power and exponential are right to two of 2**-53 each; a factorial, a product and a quotient.
+    """
+    return 7 * UNIT + SECOND
+
+
+def pmf_long_bound(_):
+    """Bound for Poisson probabilities by the saddle point.
+
+    Behind the exponential (2) stand the root, its constant, their product and the quotient (4).
+    What Stirling's formula leaves is at most 1/11 and off by 4 units of that; its factor takes 2
+    more, a product of that size and a sum. An excess of at most 800 (beyond, nothing is left) is
+    a pair. For close arguments its series is off by less than what the logarithm's is, of which
+    at most 2 v/3 stands beside 1 in the excess. For others the excess is at least 0.0528 of the
+    count, which so is below 15152, and two logarithms below 10 are off by their own bound.
+    """
+    v = arb("0.1716")
+    series = log_bound(v)
+    close = 800 * (3 * series / v + 64 * UNIT * UNIT)
+    apart = arb(800) / arb("0.0528") * 20 * series
+    return 6 * UNIT + 7 * UNIT / 11 + UNIT + max(close, apart) + SECOND
+
+
+def summed_bound(count):
+    """Bound for the lower Poisson tail by sums, for a count up to 60 and for all beyond.
+
+    The ratio of neighbours is largest where the mean is the count; a step back to the first term
+    adds a product, a quotient and a sum. Beyond 60 a ratio is at most 2/3 and a count may round.
+    What is left out is below 2**-56. Then follow the probability, a product and the complement of
+    what is at most a half.
+    """
+    k = max(round(float(count.upper())), 1)
+    errors = [(4 * UNIT * arb(2) / 3 + UNIT) * 3]
+    for ratios in ([arb(k) / (k + 1 + j) for j in range(1, 400)],
+                   [arb(k - j + 1) / k for j in range(1, k + 1)]):  # fmt: skip
+        total, error = arb(1), arb(0)
+        for ratio in reversed(ratios):
+            before = ratio * total
+            total = 1 + before
+            error = before * (error + 2 * UNIT) / total + UNIT
+        errors.append(error)
+    return max(errors) + pmf_long_bound(None) + 2 * UNIT + arb(2) ** -56 + SECOND
+
+
+def fold_bound(_):
+    """Bound for the fold of two coefficients, from what stands in the root.
+
+    That is a difference of two numbers with two roundings each: next to one another they are
+    taken in pairs or by fractions, else the difference is an eighth of their sum at least. Half
+    of its error remains in its root, which stands beside numbers of its own sign, once rounded;
+    two roundings more, and half of all that in the last root. Powers of two are exact.
+    """
+    inside = 8 * 2 * UNIT + UNIT
+    falling = (inside / 2 + UNIT) + UNIT + UNIT
+    rising = (3 * UNIT / 2 + UNIT) + UNIT + 2 * UNIT
+    return max(falling, rising) / 2 + UNIT + SECOND

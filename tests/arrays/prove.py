@@ -34,6 +34,7 @@ from quizgen.arrays import (
     hsv,
     logarithm,
     luminosity,
+    poisson,
     polynomial,
     power,
     projection,
@@ -189,6 +190,9 @@ HSV = (hsv._to_rgb, hsv._less, double_double)
 LOGARITHM = (logarithm, double_double, polynomial.horner)
 CUBIC = (quintic.cubic, quintic.Quintic.refined, quintic.Quintic.residual, double_double)
 BARREL = (quintic, double_double)
+PROBABILITY = (poisson._density, poisson._stirling_error, poisson._pmf_short, *LOGARITHM, tables)
+SUMS = (poisson._by_sum, poisson._sum_up, poisson._sum_down, *PROBABILITY)
+FOLD = (quintic.Quintic.inside, quintic.Quintic.fold, distortion._fold, double_double)
 PIECES = {
     "gaussian.far_tail": Piece(far_bound, 0.6999, 37.5, 4000, TAIL),
     "gaussian.near_tail": Piece(near_bound, 0.0, 0.7, 200, TAIL),
@@ -203,11 +207,15 @@ PIECES = {
     "far_limit beyond (log2 of rest)": Piece(counted.long_limit_bound, -40.1, -0.5, 100, LIMIT),
     "distortion.distort": Piece(counted.distort_bound, 0.0, 1.0, 1, (distortion._distort,)),
     "fold_radius, k2 = 0": Piece(counted.barrel_bound, 0.0, 1.0, 1, (distortion._fold_of_barrel,)),
+    "fold_radius, both coefficients": Piece(counted.fold_bound, 0.0, 1.0, 1, FOLD),
     "logarithm.log_pair": Piece(counted.log_bound, 0.0, 0.1716, 200, LOGARITHM),
     "inverse_radius, k1 >= 0, k2 = 0": Piece(counted.pincushion_bound, 0.0, 1.0, 1, CUBIC),
     "inverse_radius, k1 < 0, k2 = 0 (log2 of slope)": Piece(
         counted.barrel_inverse_bound, -60.0, 0.0, 60, BARREL
     ),
+    "poisson.pmf by factorials": Piece(counted.pmf_short_bound, 0.0, 1.0, 1, PROBABILITY),
+    "poisson.pmf by the saddle point": Piece(counted.pmf_long_bound, 0.0, 1.0, 1, PROBABILITY),
+    "poisson.lower by sums": Piece(counted.summed_bound, 0.0, 60.0, 60, SUMS),
     "luminosity.efficiency": Piece(counted.curve_bound, 0.0, 1.0, 1, (luminosity.Curve.read,)),
     "projection.pixel, f x/(pitch z)": Piece(counted.term_bound, 0.0, 1.0, 1, PIXEL),
 }
