@@ -81,6 +81,7 @@ class Draw:
     elsewhere: Elsewhere = field(default_factory=Elsewhere)
     shown_values: Values = field(init=False, repr=False, compare=False)
     _texts: dict[str, str] = field(init=False, repr=False, compare=False, default_factory=dict)
+    _computed: dict[str, Value] = field(init=False, repr=False, compare=False, default_factory=dict)
 
     def __repr__(self) -> str:
         return f"<Draw of {self.template.id}, seed {self.seed}, slot {self.slot}>"
@@ -109,9 +110,10 @@ class Draw:
 
     def computed(self, formula: str) -> Value:
         """Value of a formula of ``template.toml`` over the quantities in shown units."""
-        with working_precision():
-            value: Value = self.plan.compiled(formula)(self.shown_values)
-        return value
+        if formula not in self._computed:
+            with working_precision():
+                self._computed[formula] = self.plan.compiled(formula)(self.shown_values)
+        return self._computed[formula]
 
     def steps(self, index: int) -> tuple[ChainStep, ...]:
         """The steps that lead to a part's answer, those that the template leaves out aside."""
@@ -164,7 +166,7 @@ def _first(plan: Plan, seed: str, slot: str) -> Draw:
     for attempt in range(MAX_TRIES):
         with working_precision():
             shown, words = plan.candidate(stem, attempt)
-        result = admissible(plan, shown)
+            result = admissible(plan, shown)
         if not isinstance(result, str):
             values, traps = result
             return Draw(template, seed, slot, attempt + 1, shown, words, values, traps)

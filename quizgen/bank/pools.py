@@ -9,8 +9,10 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Collection, Iterable, Mapping
+from functools import lru_cache
 from itertools import combinations
 from math import comb, prod
+from types import MappingProxyType
 from typing import Any
 
 import msgspec
@@ -44,6 +46,7 @@ def holds(drawn: Draw, condition: object) -> bool:
     return condition if isinstance(condition, bool) else bool(drawn.computed(str(condition)))
 
 
+@lru_cache(maxsize=128)
 def taken(drawn: Draw, index: int) -> Taken:
     """What a part shows in this draw; all that is listed where it has no pool.
 
@@ -65,7 +68,8 @@ def taken(drawn: Draw, index: int) -> Taken:
     return Taken(names, _some(drawn, index, strangers, answer.get("extra")))
 
 
-def claims(drawn: Draw) -> dict[int, str]:
+@lru_cache(maxsize=128)
+def claims(drawn: Draw) -> Mapping[int, str]:
     """Each part that asks a claim of the pool, and the claim; no claim comes twice.
 
     Whether a claim is true is drawn first, as a fair coin, then which one it is.
@@ -73,7 +77,7 @@ def claims(drawn: Draw) -> dict[int, str]:
     rules = drawn.template.rules
     parts = [index for index, part in enumerate(rules.part) if "from" in part.answer]
     if not parts:
-        return {}
+        return MappingProxyType({})
     key = _key(drawn, "claims")
     sides: dict[bool, list[str]] = {True: [], False: []}
     for name in _ranked(key, rules.claims):
@@ -81,10 +85,11 @@ def claims(drawn: Draw) -> dict[int, str]:
     wanted = [bool(pick(f"{key}/true/{place}", 2)) for place in range(len(parts))]
     if len(parts) >= MIXED and len(set(wanted)) == 1:
         wanted[pick(f"{key}/other", len(parts))] ^= True
-    return {
+    asked = {
         index: (sides[truth] or sides[not truth]).pop(0)
         for index, truth in zip(parts, wanted, strict=True)
     }
+    return MappingProxyType(asked)
 
 
 def variants(drawn: Draw) -> int:
