@@ -206,11 +206,10 @@ def _twin(
 
 
 def _close(a: tuple[float, ...], b: tuple[float, ...], widths: tuple[float, ...]) -> bool:
-    return all(map(_within, a, b, widths))
-
-
-def _within(x: float, y: float, width: float) -> bool:
-    return abs(x - y) <= width
+    for x, y, width in zip(a, b, widths, strict=True):  # noqa: SIM110 - asked for every draw
+        if not abs(x - y) <= width:
+            return False
+    return True
 
 
 def _same(a: tuple[float, ...], b: tuple[float, ...]) -> bool:

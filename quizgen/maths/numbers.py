@@ -92,12 +92,13 @@ def round_to(value: Value, decimals: int) -> fmpq:
         If a ball is too wide to tell the last digit.
     """
     scale = fmpq(10) ** decimals
-    if is_exact(value):
-        whole = fmpz((abs(value) * scale + fmpq(1, 2)).floor())
-    else:
-        whole = _nearest_to_ball(value, scale)
-    result = fmpq(whole) / scale
-    return -result if value < 0 else result
+    if not isinstance(value, fmpq):
+        whole = fmpq(_nearest_to_ball(value, scale)) / scale
+        return -whole if value < 0 else whole
+    top, bottom, times = int(value.p), int(value.q), 10 ** abs(decimals)
+    top, bottom = (top * times, bottom) if decimals >= 0 else (top, bottom * times)
+    nearest = (2 * abs(top) + bottom) // (2 * bottom)
+    return fmpq(-nearest if top < 0 else nearest) / scale
 
 
 @working_precision(WIDE)
@@ -116,6 +117,8 @@ def magnitude(value: Value) -> int:
     if not math.isfinite(number):
         raise MathError("too large to be written")
     guess = int(f"{number:e}".split("e")[1])  # may have been rounded up to a power of ten
+    if isinstance(value, fmpq):
+        return guess - 1 if abs(value) < fmpq(10) ** guess else guess
     with working_precision(WIDE):
         return guess - 1 if abs(value) < fmpq(10) ** guess else guess
 
@@ -127,9 +130,9 @@ def decimals_for(value: Value, figures: int) -> int:
 
 def places(value: fmpq | Fraction) -> int | None:
     """Decimal places of a terminating decimal, or None if it does not terminate."""
-    rest, twos, fives = int(value.denominator), 0, 0
-    while rest % 2 == 0:
-        rest, twos = rest // 2, twos + 1
+    rest, fives = int(value.denominator), 0
+    twos = (rest & -rest).bit_length() - 1
+    rest >>= twos
     while rest % 5 == 0:
         rest, fives = rest // 5, fives + 1
     return max(twos, fives) if rest == 1 else None
@@ -140,17 +143,18 @@ def decimal_text(value: fmpq, decimals: int | None = None, *, minus: str = MINUS
     count = places(value) if decimals is None else decimals
     if count is None:
         raise ValueError("this rational has no finite decimal form")
-    scaled = abs(value) * fmpq(10) ** count
-    digits = str(int(scaled.p)).rjust(count + 1, "0")
+    top, bottom = int(value.p), int(value.q)
+    digits = str(abs(top) * 10**count // bottom).rjust(count + 1, "0")
     whole, part = (digits[:-count], digits[-count:]) if count else (digits, "")
-    sign = minus if value < 0 else ""
+    sign = minus if top < 0 else ""
     return f"{sign}{whole}.{part}" if part else f"{sign}{whole}"
 
 
 def fraction_text(value: fmpq, *, minus: str = MINUS) -> str:
     """Write a rational as ``p/q``."""
-    sign = minus if value < 0 else ""
-    return f"{sign}{abs(int(value.p))}/{int(value.q)}"
+    top = int(value.p)
+    sign = minus if top < 0 else ""
+    return f"{sign}{abs(top)}/{int(value.q)}"
 
 
 def short_decimal(value: Value) -> bool:

@@ -70,8 +70,9 @@ class working_precision:  # noqa: N801 - reads as a statement
 
     def __enter__(self) -> None:
         _LOCK.acquire()
-        _OUTER.append(ctx.prec)
-        if _OUTER[-1] != self.bits:  # setting it costs ten times as much as reading it
+        outer = ctx.prec
+        _OUTER.append(outer)
+        if outer != self.bits:  # setting it costs ten times as much as reading it
             ctx.prec = self.bits
 
     def __exit__(self, *_error: object) -> None:
