@@ -105,14 +105,21 @@ def fitted(strokes: Sequence[Stroke], wanted: Mapping[str, Stroke]) -> dict[str,
     for stroke in strokes:
         for piece in pieces(stroke):
             points = resampled(piece, max(STEP, length / MOST_SAMPLES))
-            costs = {
-                name: line.cost([*points[::COARSE], points[-1]]) for name, line in lines.items()
-            }
-            name = min(costs, key=lambda one: costs[one])
-            if costs[name] < math.inf:
+            name = _likest([*points[::COARSE], points[-1]], lines)
+            if name is not None:
                 found.setdefault(name, []).extend(points)
     fits = {name: fit(points, Frame.of(wanted[name])) for name, points in found.items()}
     return {name: one for name, one in fits.items() if one is not None}
+
+
+def _likest(points: Sequence[Point], lines: Mapping[str, _Line]) -> str | None:
+    """The line that a piece of a stroke is taken for, the first of several; None if it is none."""
+    least, found = math.inf, None
+    for name, line in lines.items():
+        cost = line.cost(points, least)
+        if cost < least:
+            least, found = cost, name
+    return found
 
 
 def pieces(stroke: Stroke) -> Iterator[Stroke]:
@@ -149,12 +156,20 @@ class _Line:
             if (run := math.dist(a, b))
         ]
 
-    def cost(self, points: Sequence[Point]) -> float:
-        """How unlike the line a piece of a stroke is; infinite if it is not it."""
-        found = [self._nearest(point) for point in points]
-        off = sum(distance for distance, _ in found) / len(found)
-        turned = self._turned(points, [way for _, way in found])
-        return off + TURN_COSTS * turned if off < REACH and turned < TURNED else math.inf
+    def cost(self, points: Sequence[Point], most: float) -> float:
+        """How unlike the line a piece of a stroke is; infinite if it is not it, or not below most.
+
+        Distances only add up, so a line that lies elsewhere is known by its first points.
+        """
+        far, ways, limit, count = 0.0, [], min(REACH, most), len(points)
+        for point in points:
+            distance, way = self._nearest(point)
+            far += distance
+            if far / count >= limit:
+                return math.inf
+            ways.append(way)
+        turned = self._turned(points, ways)
+        return far / count + TURN_COSTS * turned if turned < TURNED else math.inf
 
     def _nearest(self, point: Point) -> tuple[float, Point]:
         """Distance to the line, and its direction there."""
