@@ -21,7 +21,7 @@ import msgspec
 from quizgen.errors import MathError
 from quizgen.maths import logic
 from quizgen.maths.operators import CONDITIONS, OPERATORS
-from quizgen.maths.tree import Call, Expr, Num, Sym
+from quizgen.maths.tree import Call, Expr, Num, Sym, operators
 from quizgen.maths.values import AnyNumber
 
 Env: TypeAlias = Mapping[str, AnyNumber]
@@ -144,7 +144,7 @@ def _compile_piecewise(expr: Call, system: NumberSystem) -> Compiled:
 
 def taken_branch(expr: Expr, env: Env, system: NumberSystem) -> Expr:
     """Replace each ``piecewise`` by the branch that applies, for showing one worked line."""
-    if not isinstance(expr, Call):
+    if not isinstance(expr, Call) or "piecewise" not in operators(expr):
         return expr
     if expr.op != "piecewise":
         return Call(expr.op, tuple(taken_branch(arg, env, system) for arg in expr.args))

@@ -69,6 +69,17 @@ def names(expr: Expr) -> frozenset[str]:
     return frozenset(found)
 
 
+def operators(expr: Expr) -> frozenset[str]:
+    """Names of the operators that occur in a tree."""
+    found, todo = set[str](), [expr]
+    while todo:
+        node = todo.pop()
+        if isinstance(node, Call):
+            found.add(node.op)
+            todo += node.args
+    return frozenset(found)
+
+
 def substitute(expr: Expr, values: Mapping[str, Expr]) -> Expr:
     """Replace named quantities by other trees."""
     if isinstance(expr, Sym):
@@ -78,4 +89,4 @@ def substitute(expr: Expr, values: Mapping[str, Expr]) -> Expr:
     return expr
 
 
-__all__ = ["Call", "Expr", "Num", "Sym", "names", "number", "substitute", "walk"]
+__all__ = ["Call", "Expr", "Num", "Sym", "names", "number", "operators", "substitute", "walk"]

@@ -204,20 +204,21 @@ def branch(drawn: Draw, expr: Expr) -> Expr:
         return taken_branch(expr, drawn.values, exact())
 
 
-def wrong_ways(drawn: Draw, step: ChainStep, known: frozenset[str]) -> list[Way]:
+@lru_cache(maxsize=128)
+def wrong_ways(drawn: Draw, step: ChainStep, known: frozenset[str]) -> tuple[Way, ...]:
     """The formulas of the step's mistakes that give another value, each once, in a drawn order."""
     right = right_way(drawn, step, known)
     found = {right.shown.typed: right}
     for trap, expr in _wrong(drawn, step):
-        shown = formula(drawn, step, branch(drawn, expr), known)
-        value = value_of(drawn, expr)
+        value, taken = value_of(drawn, expr), branch(drawn, expr)
         if value is None or only_units(expr, step.expr) or same_value(value, right.value):
             continue
-        if tells(drawn, step.name, branch(drawn, expr)):
+        if tells(drawn, step.name, taken):
             continue
+        shown = formula(drawn, step, taken, known)
         found.setdefault(shown.typed, Way(trap, shown, value))
     ways = [way for way in found.values() if way.trap]
-    return shuffled(f"{key_of(drawn)}/{step.name}/ways", ways)
+    return tuple(shuffled(f"{key_of(drawn)}/{step.name}/ways", ways))
 
 
 def labels(drawn: Draw, count: int) -> list[str]:
@@ -246,10 +247,9 @@ def _wrong(drawn: Draw, step: ChainStep) -> Iterator[tuple[str, Expr]]:
     """The mistakes of a step that have a sentence in every language."""
     template = drawn.template
     for trap, steps in template.chain.traps.items():
-        known = told(drawn, "traps", trap) and trap not in template.rules.drop
-        for wrong in steps:
-            if wrong.name == step.name and known:
-                yield trap, wrong.expr
+        wrong = [one.expr for one in steps if one.name == step.name]
+        if wrong and trap not in template.rules.drop and told(drawn, "traps", trap):
+            yield from ((trap, expr) for expr in wrong)
 
 
 def only_units(wrong: Expr, right: Expr) -> bool:
