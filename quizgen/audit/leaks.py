@@ -12,7 +12,6 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import permutations
 
 from quizgen.bank.draw import Draw
 from quizgen.bank.folder import Bank
@@ -84,6 +83,11 @@ class Said:
         return [(sentence, _words(sentence)) for sentence in self.sentences]
 
     @cached_property
+    def lines(self) -> list[tuple[str, str]]:
+        """Each sentence, and how it is searched for words."""
+        return [(sentence, f" {sentence.casefold()}") for sentence in self.sentences]
+
+    @cached_property
     def vocabulary(self) -> frozenset[str]:
         """Words of all sentences."""
         return frozenset[str]().union(*(words for _, words in self.words))
@@ -99,6 +103,18 @@ class Secret:
     sentences: tuple[tuple[str, str], ...]
     points: text.Spec | None
     steps: tuple[str, ...]
+
+    @property
+    def any(self) -> bool:
+        """Whether there is anything that could be told."""
+        return bool(self.formulas or self.numbers or self.words or self.named or self.steps)
+
+    @cached_property
+    def named(self) -> dict[str, list[str]]:
+        """Key points with the words that name each; none if they are too few to tell them."""
+        points = self.points.groups() if self.points else {}
+        named = {name: [f" {t.casefold()}" for t in terms] for name, terms in points.items()}
+        return named if len(named) >= POINTS else {}
 
     @cached_property
     def words(self) -> list[tuple[str, frozenset[str], frozenset[str]]]:
@@ -131,14 +147,16 @@ def told(bank: Bank, questions: Sequence[Heard]) -> dict[Leak, str]:
     Those of which one names the other in ``apart`` never stand in one paper.
     """
     found: dict[Leak, str] = {}
-    for asker, teller in permutations(questions, 2):
-        if teller.lang != asker.lang:
-            continue
-        what = [(one, said) for one in asker.secrets for said in _told(one, teller.said)]
-        names = teller.template, asker.template
-        if what and not apart(bank, *names):
-            for secret, said in what:
-                found.setdefault(Leak(*names, secret.label, said), teller.lang)
+    for asker in questions:
+        asked = [one for one in asker.secrets if one.any]
+        for teller in questions if asked else ():
+            if teller is asker or teller.lang != asker.lang:
+                continue
+            what = [(one, said) for one in asked for said in _told(one, teller.said)]
+            names = teller.template, asker.template
+            if what and not apart(bank, *names):
+                for secret, said in what:
+                    found.setdefault(Leak(*names, secret.label, said), teller.lang)
     return found
 
 
@@ -158,7 +176,7 @@ def leaks(paper: Paper) -> list[Leak]:
 
 
 def _told(secret: Secret, other: Said) -> Iterator[str]:
-    if secret.formulas and other.formulas:
+    if not secret.formulas.keys().isdisjoint(other.formulas):
         for form in secret.formulas.keys() & other.formulas.keys():
             yield f"formula {secret.formulas[form]} in ${other.formulas[form]}$"
     if secret.numbers:
@@ -168,20 +186,18 @@ def _told(secret: Secret, other: Said) -> Iterator[str]:
             for line, others in other.words:
                 if needed <= others and len(words & others) >= SAME * len(words):
                     yield f"'{sentence}' in {line!r}"
-    if secret.points:
-        yield from _named_points(secret.points, other)
+    if secret.named:
+        yield from _named_points(secret.named, other)
     places = [other.sentences.index(step) for step in secret.steps if step in other.sentences]
     if len(places) > 1 and places == sorted(places):
         yield f"order of {len(places)} steps"
 
 
-def _named_points(spec: text.Spec, other: Said) -> Iterator[str]:
+def _named_points(named: Mapping[str, Sequence[str]], other: Said) -> Iterator[str]:
     """Sentences that name several key points, and most of them."""
-    groups = {name: [f" {t.casefold()}" for t in terms] for name, terms in spec.groups().items()}
-    for sentence in other.sentences if len(groups) >= POINTS else ():
-        line = f" {sentence.casefold()}"
-        found = [name for name, terms in groups.items() if any(term in line for term in terms)]
-        if len(found) >= POINTS and 2 * len(found) > len(groups):
+    for sentence, line in other.lines:
+        found = [name for name, terms in named.items() if any(term in line for term in terms)]
+        if len(found) >= POINTS and 2 * len(found) > len(named):
             yield f"key points {', '.join(found)} in {sentence!r}"
 
 

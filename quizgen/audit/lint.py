@@ -13,7 +13,7 @@ from __future__ import annotations
 import re
 import time
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -30,7 +30,7 @@ from quizgen.bank.traps import answer_names
 from quizgen.errors import QuizgenError
 from quizgen.locale import language, numbers_in
 from quizgen.marking.mark import mark, show
-from quizgen.marking.specs import AnySpec
+from quizgen.marking.specs import AnySpec, Common
 from quizgen.maths.numbers import to_float
 from quizgen.question.compose import Key, Question, identity, put_into_words
 from quizgen.question.contract import Built
@@ -281,19 +281,26 @@ def marking_problems(one: Draw) -> list[str]:
 def _marked(one: Draw, part: Built[AnySpec], label: str) -> Iterator[str]:
     """What is typed alike in several languages is marked once: a verdict knows no language."""
     seen = set[tuple[str, str]]()
-    for lang in one.template.languages:
+    langs = one.template.languages
+    ways = {"": part.spec, **part.mistakes}
+    typed = {trap: _typed(spec, langs) for trap, spec in ways.items()}
+    for lang in langs:
         where = f"seed {one.seed}, {lang}, part {label or '1'}"
-        for trap, spec in (("", part.spec), *part.mistakes.items()):
-            typed = _typed(spec, lang)
-            if (trap, typed) not in seen:
-                seen.add((trap, typed))
-                yield from _problems(part.spec, trap, typed, where, lang)
+        for trap in ways:
+            text = typed[trap][lang]
+            if (trap, text) not in seen:
+                seen.add((trap, text))
+                yield from _problems(part.spec, trap, text, where, lang)
 
 
-def _typed(spec: AnySpec, lang: str) -> str:
-    """The key as it is printed in a language; what stands there as program text is in none."""
-    shown = show(spec, lang)
-    return shown if spec.kind in VERBATIM else numbers_in(lang, shown)
+def _typed(spec: AnySpec, langs: Sequence[str]) -> dict[str, str]:
+    """The key as it is printed in each language; what stands there as program text is in none."""
+    first = show(spec, langs[0])
+    own = type(spec).show_in is not Common.show_in
+    shown = {lang: show(spec, lang) if own else first for lang in langs}
+    if spec.kind in VERBATIM:
+        return shown
+    return {lang: numbers_in(lang, text) for lang, text in shown.items()}
 
 
 def level_problems(one: Draw) -> list[str]:
@@ -306,7 +313,7 @@ def level_problems(one: Draw) -> list[str]:
         for part in asked[0].parts:
             where = f"seed {one.seed}, {name}, part {part.label or '1'}"
             lang = asked[0].solution.lang
-            typed = [("", _typed(part.spec, lang))]
+            typed = [("", _typed(part.spec, [lang])[lang])]
             mistakes = in_notation(lang, part.solved).mistakes  # of a drawing they are only told
             typed += [(mistake.name, mistake.value) for mistake in mistakes if mistake.value]
             found += [
