@@ -1,5 +1,6 @@
 """``python -m quizgen`` and the command ``quizgen``."""
 
+import atexit
 import gc
 import os
 import sys
@@ -14,6 +15,7 @@ def main() -> None:
     # time in which NumPy is loaded.
     os.environ.setdefault(ALGEBRA, "1")
     gc.set_threshold(100_000)  # what is loaded stays: to look through it took a tenth of a paper
+    atexit.register(gc.freeze)  # and goes with the process: to look through it took half a second
     try:
         from quizgen.cli.main import main as run
     except KeyboardInterrupt:
