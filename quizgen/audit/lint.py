@@ -188,6 +188,8 @@ def _constant(template: Template, report: Report) -> Iterator[str]:
 
 def _language_problems(template: Template, langs: tuple[str, ...]) -> list[str]:
     problems = [f"no {lang}.md" for lang in langs if lang not in template.texts]
+    if not template.texts:
+        return problems or ["is written in no language"]
     for lang in template.texts:
         problems += [f"{lang}.md: {p}" for p in _missing(template, lang)]
     problems += _unequal_slots(template)

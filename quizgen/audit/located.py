@@ -9,11 +9,13 @@ from pathlib import Path
 from typing import NamedTuple
 
 from quizgen.audit.decks import card_problems
+from quizgen.audit.lacking import lacking
 from quizgen.audit.leaks import Heard, told
-from quizgen.bank.folder import LOCALE, Bank
+from quizgen.bank.folder import LOCALE, SOLVERS, Bank
 from quizgen.errors import QuizgenError
 from quizgen.locale import amiss
 from quizgen.locale.brought import TAG
+from quizgen.outside import read_text
 
 ADVICE = {
     r"^no \w+\.md": "write it, or leave the language out of languages in bank.toml",
@@ -54,7 +56,7 @@ ADVICE = {
     "unknown unit": "use a listed one, or define it in units of bank.toml",
     "is not in bank.toml": "write it under [topics] there, or use one of these",
     "is of no template": "run python -m quizgen.cards.renew, with the folder of the bank",
-    r"entry '.* is missing": "write it",
+    r"the key .* is missing|entry '.* is missing": "write it",
     "is not a drawn quantity": "use a name of [draw] or of the solver's steps",
     "draw lacks": "write a line for it under [draw]",
     "unknown to the solver": "use the name of one of its steps",
@@ -80,15 +82,28 @@ ADVICE = {
     "NameError": "declare it with symbols(...) above, or mend its name",
     "SyntaxError": "mend the line",
     "AttributeError": "mend the name behind the dot",
+    "RecursionError": "let the function end, or write the formula without it",
+    "SystemExit": "leave out what ends the program",
+    r"\w+(?:Error|Exception): ": "mend the line; what is imported there must not fail",
+    r"step .*: no formula for": "use +, -, *, /, powers and functions that students can type",
+    "is written in no language": "write en.md, or the file of another language",
+    "share the name": "rename the folder of one of them",
+    r"topic .* has no template": "write one, or delete the line",
+    "there is no template.toml": "write it, or mend the name of the file",
+    "the bank has no template": "write one with quizgen new template TOPIC/NAME",
     "is not valid TOML|not valid TOML": "mend the line; texts stand in quotes, lists in brackets",
     r"mathematics \$|formula ": "write it as students type it: 2*f*X/Z, x^2, sqrt(x)",
+    r"column \d+: ": 'write a number, such as 0.01 or "1/200"',
+    "must not be negative": "write how far an answer may be off",
+    "is too large or too small": "write it in another unit",
+    "only one of decimals": "keep one of them",
 }
 """Pattern of a problem to what an author can do about it; the first that fits is said."""
 
 QUOTED = 30
 """Letters of a sentence by which its line is found."""
 _KEY = re.compile(r"([\w.'-]+?)(?:\.(?:range|pick|skip|unit|min|max|multiple|decimals))?: ")
-_SPOKEN = re.compile(r"; did you mean|allowed: |--trust|is expected$|see docs")
+_SPOKEN = re.compile(r"; did you mean|allowed: |--trust|is expected$|see docs|--debug")
 """A problem that names its mend itself."""
 
 
@@ -135,7 +150,7 @@ def _place(bank: Bank, name: str, said: str) -> tuple[Path, int | None, str]:
     """The innermost file that a text begins with, its line, and the rest of the text."""
     folder = bank.paths[name] if name else bank.folder
     file, line = (folder / "template.toml") if name else bank.folder / "bank.toml", None
-    prefix = re.compile(rf"({re.escape(str(bank.root))}(?:/[^:]*?)?)(?::(\d+))?: ")
+    prefix = re.compile(rf"({_within(bank.root)})(?::(\d+))?: ")
     while match := prefix.match(said):
         if Path(match[1]).suffix:
             file, line = Path(match[1]), int(match[2]) if match[2] else None
@@ -148,6 +163,13 @@ def _place(bank: Bank, name: str, said: str) -> tuple[Path, int | None, str]:
     return file, line, said
 
 
+def _within(root: Path) -> str:
+    """Pattern of a place in a bank, as errors write it, also for who stands in the bank."""
+    if root == Path():
+        return rf"\.|(?:templates|{SOLVERS})(?:/[^:]*?)?"
+    return rf"{re.escape(str(root))}(?:/[^:]*?)?"
+
+
 def _solver(bank: Bank, name: str) -> Path:
     return bank.root / "solvers" / f"{bank.rules(name).solver}.py"
 
@@ -155,8 +177,8 @@ def _solver(bank: Bank, name: str) -> Path:
 def _line(file: Path, what: str) -> int | None:
     """The line that a text speaks of, counted from 1."""
     try:
-        lines = file.read_text("utf-8").splitlines()
-    except (OSError, UnicodeDecodeError):
+        lines = read_text(file, QuizgenError).splitlines()
+    except QuizgenError:
         return None
     kinds: dict[str, Callable[[str], Iterator[str]]] = {
         ".toml": _in_toml,
@@ -208,6 +230,8 @@ def _in_words(what: str) -> Iterator[str]:
         yield re.escape(shown[1])
     if quoted := re.search(r" in '(.+)'$", what):
         yield re.escape(quoted[1][:QUOTED])
+    if what.startswith("the first line"):
+        yield ""
     if "double braces" in what:
         yield r"\{\{(?!\s*[^{}]*\}\})"
 
@@ -242,6 +266,6 @@ def bank_problems(bank: Bank) -> Iterator[Problem]:
             yield located(bank, "", str(error))
     yield from (located(bank, "", said) for said in amiss(bank.folder / LOCALE))
     try:
-        yield from (located(bank, "", said) for said in card_problems(bank))
+        yield from (located(bank, "", said) for said in (*lacking(bank), *card_problems(bank)))
     except QuizgenError as error:
         yield located(bank, "", str(error))

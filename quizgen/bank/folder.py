@@ -202,11 +202,13 @@ class Bank:
             path for path in self.folder.glob("**/template.toml")
             if path.parent not in {self.folder / name for name in _BESIDE}
         )  # fmt: skip
-        names = [named(path.parent.name, f"{self.root}: template", BankError) for path in found]
-        twins = {name for name in names if names.count(name) > 1}
-        if twins:
-            raise BankError(f"{self.root}: two templates share the name {min(twins)!r}")
-        return {path.parent.name: path.parent for path in found}
+        named_so: dict[str, Path] = {}
+        for folder in (path.parent for path in found):
+            name = named(folder.name, f"{self.root}: template", BankError)
+            if other := named_so.get(name):
+                raise BankError(f"{folder}: two templates share the name {name!r}: also {other}")
+            named_so[name] = folder
+        return named_so
 
     def afresh(self) -> Bank:
         """The same bank, its files and solvers read again."""

@@ -173,8 +173,9 @@ def authored(file: Path) -> Iterator[None]:
     except BankError as error:
         raise BankError(f"{file}: {error}") from error
     except (Exception, SystemExit) as error:  # an author's Python may raise anything
+        whole = file.resolve()  # as Python names it, wherever one stands
         lines = [at.lineno for at in traceback.extract_tb(error.__traceback__)
-                 if Path(at.filename) == file]  # fmt: skip
+                 if Path(at.filename).resolve() == whole]  # fmt: skip
         number = getattr(error, "lineno", None) if isinstance(error, SyntaxError) else None
         number = number or (lines[-1] if lines else None)
         place = f"{file}:{number}" if number else f"{file}"

@@ -31,6 +31,8 @@ from quizgen.outside import parse_toml, read_text
 from quizgen.shapes import converted
 
 PART_LABELS = "abcdefghij"
+QUOTED = 60
+"""Letters of a formula by which an author knows it."""
 _RULES = Compiled("rules", Rules)
 
 
@@ -140,11 +142,16 @@ class Template:
         try:
             expr = parse(text, symbols=tuple(self.units))
         except FormulaError as error:
-            raise BankError(f"{self.file}: formula {text!r}: {error}") from error
+            raise BankError(f"{self.file}: formula {_quoted(text)}: {error}") from error
         unknown = names(expr) - set(self.units)
         if unknown:
-            raise BankError(f"{self.file}: formula {text!r} uses unknown {sorted(unknown)}")
+            raise BankError(f"{self.file}: formula {_quoted(text)} uses unknown {sorted(unknown)}")
         return expr
+
+
+def _quoted(formula: str) -> str:
+    """A formula for a message, as much of it as tells which one it is."""
+    return repr(formula if len(formula) <= QUOTED else f"{formula[:QUOTED]}...")
 
 
 def read_rules(path: Path) -> Rules:

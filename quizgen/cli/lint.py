@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 import traceback
+from contextlib import redirect_stdout
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Unpack
@@ -211,7 +212,8 @@ def _examined(
     from quizgen.bank.formulas import missing_formulas, unnamed_formulas
 
     try:
-        report = lint_template(bank.template(name), seeds, bank.languages)
+        with redirect_stdout(sys.stderr):  # an author's Python may print, and not into our JSON
+            report = lint_template(bank.template(name), seeds, bank.languages)
         report.problems += [
             f"the solver names formula {formula!r}, which templates/cards/formulas.toml lacks"
             for formula in missing_formulas(bank, name)

@@ -40,7 +40,11 @@ def new() -> None:
 def bank(folder: Path, langs: tuple[str, ...]) -> None:
     """Write a bank with one question into FOLDER."""
     name = folder.resolve().name
-    _must_be_name(name)
+    if not is_name(name):
+        raise BankError(
+            f"{name!r} is no name for a bank (allowed: {NAMES}); make it in a folder that has one,"
+            " and call the folder as you like afterwards"
+        )
     _write(folder, new_bank(name, langs))
     _next(folder, FIRST[1])
 

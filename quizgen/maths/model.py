@@ -92,7 +92,10 @@ class Model:
 def _convert(step: Step) -> ChainStep:
     from quizgen.maths.from_sympy import convert
 
-    return ChainStep(step.symbol.name, convert(step.expr), step.unit)
+    try:
+        return ChainStep(step.symbol.name, convert(step.expr), step.unit)
+    except BankError as error:
+        raise BankError(f"step {step.symbol.name!r}: {error}") from error
 
 
 def _check_order(

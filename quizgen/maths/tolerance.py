@@ -66,9 +66,11 @@ class Tolerance(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
             raise ValueError(f"decimals must be 0 to {MOST_DIGITS}")
         if self.sigfigs is not None and not 1 <= self.sigfigs <= MOST_DIGITS:
             raise ValueError(f"sigfigs must be 1 to {MOST_DIGITS}")
-        for value in (self.rel, self.abs, self.within, *(self.accept or ())):
-            if value is not None:
-                exact_value(value)
+        for bound in self.accept or ():
+            exact_value(bound)
+        for name, width in (("rel", self.rel), ("abs", self.abs), ("within", self.within)):
+            if width is not None and exact_value(width) < 0:
+                raise ValueError(f"{name} must not be negative")
 
     def numbers(self) -> tuple[Scalar | None, ...]:
         """What was given for each rule, in the order of ``RULES``."""

@@ -138,7 +138,8 @@ def load_blueprint(name_or_file: str, bank: Bank | None = None) -> Blueprint:
     if not _is_there(path):
         names = ", ".join(bank.blueprints) or "none"
         raise BlueprintError(
-            f"no blueprint {name_or_file!r} (the bank has: {names}; or the path of a TOML file)"
+            f"no blueprint {name_or_file!r} (the bank has: {names}; or the path of a TOML file;"
+            " --topic needs none)"
         )
     return _read(path)
 

@@ -145,8 +145,10 @@ def _timed(bank: Bank, blueprint: Blueprint, seed: int | str) -> list[str]:
                 used += minutes_of(rules[best])
         if len(chosen) == before:
             break
+    if not open_names:
+        raise BlueprintError(f"there is no question of topic {blueprint.topic!r} to choose from")
     if not chosen:
-        shortest = working_time(min((minutes_of(rules[n]) for n in open_names), default=0))
+        shortest = working_time(min(minutes_of(rules[n]) for n in open_names))
         raise BlueprintError(
             f"no question of topic {blueprint.topic!r} fits the time"
             f" (the shortest takes {shortest} min)"

@@ -55,6 +55,10 @@ def sound() -> dict[str, str]:
 def spoilt(root: Path, row: dict[str, str]) -> Path:
     """The bank with one mistake; cards, which have topics too, where it is about them."""
     files = sound() | ({CARDS: CARD} if row["file"] == CARDS else {})
+    if "rename" in row:
+        write(root, files)
+        (root / row["file"]).rename(root / row["rename"])
+        return root
     assert row["find"] in files[row["file"]], row["what"]
     text = files[row["file"]].replace(row["find"], row["write"])
     return write(root, {**files, row["file"]: text})

@@ -14,6 +14,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 from author_mistakes import CARD, CARDS, PAGE, ROWS, page, sound, spoilt, write
 
 from quizgen.cli.lint import lint
+from quizgen.errors import BankError
 
 
 def run(root: Path, *more: str, seeds: int = 20):
@@ -37,12 +38,51 @@ def test_a_mistake_gets_one_located_message_that_names_the_mend(tmp_path, row):
 
 
 def test_there_are_enough_of_them():
-    assert len(ROWS) >= 75
+    assert len(ROWS) >= 90
     assert len({row["what"] for row in ROWS}) == len(ROWS)
 
 
 def test_the_page_is_up_to_date():
     assert PAGE.read_text("utf-8") == page()
+
+
+PLACED = ("A letter of the solver is not declared", "No points", "A gap has no solution")
+"""Mistakes in a solver, in rules and in words."""
+
+
+@pytest.mark.parametrize("what", PLACED)
+@pytest.mark.parametrize("bank", [".", "physics", "../here/physics"])
+def test_the_place_is_the_same_wherever_one_stands(tmp_path, monkeypatch, bank, what):
+    row = next(row for row in ROWS if row["what"] == what)
+    root = spoilt(tmp_path / "here" / "physics", row)
+    monkeypatch.chdir(root if bank == "." else root.parent)
+    template = row["file"].split("/")[2]
+    only = ("--only", template if row["file"].startswith("templates") else "push")
+    before = "" if bank == "." else f"{bank}/"
+    assert run(Path(bank), *only).stderr.splitlines() == [before + row["says"]]
+
+
+def test_what_a_solver_prints_is_no_json(tmp_path):
+    file = "solvers/forces/newton.py"
+    root = write(tmp_path, {**sound(), file: "print('hello')\n" + sound()[file].lstrip()})
+    done = run(root, "--json", "--only", "push")
+    assert (done.exit_code, done.stdout, done.stderr) == (0, "", "hello\n")
+
+
+def test_templates_of_one_name_are_both_named(tmp_path):
+    files = sound()
+    twin = {f"templates/other/push/{name}": files[f"templates/forces/push/{name}"]
+            for name in ("template.toml", "en.md")}  # fmt: skip
+    root = write(tmp_path, {**files, **twin})
+    with pytest.raises(BankError, match=r"other/push: .*'push': also .*forces/push"):
+        run(root)
+
+
+def test_a_bank_without_a_question_says_so(tmp_path):
+    (tmp_path / "templates").mkdir()
+    done = run(tmp_path)
+    assert done.exit_code == 1
+    assert "the bank has no template; write one with quizgen new template" in done.stderr
 
 
 def test_editors_get_the_place_as_json(tmp_path):
