@@ -59,12 +59,20 @@ def missing_formulas(bank: Bank, name: str) -> list[str]:
 
 def unnamed_formulas(bank: Bank, name: str) -> dict[str, list[str]]:
     """Steps of a template's solver that have the form of formulas of the bank, and name none."""
-    chain, known = bank.template(name).chain, dict[Expr, list[str]]()
+    chain = bank.template(name).chain
     steps = {step.name: _form(step.expr) for step in chain.steps if step.name not in chain.formulas}
-    for entry in formulas(bank) if steps else ():
+    known = _forms(bank) if steps else {}
+    return {step: known[form] for step, form in steps.items() if form in known}
+
+
+@cache
+def _forms(bank: Bank) -> dict[Expr, list[str]]:
+    """Each form that is rare enough, with the formulas that have it."""
+    found = dict[Expr, set[str]]()
+    for entry in formulas(bank):
         for expr in filter(_tells, _right_sides(entry)):
-            known.setdefault(_form(expr), []).append(entry.id)
-    return {step: sorted({*known[form]}) for step, form in steps.items() if form in known}
+            found.setdefault(_form(expr), set()).add(entry.id)
+    return {form: sorted(ids) for form, ids in found.items()}
 
 
 def _right_sides(entry: FormulaEntry) -> Iterator[Expr]:
