@@ -88,6 +88,11 @@ class Said:
         return [(sentence, f" {sentence.casefold()}") for sentence in self.sentences]
 
     @cached_property
+    def text(self) -> str:
+        """All of it, to be searched at once."""
+        return "\n".join(line for _, line in self.lines)
+
+    @cached_property
     def vocabulary(self) -> frozenset[str]:
         """Words of all sentences."""
         return frozenset[str]().union(*(words for _, words in self.words))
@@ -195,8 +200,9 @@ def _told(secret: Secret, other: Said) -> Iterator[str]:
 
 def _named_points(named: Mapping[str, Sequence[str]], other: Said) -> Iterator[str]:
     """Sentences that name several key points, and most of them."""
-    for sentence, line in other.lines:
-        found = [name for name, terms in named.items() if any(term in line for term in terms)]
+    there = [name for name, terms in named.items() if any(term in other.text for term in terms)]
+    for sentence, line in other.lines if len(there) >= POINTS else ():
+        found = [name for name in there if any(term in line for term in named[name])]
         if len(found) >= POINTS and 2 * len(found) > len(named):
             yield f"key points {', '.join(found)} in {sentence!r}"
 
