@@ -56,11 +56,10 @@ def figure_words(one: Draw, lang: str, *, quiz: bool, drawn: bool = True) -> str
     drawn : bool
         Whether to draw it, for its labels.
     """
-    said = [described(one, lang, quiz=quiz) or ""]
-    if drawn and one.template.figure:
-        figure = pictured(one, lang, quiz=quiz)
-        said += [label.text for label in figure.canvas.labels] if figure else []
-    return " ; ".join(said)
+    figure = pictured(one, lang, quiz=quiz) if drawn and one.template.figure else None
+    if figure is None:
+        return described(one, lang, quiz=quiz) or ""
+    return " ; ".join([figure.alt, *(label.text for label in figure.canvas.labels)])
 
 
 def _numbers(text: str) -> Iterator[str]:

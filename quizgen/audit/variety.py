@@ -70,10 +70,12 @@ class Seen:
         if self.kind == "choice" and len(right) != 1:
             build(drawn, index)  # says what is wrong
         self.answers["+".join(sorted(right))] += 1
-        self.shown.update(names)
-        self.right.update(right)
         self.most = max(self.most, len(names))
-        self.places.update(place for place, name in enumerate(names, 1) if name in right)
+        for place, name in enumerate(names, 1):
+            self.shown[name] += 1
+            if name in right:
+                self.right[name] += 1
+                self.places[place] += 1
         for filler in fillers:
             lengths = {name: self._length(filler, name) for name in names}
             self.longest[filler.lang] += _longest(lengths) in right
