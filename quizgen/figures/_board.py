@@ -11,7 +11,7 @@ import msgspec
 
 from quizgen.figures._figure import Figure
 from quizgen.figures._numbers import given
-from quizgen.locale import table
+from quizgen.locale import numbers_in, table
 from quizgen.maths.notation.people import name
 
 if TYPE_CHECKING:
@@ -97,7 +97,8 @@ class Drawing(msgspec.Struct, frozen=True):
         if board.marks:
             marks = "; ".join(f"{name(label)} {_point(point)}" for label, point in board.marks)
             told += words["marks"].format(marks)
-        return told + (words["wanted"].format(_lines(self.lines)) if self.lines else "")
+        told += words["wanted"].format(_lines(self.lines)) if self.lines else ""
+        return numbers_in(self.lang, told)
 
 
 @lru_cache(maxsize=256)
@@ -120,7 +121,7 @@ def _figure(drawing: Drawing) -> Figure:
         pen.label((x + 3, y + LABEL * 0.8), label, "l")
     canvas = Canvas()
     pen.onto(canvas)
-    return Figure(canvas, drawing.alt, drawing.lang, "invert")
+    return Figure(canvas.written_in(drawing.lang), drawing.alt, drawing.lang, "invert")
 
 
 def _axes(pen: Pen, board: Board) -> None:

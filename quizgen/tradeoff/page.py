@@ -31,6 +31,7 @@ from quizgen.tradeoff.data import (
     words,
 )
 from quizgen.tradeoff.measure import Measured, Timing, pareto
+from quizgen.tradeoff.numbers import in_places, in_prose
 from quizgen.tradeoff.plot import (
     Axes,
     Choices,
@@ -97,13 +98,13 @@ def fragment(report: Report, command: str, lang: str) -> str:
     """What the page says in one language, to stand in another page; ``style`` goes with it."""
     page = _layouts().get_template("measured.html.j2")
     said = page.make_module({"report": report, "command": command})
-    return str(said.body(lang, words(lang)))  # type: ignore[attr-defined]
+    return in_prose(str(said.body(lang, words(lang))), lang)  # type: ignore[attr-defined]
 
 
 @cache
 def _layouts() -> jinja2.Environment:
     layouts = environment("quizgen.tradeoff")
-    layouts.filters.update(time=time_text, count=count, spread=spread_text)
+    layouts.filters.update(time=time_text, count=count, spread=spread_text, in_prose=_in_prose)
     layouts.globals.update(
         faces={weight: bangla_uri(name) for name, weight in (("Regular", 400), ("Bold", 700))},
         words=words,
@@ -119,8 +120,8 @@ def _layouts() -> jinja2.Environment:
         family_panels=family_panels,
         faults=FAULTS,
         input_panel=input_panel,
-        places=lambda family, lang: places(
-            family.sweep, words(lang)["sweep"], words(lang)["page"]["failed"]
+        places=lambda family, lang: in_places(
+            places(family.sweep, words(lang)["sweep"], words(lang)["page"]["failed"]), lang
         ),
         start=start,
         order=ORDER,
@@ -131,6 +132,10 @@ def _layouts() -> jinja2.Environment:
         each_panel=each_panel,
     )
     return layouts
+
+
+def _in_prose(page: Markup, lang: str) -> Markup:
+    return Markup(in_prose(str(page), lang))  # noqa: S704 (markup before, and no more after)
 
 
 def _front(rungs: tuple[Measured, ...], which: str) -> set[int]:

@@ -17,3 +17,15 @@ def test_a_field_with_the_wanted_lines_is_not_called_empty():
     assert solved.startswith("The drawing that was wanted: x from −4 to 4")
     assert solved.endswith(" The wanted lines: (0; 0), (1; 1).")
     assert "ফাঁকা" not in Drawing(board, "bn", (((0, 0), (1, 1)),)).alt
+
+
+def test_numbers_are_written_as_the_language_does():
+    board = Board((0, 2, 0, 1), (0.5, 0.5), marks=(("F", (1.5, 0)),))
+    german, english = Drawing(board, "de"), Drawing(board, "en")
+    assert "Gitterlinien alle 0,5 und 0,5" in german.alt
+    assert "F (1,5; 0)" in german.alt
+    assert "0.5" in english.alt
+    labels = {lang.lang: [label.text for label in lang.figure.canvas.labels]
+              for lang in (german, english)}  # fmt: skip
+    assert {"0,5", "1,5"} <= set(labels["de"])
+    assert {"0.5", "1.5"} <= set(labels["en"])

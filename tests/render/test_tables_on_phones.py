@@ -1,0 +1,41 @@
+"""Tables of questions on narrow screens: whole words, and nothing wider than the screen."""
+
+from __future__ import annotations
+
+import pytest
+
+from quizgen.bank.folder import builtin
+from quizgen.bank.prose import Table
+from quizgen.paper.paper import single
+from quizgen.render import render_paper
+
+BROKEN = """[...document.querySelectorAll("th, td")].flatMap(cell => {
+  const range = document.createRange(), broken = [];
+  for (const text of [...cell.childNodes].filter(node => node.nodeType === Node.TEXT_NODE))
+    for (const word of text.data.matchAll(/\\S+/g)) {
+      range.setStart(text, word.index);
+      range.setEnd(text, word.index + word[0].length);
+      if (range.getClientRects().length > 1) broken.push(word[0]);
+    }
+  return broken;
+})"""
+WITH_TABLES = [
+    name for name in builtin().paths
+    if any(isinstance(block, Table) for block in builtin().template(name).texts["bn"].stem)
+]  # fmt: skip
+
+
+def test_there_are_some():
+    assert len(WITH_TABLES) >= 4
+
+
+@pytest.mark.parametrize("lang", ["en", "bn"])
+@pytest.mark.parametrize("name", WITH_TABLES)
+def test_words_stay_whole(browser, tmp_path, name, lang):
+    page_file = tmp_path / "exam.html"
+    page_file.write_bytes(render_paper(single(builtin().template(name), 0, lang), "exam", "html"))
+    page = browser.new_page(viewport={"width": 360, "height": 800})
+    page.goto(page_file.as_uri())
+    assert page.evaluate(BROKEN) == []
+    assert page.evaluate("document.documentElement.scrollWidth") == 360
+    page.close()
