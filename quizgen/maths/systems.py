@@ -20,7 +20,7 @@ import msgspec
 
 from quizgen.errors import MathError
 from quizgen.maths import logic
-from quizgen.maths.operators import CONDITIONS, OPERATORS
+from quizgen.maths.operators import CONDITIONS, MANY, OPERATORS
 from quizgen.maths.tree import Call, Expr, Num, Sym, operators
 from quizgen.maths.values import AnyNumber
 
@@ -76,6 +76,8 @@ def compile_inner(expr: Expr, system: NumberSystem) -> Compiled:
         return itemgetter(expr.name)
     if expr.op == "piecewise":
         return _compile_piecewise(expr, system)
+    if OPERATORS[expr.op].folds and len(expr.args) > MANY:
+        return _compile_run(system.ops[expr.op], expr.args, system)
     if OPERATORS[expr.op].folds and len(expr.args) != 2:
         return compile_inner(reduce(partial(_joined, expr.op), expr.args), system)
     return _compile_call(expr, system)
@@ -124,6 +126,12 @@ def _operand(expr: Expr, system: NumberSystem) -> AnyNumber:
 def _compile_many(op: Op, args: Iterable[Expr], system: NumberSystem) -> Compiled:
     parts = [compile_inner(arg, system) for arg in args]
     return lambda env: op(*[part(env) for part in parts])
+
+
+def _compile_run(op: Op, args: Iterable[Expr], system: NumberSystem) -> Compiled:
+    """A run of one sign as long as a line may be, in a loop: nested it would be too deep."""
+    parts = [compile_inner(arg, system) for arg in args]
+    return lambda env: reduce(op, (part(env) for part in parts))
 
 
 def _compile_piecewise(expr: Call, system: NumberSystem) -> Compiled:

@@ -9,63 +9,130 @@ import re
 from fractions import Fraction
 from pathlib import Path
 
+import mpmath as mp
 import pytest
 from test_rows import NAMES, rows_of
 from ulp import ulps
 
+from quizgen.arrays.cie1924 import FIRST_NM, STEP_NM, V
 from quizgen.errors import FormulaError, MathError
 from quizgen.maths import exact
 from quizgen.maths.notation import parse
 from quizgen.maths.numbers import rational, to_float
 from quizgen.maths.systems import evaluate
 
+LAST_NM = FIRST_NM + STEP_NM * (len(V) - 1)
+HEXAGON = "V - V*S*max(0, min(mod({turn} + H/60, 6), 4 - mod({turn} + H/60, 6), 1))"
+TENTS = " + ".join(
+    f"{value}*max(0, 1 - abs(w - {FIRST_NM + STEP_NM * i})/{STEP_NM})" for i, value in enumerate(V)
+)
+BETWEEN = f"({TENTS})*(1 - sign(max(0, {FIRST_NM} - w) + max(0, w - {LAST_NM})))"
+"""Straight lines between the rows of a table, as a sum of tents; nothing beyond its ends."""
 FORMULAS = {
     "gaussian.upper_tail": "erfc(k/sqrt(2))/2",
     "gaussian.two_sided_tail": "erfc(abs(k)/sqrt(2))",
     "distortion.distort_x": "x*(1 + k_1*(x^2 + y^2) + k_2*(x^2 + y^2)^2)",
+    "distortion.fold_radius": "sqrt(2/(sqrt(9*k_1^2 - 20*k_2) - 3*k_1))",
     "depth_of_field.far_limit": "s*f^2/(f^2 - N*c*(s - f))",
     "projection.pixel": "o + f*x/(p*z)",
     "gamma.gap": "((a + b)/2)^(5/11) - (a^(5/11) + b^(5/11))/2",
     "gamma.srgb_decode": "((x + 0.055)/1.055)^2.4",
+    "hsv.red": HEXAGON.format(turn=5),
+    "hsv.green": HEXAGON.format(turn=3),
+    "hsv.blue": HEXAGON.format(turn=1),
+    "luminosity.efficiency": BETWEEN,
 }
 ORDER = {
     "gaussian.upper_tail": "k", "gaussian.two_sided_tail": "k", "distortion.distort_x": "x y k_1 k_2",
     "depth_of_field.far_limit": "f N c s", "projection.pixel": "f p x z o", "gamma.gap": "a b",
-    "gamma.srgb_decode": "x",
+    "gamma.srgb_decode": "x", "distortion.fold_radius": "k_1 k_2", "luminosity.efficiency": "w",
+    "hsv.red": "H S V", "hsv.green": "H S V", "hsv.blue": "H S V",
+    "gaussian.inverse_tail": "p", "distortion.inverse_radius": "d k_1 k_2",
+    "poisson.pmf": "k m", "poisson.lower": "k m",
 }  # fmt: skip
-NO_FORMULA = {
-    "gaussian.inverse_tail", "distortion.inverse_radius", "distortion.fold_radius",  # roots
-    "poisson.pmf", "poisson.lower",  # factorials and sums
-    "hsv.red", "hsv.green", "hsv.blue", "luminosity.efficiency",  # by cases and from a table
-}  # fmt: skip
-"""What no one formula of the grammar says."""
+ROOTS = {
+    "gaussian.inverse_tail": "p - erfc(r/sqrt(2))/2",
+    "distortion.inverse_radius": "r*(1 + k_1*r^2 + k_2*r^4) - d",
+}
+"""What has no formula: where this one, which rises, goes through zero."""
+CHAINS = {"poisson.pmf", "poisson.lower"}
+"""A chain of steps, a term from the one before, as far as anybody would follow it."""
+LONGEST_CHAIN = 20_000
 DECIMALS = {"projection.pixel", "gamma.srgb_decode"}
 """Numbers mean the decimals they print as."""
 KNEE = 0.04045
 POLICY = Path(__file__).parents[2] / "docs" / "accuracy.md"
 
 
-def test_every_row_has_a_formula_or_none_is_possible():
-    assert set(NAMES) == FORMULAS.keys() | NO_FORMULA
+def test_the_exact_path_is_tried_on_every_function():
+    assert set(NAMES) == FORMULAS.keys() | ROOTS.keys() | CHAINS
+
+
+def given_of(name, args):
+    given = [rational(repr(arg) if name in DECIMALS else Fraction(arg)) for arg in args]
+    return dict(zip(ORDER[name].split(), given, strict=False))
 
 
 def exactly(name, args):
     """What a key would hold."""
-    given = [rational(repr(arg) if name in DECIMALS else Fraction(arg)) for arg in args]
     formula = FORMULAS[name]
     if name == "gamma.srgb_decode" and args[0] <= KNEE:
         formula = "x/12.92"
-    return evaluate(parse(formula), dict(zip(ORDER[name].split(), given, strict=False)))
+    return evaluate(parse(formula), given_of(name, args))
 
 
 @pytest.mark.parametrize("name", FORMULAS)
 def test_hard_rows_are_answered_or_refused(name):
     for args, truth, tolerance in rows_of(name):
-        if abs(truth) == math.inf and name == "depth_of_field.far_limit":
-            assert is_beyond(args), args
+        if abs(truth) == math.inf:
+            assert INFINITE[name](args), args
             continue
-        value = to_float(exactly(name, args))
-        assert ulps(value, truth) <= tolerance, args
+        assert ulps(in_doubles(exactly(name, args)), truth) <= tolerance, args
+
+
+def in_doubles(value):
+    """Nearest double, also of what lies beyond all of them."""
+    try:
+        return to_float(value)
+    except OverflowError:
+        return math.inf if value > 0 else -math.inf
+
+
+@pytest.mark.parametrize("name", ROOTS)
+def test_hard_roots_are_certified(name):
+    """The formula is certainly below zero on one side of the answer and above it on the other."""
+    side = parse(f"sign({ROOTS[name]})")
+    for args, truth, tolerance in rows_of(name):
+        given, root = given_of(name, args), Fraction(mp.nstr(truth, 40))
+        away = Fraction(tolerance) * Fraction(math.ulp(float(truth)))
+        if not root:  # a ball is too wide to tell so small a number from it
+            assert evaluate(side, {**given, "r": rational(0)}) == 0, args
+            continue
+        signs = [evaluate(side, {**given, "r": rational(root + at)}) for at in (-away, away)]
+        assert signs == [-1, 1], args
+
+
+STEP, SUM = parse("t*m/k"), parse("s + t")
+
+
+def along(count, mean):
+    """Chances of k and of at most k, step by step."""
+    chance = total = evaluate(parse("exp(-m)"), {"m": mean})
+    for k in range(1, count + 1):
+        chance = evaluate(STEP, {"t": chance, "m": mean, "k": rational(Fraction(k))})
+        total = evaluate(SUM, {"s": total, "t": chance})
+    return {"poisson.pmf": chance, "poisson.lower": total}
+
+
+@pytest.mark.parametrize("name", sorted(CHAINS))
+def test_hard_counts_are_answered_as_far_as_a_chain_goes(name):
+    tried = 0
+    for args, truth, tolerance in rows_of(name):
+        if args[0] <= LONGEST_CHAIN:
+            tried += 1
+            value = to_float(along(int(args[0]), rational(Fraction(args[1])))[name])
+            assert ulps(value, truth) <= tolerance, args
+    assert tried >= 9
 
 
 def is_beyond(args):
@@ -76,6 +143,16 @@ def is_beyond(args):
     with pytest.raises(MathError, match="division by zero"):
         exactly("depth_of_field.far_limit", args)
     return s - Fraction(args[0]) == pole
+
+
+def has_no_fold(args):
+    """Refused: under the root stands zero in a divisor, or a negative number."""
+    with pytest.raises(MathError, match=r"division by zero|square root of a negative|no finite"):
+        exactly("distortion.fold_radius", args)
+    return True
+
+
+INFINITE = {"depth_of_field.far_limit": is_beyond, "distortion.fold_radius": has_no_fold}
 
 
 def policy():

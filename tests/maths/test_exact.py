@@ -93,3 +93,10 @@ def test_whole_powers_of_negative_balls_have_a_value(text, wanted):
 def test_other_powers_of_negative_balls_have_none(text):
     with pytest.raises(MathError):
         value(text)
+
+
+@pytest.mark.parametrize("count", [64, 65, 400, 1990])
+def test_runs_of_one_sign_may_be_as_long_as_a_line(count):
+    assert value("+".join(["1"] * count)) == count
+    assert value("*".join(["2"] * (count - 1)) + "/2") == fmpq(2) ** (count - 2)
+    assert value("1-" + "+".join(["1/3"] * (count // 2))) == 1 + fmpq(count // 2 - 2, 3)
