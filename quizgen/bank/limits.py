@@ -194,6 +194,15 @@ def _out_of(field: str, value: Scalar, most: int) -> Problems:
         yield field, f"{value} is not more than 0 and at most {most}"
 
 
+def misshapen(rules: Rules) -> Problems:
+    """Answers with a value of another type than what belongs there."""
+    for place, part in enumerate(rules.part, 1):
+        try:
+            converted(part.answer, Answer)
+        except msgspec.ValidationError as error:
+            yield f"part {place}: answer", in_words(error, Answer)
+
+
 def _answer(table: Mapping[str, object]) -> Problems:
     try:
         answer = converted(table, Answer)

@@ -19,7 +19,7 @@ from flint import fmpq
 from quizgen.bank.about import About
 from quizgen.bank.compiled import Compiled
 from quizgen.bank.complaints import in_words
-from quizgen.bank.limits import problems
+from quizgen.bank.limits import misshapen, problems
 from quizgen.bank.quantities import Quantities
 from quizgen.bank.rules import Rules, minutes_of
 from quizgen.bank.solvers import module_of
@@ -169,8 +169,11 @@ def read_rules(path: Path) -> Rules:
 
 def _read(path: Path, source: str) -> Rules:
     try:
-        table = parse_toml(source, path, BankError, parse_float=str)
-        rules = converted(table, Rules)
+        shape = converted(parse_toml(source, path, BankError), Rules)
+        for place, problem in misshapen(shape):
+            raise BankError(f"{path}: {place}: {problem}")
+        exact = parse_toml(source, path, BankError, parse_float=str)
+        rules = converted(exact, Rules)
     except msgspec.ValidationError as error:
         raise BankError(f"{path}: {in_words(error, Rules)}") from error
     _check_draws(path, rules)
