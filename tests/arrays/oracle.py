@@ -67,16 +67,12 @@ def far_limit(f, N, c, s):
 
 
 def fold_radius(k1, k2):
-    roots = []
-    if k2 == 0:
-        if k1 < 0:
-            roots = [-1 / (3 * k1)]
-    else:
-        inside = 9 * k1 * k1 - 20 * k2
-        if inside >= 0:
-            roots = [(-3 * k1 + sign * mp.sqrt(inside)) / (10 * k2) for sign in (1, -1)]
-    roots = [u for u in roots if u > 0]
-    return mp.sqrt(min(roots)) if roots else mp.inf
+    """Of 1 + 3 k1 u + 5 k2 u^2: the reciprocals of its roots do not cancel where k2 is tiny."""
+    inside = 9 * k1 * k1 - 20 * k2
+    if inside < 0:
+        return mp.inf
+    inverses = [(-3 * k1 + sign * mp.sqrt(inside)) / 2 for sign in (1, -1)]
+    return 1 / mp.sqrt(max(inverses)) if max(inverses) > 0 else mp.inf
 
 
 def inverse_radius(d, k1, k2):
