@@ -1,8 +1,9 @@
 """Eager against planned photographs, and every effect beside the copy bandwidth of the same run.
 
-``python benchmarks/camera.py [--quick] [--chains] [--calibrate] [--photos [N]] [--files]``; best of
-several runs, ms. ``--photos`` plans and runs N (60) ordinary photographs with ordinary cameras,
-``--files`` photographs the shipped scenes at 12 megapixels from file to file.
+``python benchmarks/camera.py [--quick] [--chains] [--calibrate] [--photos [N]] [--oracle [N]]
+[--files]``; best of several runs, ms. ``--photos`` plans and runs N (60) ordinary photographs with
+ordinary cameras, ``--oracle`` tries what could be left out of N (12) of them, ``--files``
+photographs the shipped scenes at 12 megapixels from file to file.
 """
 
 # ruff: noqa: SLF001 - caches are emptied between runs
@@ -21,6 +22,7 @@ from tempfile import TemporaryDirectory
 from time import perf_counter, process_time
 from typing import Any
 
+import msgspec
 import numpy as np
 
 from quizgen.arrays.gamma import srgb_decode
@@ -28,8 +30,8 @@ from quizgen.camera import Camera, Scene, SceneError, View, effects, filters, hs
 from quizgen.camera.draw import Layer
 from quizgen.camera.effects import distortion, lateral_colour, mosaic, vignetting
 from quizgen.camera.kernels import disc
-from quizgen.camera.plan import Plan, Prepared, everything, plan
-from quizgen.camera.simulate import is_broken, run
+from quizgen.camera.plan import Plan, Prepared, Skipped, everything, plan
+from quizgen.camera.simulate import difference_dn, is_broken, run
 from quizgen.cli.simulate import SCENES
 
 SIZES = {"640x480": (640, 480), "12 MP": (4000, 3000)}
@@ -303,6 +305,77 @@ def photos(count: int) -> None:
         )
 
 
+def oracle(count: int) -> None:
+    """Per effect: how often it could be left out, how often a plan does, and at what bound.
+
+    The oracle looks at what really changes: effects in the order of what each alone does, as long
+    as all together stay within the budget.
+    """
+    budgets = (0.5, 2.0)
+    rows: dict[str, list[tuple[float, ...]]] = {}
+    for seed in range(count):
+        source = np.random.default_rng([seed, 12])
+        scene = a_photo(source)
+        try:
+            prepared = Prepared(scene, a_camera(source, scene.width))
+            trial = _Trial(prepared)
+        except SceneError:
+            continue  # the picture folds over
+        free = [trial.leaves_out(budget) for budget in budgets]
+        left = [{one.effect for one in plan(prepared, budget=b).skipped} for b in budgets]
+        for unit, alone in trial.alone.items():
+            counts = [unit[0] in names for pair in zip(free, left, strict=True) for names in pair]
+            bounds = trial.bound[unit[0]], alone, sum(trial.whole.times[name] for name in unit)
+            rows.setdefault(" + ".join(unit), []).append((*counts, *bounds))
+    heads = ("photos", *(f"{who} {b:g} DN" for b in budgets for who in ("oracle", "plan")))
+    print(f"{'':31}" + "".join(f"{head:>15}" for head in (*heads, "bound DN", "real DN", "ms")))
+    for name, found in sorted(rows.items()):
+        figures = np.array(found, float)
+        *counts, bound, real, spent = (*figures[:, :4].sum(0), *np.median(figures[:, 4:], axis=0))
+        print(
+            f"{name:31}{len(found):15}"
+            + "".join(f"{int(count):15}" for count in counts)
+            + f"{bound:15.3g}{real:15.3g}{spent:15.2f}"
+        )
+    figures = np.concatenate([np.array(found, float) for found in rows.values()])
+    for column, head in enumerate(heads[1:]):
+        saved = figures[:, column] @ figures[:, 6] / figures[:, 6].sum()
+        print(f"{head}: {figures[:, column].mean():.1%} of the effects, {saved:.1%} of their time")
+
+
+class _Trial:
+    """What leaving effects out of one photograph really changes."""
+
+    def __init__(self, prepared: Prepared) -> None:
+        self.prepared = prepared
+        self.everything = everything(prepared)
+        self.whole = run(prepared, self.everything)
+        strict = plan(prepared, budget=0.0)
+        self.bound = {one.effect: one.bound_dn for one in (*strict.steps, *strict.skipped)}
+        units: dict[str, list[str]] = {}
+        for step in self.everything.steps:
+            key = effects.by_name(step.effect).pair or step.effect
+            units.setdefault(key, []).append(step.effect)
+        self.alone = {tuple(unit): self.change(frozenset(unit)) for unit in units.values()}
+
+    def change(self, names: frozenset[str]) -> float:
+        """Grey levels that leaving these out changes."""
+        kept = tuple(step for step in self.everything.steps if step.effect not in names)
+        left = tuple(Skipped(name, "", 0.0, 0.0) for name in sorted(names))
+        return difference_dn(
+            run(self.prepared, msgspec.structs.replace(self.everything, steps=kept, skipped=left)),
+            self.whole,
+        )
+
+    def leaves_out(self, budget: float) -> frozenset[str]:
+        left: frozenset[str] = frozenset()
+        for unit, change in sorted(self.alone.items(), key=lambda pair: pair[1]):
+            more = left.union(unit)
+            if change <= budget and self.change(more) <= budget:
+                left = more
+        return left
+
+
 def enlarged(text: str, times: float) -> str:
     """A shipped scene, 640 pixels wide, with all lengths on the sensor so much larger."""
 
@@ -340,6 +413,10 @@ def main() -> None:
         return
     if "--files" in sys.argv:
         files()
+        return
+    if "--oracle" in sys.argv:
+        number = sys.argv[-1]
+        oracle(int(number) if number.isdecimal() else 12)
         return
     if "--photos" in sys.argv:
         number = sys.argv[-1]
