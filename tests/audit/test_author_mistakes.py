@@ -62,7 +62,7 @@ def test_the_place_is_the_same_wherever_one_stands(tmp_path, monkeypatch, bank, 
     assert run(Path(bank), *only).stderr.splitlines() == [before + row["says"]]
 
 
-def test_what_a_solver_prints_is_no_json(tmp_path):
+def test_what_a_solver_prints_is_no_json(tmp_path, empty_cache):
     file = "solvers/forces/newton.py"
     root = write(tmp_path, {**sound(), file: "print('hello')\n" + sound()[file].lstrip()})
     done = run(root, "--json", "--only", "push")
