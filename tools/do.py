@@ -24,6 +24,7 @@ COMMANDS: dict[str, tuple[list[str], ...]] = {
         [sys.executable, "benchmarks/web.py"],
     ),
     "counts": ([sys.executable, "tools/count.py"],),
+    "accuracy": ([sys.executable, "tools/accuracy.py"],),
     "bounds": ([sys.executable, "tests/arrays/prove.py"],),
     "pins": ([sys.executable, "tools/pin.py"],),
     "fonts": (
