@@ -25,8 +25,11 @@ class Maths(msgspec.Struct, frozen=True):
 
     @property
     def text(self) -> str:
-        """How it is written in plain text, for people."""
-        return numbers_in(self.lang, people.formula(self.typed))
+        """How it is written in plain text, for people; a comma in numbers separates none."""
+        text = people.formula(self.typed)
+        if numbers_in(self.lang, text) != text:
+            text = text.replace(", ", "; ")
+        return numbers_in(self.lang, text)
 
 
 Shown = str | tuple[Inline, ...]

@@ -8,7 +8,7 @@ from pathlib import Path
 import jinja2
 from markupsafe import Markup
 
-from quizgen.locale import amount, line_heights, marks, word
+from quizgen.locale import amount, language, line_heights, marks, word
 from quizgen.paper.paper import Paper
 from quizgen.question.markup import OURS, Manner, blocks, display, inline
 from quizgen.render import fonts
@@ -28,6 +28,7 @@ def _layouts(way: Manner = OURS) -> jinja2.Environment:
         word=word,
         marks=marks,
         amount=amount,
+        decimal=lambda lang: language(lang).decimal,
         squares=squares,
         drawing=_board,
         svg=lambda figure: Markup(figure.svg.decode()),

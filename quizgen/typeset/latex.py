@@ -14,6 +14,7 @@ from quizgen.locale import numbers_in
 from quizgen.patterns import lazy
 from quizgen.typeset import nodes as n
 from quizgen.typeset.names import GREEK, KNOWN
+from quizgen.typeset.separators import separated, separator
 from quizgen.typeset.tables import known
 from quizgen.typeset.units import TIGHT, parts
 from quizgen.typeset.words import words_of
@@ -161,7 +162,7 @@ def _op(node: n.Op, _lang: str) -> str:
 
 @_emit.register
 def _row(node: n.Row, lang: str) -> str:
-    return " ".join([text for item in node.items if (text := _emit(item, lang))])
+    return " ".join([text for item in separated(node.items, lang) if (text := _emit(item, lang))])
 
 
 @_emit.register
@@ -202,7 +203,8 @@ def _fence(node: n.Fence, lang: str) -> str:
 
 @_emit.register
 def _func(node: n.Func, lang: str) -> str:
-    arguments = ", ".join([_emit(arg, lang) for arg in node.args])
+    between = f"{separator(node.args, lang).name} "
+    arguments = between.join([_emit(arg, lang) for arg in node.args])
     head = _head(node.head, lang)
     if _TALL.search(arguments):
         return rf"{head}\!\left( {arguments} \right)"

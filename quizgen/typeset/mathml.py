@@ -10,6 +10,7 @@ from quizgen.locale import numbers_in
 from quizgen.patterns import lazy
 from quizgen.typeset import nodes as n
 from quizgen.typeset.names import GREEK_LETTERS
+from quizgen.typeset.separators import separated, separator
 from quizgen.typeset.tables import known
 from quizgen.typeset.units import TIGHT, parts
 from quizgen.typeset.words import words_of
@@ -72,6 +73,7 @@ def mathml(node: n.Node, lang: str = "en", *, display: bool = False) -> str:
 
 
 def _joined(items: tuple[n.Node, ...], lang: str) -> str:
+    items = separated(items, lang)
     written = [_emit(item, lang) for item in items]
     for index, item in enumerate(items):
         if isinstance(item, n.Func) and isinstance(item.head, n.Word | n.Scripts):
@@ -222,7 +224,9 @@ def _between(kind: str, body: str) -> str:
 
 @_emit.register
 def _func(node: n.Func, lang: str) -> str:
-    arguments = _OPERATORS[","].join([_inside(arg, lang) for arg in node.args])
+    arguments = _OPERATORS[separator(node.args, lang).name].join(
+        [_inside(arg, lang) for arg in node.args]
+    )
     head = _emit(node.head, lang)
     return f"<mrow>{head}{_APPLY}<mrow>{_between('()', arguments)}</mrow></mrow>"
 

@@ -12,6 +12,7 @@ from quizgen.errors import RenderError
 from quizgen.locale import numbers_in
 from quizgen.typeset import nodes as n
 from quizgen.typeset.names import KNOWN
+from quizgen.typeset.separators import separated, separator
 from quizgen.typeset.tables import known
 from quizgen.typeset.units import TIGHT, parts
 from quizgen.typeset.words import words_of
@@ -131,7 +132,7 @@ def _op(node: n.Op, _lang: str) -> str:
 
 @_emit.register
 def _row(node: n.Row, lang: str) -> str:
-    return _spaced([_emit(item, lang) for item in node.items])
+    return _spaced([_emit(item, lang) for item in separated(node.items, lang)])
 
 
 def _spaced(texts: list[str]) -> str:
@@ -185,7 +186,8 @@ def _fence(node: n.Fence, lang: str) -> str:
 
 @_emit.register
 def _func(node: n.Func, lang: str) -> str:
-    arguments = r" \, ".join([_emit(arg, lang) for arg in node.args])
+    between = f" {_OPERATORS[separator(node.args, lang).name]} "
+    arguments = between.join([_emit(arg, lang) for arg in node.args])
     return f"{_head(node.head, lang)} ({arguments})"
 
 

@@ -89,6 +89,7 @@ def page(request: Request, layout: str, status: int = 200, **content: Any) -> Re
             say=words,
             points=lambda count: marks(Fraction(str(count)), lang),
             amount=lambda count: amount(count, lang),
+            decimal=lambda lang: language(lang).decimal,
             site=site,
             token=form_token(request.state.token),
             learner=request.state.learner,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from fractions import Fraction
 from pathlib import Path
@@ -11,7 +12,7 @@ import pytest
 from quizgen.bank.draw import draw
 from quizgen.bank.folder import Bank, builtin
 from quizgen.bank.prose import Code, Paragraph, Words
-from quizgen.figures import render
+from quizgen.figures import Board, Drawing, render
 from quizgen.locale import amount, language, marks
 from quizgen.marking.mark import mark
 from quizgen.paper.key import key_of
@@ -20,9 +21,11 @@ from quizgen.paper.paper import single
 from quizgen.paper.report import table_lines
 from quizgen.question.compose import compose
 from quizgen.question.notation import in_notation
+from quizgen.question.shown import Maths
 from quizgen.render import render_paper
 from quizgen.render.text import blocks, inline
-from quizgen.typeset import latex, mathml, number, spoken, typst
+from quizgen.typeset import fenced, latex, mathml, name, number, spoken, typst
+from quizgen.typeset.nodes import Func, Word
 
 FILTERING = Bank(Path(__file__).parents[2] / "examples" / "filtering", trusted=True)
 
@@ -117,3 +120,41 @@ def test_hints_in_plain_text_have_it():
         said = " ".join(inline(rung.shown) for line in lines for rung in line.rungs)
         assert f"4{sign}5" in said
         assert f"4{other}5" not in said
+
+
+@pytest.mark.parametrize(
+    ("coordinates", "german", "english"),
+    [
+        (["3/2", "2"], "(1,5; 2)", "(1.5, 2)"),
+        (["-5/2", "7/4"], "(−2,5; 1,75)", "(−2.5, 1.75)"),
+        (["1", "2"], "(1, 2)", "(1, 2)"),
+    ],
+)
+def test_a_comma_does_not_stand_between_numbers_with_commas(coordinates, german, english):
+    texts = [f"{float(Fraction(one)):g}" for one in coordinates]
+    pair = fenced([number(text) for text in texts])
+    listed = f"({', '.join(texts)})".replace("-", "−")
+    for lang, wanted in (("de", german), ("en", english)):
+        assert Maths(pair, listed, lang).text == wanted
+        assert latex(pair, lang).replace(" ", "") == wanted.replace(" ", "").replace(
+            "−", "-"
+        ).replace(",", "{,}" if lang == "de" and ";" in wanted else ",")
+        text = re.sub(r"<[^>]*>", "", mathml(pair, lang))
+        assert text == wanted.replace(" ", "")
+        spec = {"kind": "point", "values": coordinates, "exact": True}
+        assert mark(spec, wanted, lang="de").verdict == "correct"
+
+
+def test_arguments_of_functions_are_separated_alike():
+    most = Func(Word("max"), (number("0.5"), name("x")))
+    assert [latex(most, lang) for lang in ("de", "en")] == [r"\max(0{,}5; x)", r"\max(0.5, x)"]
+    assert typst(most, "de") == r'max ("0,5" \; x)'
+
+
+def test_the_axes_of_a_field_have_it_and_its_words():
+    board = Board((-1.0, 1.0, 0.0, 1.0), (0.5, 0.25), given=(((0.5, 0.25), (1.0, 0.75)),))
+    for lang, sign in (("de", ","), ("en", ".")):
+        drawn = Drawing(board, lang)
+        labels = {label.text for label in drawn.figure.canvas.labels}
+        assert {f"−0{sign}5", f"0{sign}25"} <= labels
+        assert f"(0{sign}5; 0{sign}25), (1; 0{sign}75)" in drawn.alt

@@ -22,7 +22,8 @@ const sketching = (box) => {
   let now = null, cursor = null, setting = false, pointer = null;
   const on = (name) => box.querySelector(`[data-tool=${name}]`).getAttribute("aria-pressed") === "true";
   const say = (text) => { document.getElementById("said").textContent = text; };
-  const told = (key, point) => box.dataset[key].replace("{x}", number(point[0], 0)).replace("{y}", number(point[1], 1));
+  const spoken = (value, i) => number(value, i).replace(".", box.dataset.decimal ?? ".");
+  const told = (key, point) => box.dataset[key].replace("{x}", spoken(point[0], 0)).replace("{y}", spoken(point[1], 1));
 
   const show = () => {
     svg.replaceChildren();
