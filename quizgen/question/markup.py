@@ -117,10 +117,12 @@ def _items(part: prose.Items, lang: str, way: Manner) -> str:
 
 @_block.register
 def _table(part: prose.Table, lang: str, way: Manner) -> str:
+    """Rows under a head; a wide one scrolls, also by keyboard."""
     head = "".join([_head_cell(cell, lang, way) for cell in part.head])
     rows = [[f"<td>{_piece(cell, lang, way)}</td>" for cell in cells] for cells in part.rows]
     body = "".join([f"<tr>{''.join(row)}</tr>" for row in rows])
-    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+    table = f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+    return f'<div class="scroll" tabindex="0">{table}</div>' if way.ours else table
 
 
 def _head_cell(cell: tuple[prose.Inline, ...], lang: str, way: Manner) -> str:

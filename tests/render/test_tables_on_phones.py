@@ -39,3 +39,19 @@ def test_words_stay_whole(browser, tmp_path, name, lang):
     assert page.evaluate(BROKEN) == []
     assert page.evaluate("document.documentElement.scrollWidth") == 360
     page.close()
+
+
+@pytest.mark.parametrize("lang", ["en", "bn"])
+def test_what_is_wider_than_the_screen_scrolls_by_itself(browser, tmp_path, lang):
+    page_file = tmp_path / "exam.html"
+    paper = single(builtin().template("infrared-leak"), 0, lang)
+    page_file.write_bytes(render_paper(paper, "exam", "html"))
+    page = browser.new_page(viewport={"width": 280, "height": 800})
+    page.goto(page_file.as_uri())
+    table = page.locator(".scroll")
+    assert table.evaluate("box => box.scrollWidth > box.clientWidth")
+    assert page.evaluate(BROKEN) == []
+    assert page.evaluate("document.documentElement.scrollWidth") == 280
+    table.focus()
+    assert table.evaluate("box => box === document.activeElement")
+    page.close()
