@@ -238,3 +238,24 @@ def fold_bound(_):
     falling = (inside / 2 + UNIT) + UNIT + UNIT
     rising = (3 * UNIT / 2 + UNIT) + UNIT + 2 * UNIT
     return max(falling, rising) / 2 + UNIT + SECOND
+
+
+def quintic_inverse_bound(exponent):
+    """Bound for the inverse of two coefficients, of a slope x f'/m of about 2**exponent at the root.
+
+    Up to the first fold each term is at most 4 m: of unlike signs, the terms of the slope bound
+    each other. The start has arrived: its last step, of Newton's or of halving, was at most 2**-50
+    of it, and a value in doubles is off by at most 32 units of m, by the slope. The step from
+    there leaves out its square by 13 terms, and takes a slope that is off by 8 units of them; the
+    residual is off by 64 * 2**-106 of m. Below 2**-12 the polynomial around the start is solved,
+    whose bracket of 2**-5 is halved to 2**-69 at least; from the start to the root the function
+    grows, so that none of its terms is above the 64 units that it misses, nor off by more than 8
+    units of that. The slope is known like the residual.
+    """
+    slope = arb(2) ** exponent
+    residual = 64 * UNIT * UNIT / slope
+    start = arb(2) ** -50 + 32 * UNIT / slope
+    terms = 52 / slope
+    steep = start * start * terms + start * 8 * UNIT * terms + residual
+    flat = residual + 512 * UNIT * UNIT / slope + arb(2) ** -69
+    return (steep if slope > arb(2) ** -12 else flat) + UNIT + SECOND

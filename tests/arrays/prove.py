@@ -189,6 +189,7 @@ PIXEL = (projection,)
 HSV = (hsv._to_rgb, hsv._less, double_double)
 LOGARITHM = (logarithm, double_double, polynomial.horner)
 CUBIC = (quintic.cubic, quintic.Quintic.refined, quintic.Quintic.residual, double_double)
+ROOT = (quintic, distortion._equation, distortion._inverse, double_double)
 BARREL = (quintic, double_double)
 PROBABILITY = (poisson._density, poisson._stirling_error, poisson._pmf_short, *LOGARITHM, tables)
 SUMS = (poisson._by_sum, poisson._sum_up, poisson._sum_down, *PROBABILITY)
@@ -216,6 +217,9 @@ PIECES = {
     "poisson.pmf by factorials": Piece(counted.pmf_short_bound, 0.0, 1.0, 1, PROBABILITY),
     "poisson.pmf by the saddle point": Piece(counted.pmf_long_bound, 0.0, 1.0, 1, PROBABILITY),
     "poisson.lower by sums": Piece(counted.summed_bound, 0.0, 60.0, 60, SUMS),
+    "inverse_radius, k2 (log2 of slope)": Piece(
+        counted.quintic_inverse_bound, -40.0, 0.0, 40, ROOT
+    ),
     "luminosity.efficiency": Piece(counted.curve_bound, 0.0, 1.0, 1, (luminosity.Curve.read,)),
     "projection.pixel, f x/(pitch z)": Piece(counted.term_bound, 0.0, 1.0, 1, PIXEL),
 }
