@@ -28,7 +28,7 @@ from quizgen.bank.prose import Text, slots
 from quizgen.bank.template import Template
 from quizgen.bank.traps import answer_names
 from quizgen.errors import QuizgenError
-from quizgen.locale import language, numbers_in
+from quizgen.locale import FIRST, language, numbers_in
 from quizgen.marking.mark import mark, show
 from quizgen.marking.specs import AnySpec, Common
 from quizgen.maths.numbers import to_float
@@ -118,8 +118,8 @@ def lint_template(template: Template, seeds: int = 200, langs: tuple[str, ...] =
         composed = [_worded(one) for one in (*first[: COMPOSED.of(seeds)], *known)]
         for worded in composed:
             report.problems += composed_problems(worded)
-        for one in (*_telling(first, MARKED.of(seeds)), *known):
-            report.problems += marking_problems(one)
+        typed = (*_telling(first, MARKED.of(seeds)), *known)
+        report.problems += _once_a_part([p for one in typed for p in marking_problems(one)])
         for one, worded in zip(first[:LEVELLED], composed, strict=False):
             report.problems += level_problems(one)
             report.heard += [heard(question, key) for question, key in worded.values()]
@@ -198,9 +198,10 @@ def _constant(template: Template, report: Report) -> Iterator[str]:
 
 
 def _language_problems(template: Template, langs: tuple[str, ...]) -> list[str]:
-    problems = [f"no {lang}.md" for lang in langs if lang not in template.texts]
+    wanted = langs or tuple(template.texts) or (FIRST,)
+    problems = [f"no {lang}.md" for lang in wanted if lang not in template.texts]
     if not template.texts:
-        return problems or ["is written in no language"]
+        return problems
     for lang in template.texts:
         problems += [f"{lang}.md: {p}" for p in _missing(template, lang)]
     problems += _unequal_slots(template)
@@ -283,6 +284,22 @@ def composed_problems(worded: Worded) -> list[str]:
         if "{{" in solved:
             problems.append(f"{lang}: a placeholder is left in the solution")
     return problems
+
+
+_TYPED = re.compile(r"seed .*?, (part \w+): (printed answer|trap '.*?')")
+
+
+def _once_a_part(problems: list[str]) -> list[str]:
+    """The first problem of a part's key and of each mistake, which would come again in each draw.
+
+    Where the key itself is not right when typed, what becomes of mistakes says nothing.
+    """
+    found: dict[tuple[str, str], str] = {}
+    for problem in problems:
+        if typed := _TYPED.match(problem):
+            found.setdefault((typed[1], typed[2]), problem)
+    keys = {part for part, what in found if what == "printed answer"}
+    return [p for (part, what), p in found.items() if what == "printed answer" or part not in keys]
 
 
 def marking_problems(one: Draw) -> list[str]:

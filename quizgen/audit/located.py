@@ -61,6 +61,8 @@ ADVICE = {
     "draw lacks": "write a line for it under [draw]",
     "unknown to the solver": "use the name of one of its steps",
     "no MODEL": "end the solver with MODEL = Model(given=..., steps=...)",
+    r"templates/cards/formulas\.toml lacks$": "write it there, or mend its name in the solver",
+    r"and names no formula$": "name it in formulas of the solver's MODEL",
     "give exactly one of": "keep one way of drawing it",
     r"is \[first, last, step\]": "write three numbers",
     "is not more than 0": "write how much it is worth",
@@ -86,7 +88,6 @@ ADVICE = {
     "SystemExit": "leave out what ends the program",
     r"\w+(?:Error|Exception): ": "mend the line; what is imported there must not fail",
     r"step .*: no formula for": "use +, -, *, /, powers and functions that students can type",
-    "is written in no language": "write en.md, or the file of another language",
     "share the name": "rename the folder of one of them",
     r"topic .* has no template": "write one, or delete the line",
     "there is no template.toml": "write it, or mend the name of the file",
@@ -217,7 +218,7 @@ def _in_toml(what: str) -> Iterator[str]:
         yield rf"(?<![\w-]){re.escape(named)}(?![\w-])"
     if "figure" in what:
         yield r"^\[?figure\b"
-    if "draw" in what:
+    if "draw" in what or "never gives" in what:
         yield r"^\[draw\]"
 
 
@@ -237,7 +238,7 @@ def _in_words(what: str) -> Iterator[str]:
 
 
 def _in_python(what: str) -> Iterator[str]:
-    for named in re.findall(r"(?:step|trap) '([^']+)'", what):
+    for named in re.findall(r"(?:step|trap|formula) '([^']+)'", what):
         yield rf"Step\({re.escape(named)}\b|[\"']{re.escape(named)}[\"']"
 
 

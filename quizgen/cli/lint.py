@@ -215,11 +215,11 @@ def _examined(
         with redirect_stdout(sys.stderr):  # an author's Python may print, and not into our JSON
             report = lint_template(bank.template(name), seeds, bank.languages)
         report.problems += [
-            f"the solver names formula {formula!r}, which templates/cards/formulas.toml lacks"
+            f"solver: formula {formula!r}, which templates/cards/formulas.toml lacks"
             for formula in missing_formulas(bank, name)
         ]
         report.problems += [
-            f"step {step!r} of the solver has the form of {', '.join(forms)} and names no formula"
+            f"solver: step {step!r} has the form of {', '.join(forms)} and names no formula"
             for step, forms in unnamed_formulas(bank, name).items()
         ]
     except Exception as error:

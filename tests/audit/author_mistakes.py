@@ -9,10 +9,12 @@ from __future__ import annotations
 import sys
 import tomllib
 from pathlib import Path
+from typing import Any
 
 HERE = Path(__file__).parent
-sys.path.insert(0, str(HERE.parent / "bank"))
+sys.path[:0] = [str(HERE), str(HERE.parent / "bank")]
 
+from checks import said_by  # noqa: E402
 from mechanics import FILES, write  # noqa: E402
 
 from quizgen.bank.scaffold import new_template  # noqa: E402
@@ -24,8 +26,10 @@ HEAD = """# Mistakes of authors
 What `quizgen lint` says, by mistake; `FILE:LINE` stands before each message. This page is made from `tests/audit/mistakes.toml`, where
 each mistake is made and its message compared.
 
-| mistake | in | lint says |
-|---|---|---|
+The last column is the check that finds it, by module and function.
+
+| mistake | in | lint says | found by |
+|---|---|---|---|
 """
 
 
@@ -52,9 +56,11 @@ def sound() -> dict[str, str]:
     return found
 
 
-def spoilt(root: Path, row: dict[str, str]) -> Path:
+def spoilt(root: Path, row: dict[str, Any]) -> Path:
     """The bank with one mistake; cards, which have topics too, where it is about them."""
     files = sound() | ({CARDS: CARD} if row["file"] == CARDS else {})
+    if "text" in row:  # another file, or several
+        return write(root, {**files, row["file"]: row["text"], **row.get("also", {})})
     if "rename" in row:
         write(root, files)
         (root / row["file"]).rename(root / row["rename"])
@@ -67,7 +73,9 @@ def spoilt(root: Path, row: dict[str, str]) -> Path:
 def page() -> str:
     """The documentation."""
     lines = [
-        f"| {row['what']} | `{row['says'].split(': ')[0]}` | {_cell(row['says'])} |" for row in ROWS
+        f"| {row['what']} | `{row['says'].split(': ')[0]}` | {_cell(row['says'])} "
+        f"| `{said_by(row['says'])}` |"
+        for row in ROWS
     ]
     return HEAD + "\n".join(lines) + "\n"
 
