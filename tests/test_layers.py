@@ -32,7 +32,7 @@ LAYERS = {
     "figures": "errors outside png locale maths arrays camera",
     "marking": "errors patterns shapes outside locale maths",
     "question": "errors shapes outside locale maths typeset bank figures marking",
-    "paper": "errors patterns shapes outside files locale maths bank figures marking question",
+    "paper": "errors patterns shapes outside files kept locale maths bank figures marking question",
     "practice": "errors shapes outside files locale maths bank marking question paper",
     "responses": "errors shapes outside files locale maths marking question paper practice",
     "render": "errors outside files kept locale typeset bank question paper",

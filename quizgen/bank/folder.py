@@ -11,7 +11,7 @@ trusted.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from functools import cache, cached_property
 from pathlib import Path
 from types import ModuleType
@@ -326,10 +326,9 @@ class Bank:
             return f"; did you mean {', '.join(close)}?"
         return f" (there are {len(self.paths)}; quizgen templates lists them)"
 
-    def digest(self, names: Iterable[str]) -> str:
-        """Changes with any file behind these templates; none of them is run."""
-        files = (file for name in names for file in self._files(name))
-        return digest_of(*(read_bytes(file, BankError) for file in files))
+    def contents(self, name: str) -> tuple[bytes, ...]:
+        """The files behind a template; none of them is run."""
+        return tuple(read_bytes(file, BankError) for file in self._files(name))
 
     def _files(self, name: str) -> list[Path]:
         """Rules, words, solver and figure of a template."""

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from quizgen.errors import CodeError
+from quizgen.kept import digest_of
 
 if TYPE_CHECKING:
     from quizgen.bank.folder import Bank
@@ -64,7 +65,14 @@ def used_banks(bank: Bank, names: Iterable[str]) -> tuple[UsedBank, ...]:
 
 @cache
 def _used(bank: Bank, templates: tuple[str, ...]) -> UsedBank:
-    return UsedBank(bank.name, bank.about.version, bank.digest(templates)[:SHOWN], templates)
+    digest = digest_of(*(part for name in templates for part in _contents(bank, name)))
+    return UsedBank(bank.name, bank.about.version, digest[:SHOWN], templates)
+
+
+@cache
+def _contents(bank: Bank, name: str) -> tuple[bytes, ...]:
+    """The files behind a template, which stands in many of many papers."""
+    return bank.contents(name)
 
 
 def differing(used: Iterable[UsedBank], banks: Iterable[Bank]) -> str:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -116,8 +116,8 @@ class Whole:
         return math.floor((first - 1) * unit) + 1, math.floor(last * unit)
 
     def _counted(self, one: Candidate) -> Sums:
-        points = round(one.points * self.point) if self.blueprint.total else 0
-        minutes = round(one.minutes * self.minute) if self.last else 0
+        points = _units(one.points, self.point) if self.blueprint.total else 0
+        minutes = _units(one.minutes, self.minute) if self.last else 0
         return Sums(points, minutes, bool(one.figure), one.photograph)
 
     def _reachable(self) -> list[dict[tuple[int, int], int]]:
@@ -215,15 +215,14 @@ def _offered(name: str, places: Sequence[Sequence[Candidate]]) -> str:
     return f"the slots together can make {float(least):g} to {float(most):g}"
 
 
+def _units(value: Fraction, unit: int) -> int:
+    """A value in units, of which its denominator is a divisor."""
+    return value.numerator * (unit // value.denominator)
+
+
 def _at_least(sums: Mapping[tuple[int, int], int]) -> dict[tuple[int, int], int]:
     """Sums reached with so many figures and photographs or more."""
-    return {
-        (f, p): _union(bits for (g, q), bits in sums.items() if g >= f and q >= p) for f, p in sums
-    }
-
-
-def _union(masks: Iterator[int]) -> int:
-    found = 0
-    for mask in masks:
-        found |= mask
+    found: dict[tuple[int, int], int] = {}
+    for f, p in sorted(sums, reverse=True):
+        found[f, p] = sums[f, p] | found.get((f + 1, p), 0) | found.get((f, p + 1), 0)
     return found
