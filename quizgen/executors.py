@@ -6,6 +6,7 @@ A worker that is killed costs the job that it was at, which another one does aga
 
 from __future__ import annotations
 
+import gc
 import multiprocessing
 import os
 import signal
@@ -75,7 +76,9 @@ class Processes(ThreadPoolExecutor):
         """The process of this thread, begun anew if it has died."""
         if getattr(self._own, "process", None) is None:
             spawn = multiprocessing.get_context("spawn")
-            self._own.process = ProcessPoolExecutor(1, mp_context=spawn, initializer=_begin)
+            self._own.process = ProcessPoolExecutor(
+                1, mp_context=spawn, initializer=_begin, initargs=gc.get_threshold()
+            )
             self._all.append(self._own.process)
         found: ProcessPoolExecutor = self._own.process
         return found
@@ -87,8 +90,12 @@ class Processes(ThreadPoolExecutor):
             process.shutdown(wait, cancel_futures=cancel_futures)
 
 
-def _begin() -> None:
-    """A worker ends with its parent and at Ctrl-C, and typesets in one thread: it has company."""
+def _begin(*threshold: int) -> None:
+    """A worker ends with its parent and at Ctrl-C, and typesets in one thread: it has company.
+
+    It looks for garbage as seldom as its parent, which took a twentieth of each of many papers.
+    """
+    gc.set_threshold(*threshold)
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     os.environ["RAYON_NUM_THREADS"] = "1"
     threading.Thread(target=_end_with_parent, daemon=True).start()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 
 import pytest
@@ -19,6 +20,21 @@ STUDENTS = [Student(f"{n}") for n in range(4)]
 
 def pid_of(_job):
     return os.getpid()
+
+
+def threshold_of(_job):
+    return gc.get_threshold()
+
+
+def test_a_worker_looks_for_garbage_as_seldom_as_its_parent():
+    before = gc.get_threshold()
+    gc.set_threshold(12_345, 6, 7)
+    try:
+        with workers(2) as (executor, ahead):
+            found = list(run(executor, threshold_of, range(2), ahead))
+    finally:
+        gc.set_threshold(*before)
+    assert found == [(12_345, 6, 7)] * 2
 
 
 def test_few_jobs_are_done_in_this_process():
