@@ -5,6 +5,7 @@ from __future__ import annotations
 import statistics
 from collections.abc import Callable, Iterator
 from fractions import Fraction
+from functools import partial
 from pathlib import Path
 
 from markupsafe import Markup
@@ -22,7 +23,7 @@ from quizgen.classes.rulings import read_rulings
 from quizgen.classes.scale import Scale, read_scale
 from quizgen.errors import ClassError
 from quizgen.files import PRIVATE, write_all
-from quizgen.locale import FIRST, line_heights, table
+from quizgen.locale import FIRST, line_heights, numbers_in, table
 from quizgen.marking.options import Options
 from quizgen.paper.key import Key
 from quizgen.paper.marking import Marker
@@ -57,14 +58,15 @@ def analyse(folder: ClassFolder, lang: str = FIRST) -> tuple[Analysis, Path]:
             bangla_fonts=bangla_faces([lang], folder.settings.name),
             found=found,
             style=Markup(line_heights(":lang({})")) + style(),
-            svg=_plots(found, scale),
+            svg=_plots(found, scale, lang),
             mean=statistics.fmean(found.totals),
             spread=statistics.stdev(found.totals) if found.students > 1 else 0.0,
             median_minutes=statistics.median(found.minutes) if found.minutes else 0.0,
             agreed=agreement(read_rulings(folder.path)),
             clear=_clear(found),
-            number=_number,
-            chance=_chance,
+            said=partial(_said, lang),
+            number=partial(_number, lang),
+            chance=partial(_chance, lang),
             most=MOST_MISTAKES,
             told=lambda mistake: told(mistake, keys.key, lang),
         )
@@ -81,7 +83,7 @@ def _clear(found: Analysis) -> list[object]:
     return [one for one in found.effects if one.corrected < SURE]
 
 
-def _plots(found: Analysis, scale: Scale) -> dict[str, object]:
+def _plots(found: Analysis, scale: Scale, lang: str) -> dict[str, object]:
     passing = float(scale.bounds()[-1][1] * Fraction(found.points))
     rows = [
         (str(number), item.difficulty, item.discrimination)
@@ -90,18 +92,22 @@ def _plots(found: Analysis, scale: Scale) -> dict[str, object]:
     ]
     shown = max(1, min(len(_clear(found)), MOST_PLOTS))
     return {
-        "distribution": Markup(plots.distribution(found.totals, found.points, passing)),
-        "scatter": Markup(plots.items(rows)) if rows else "",
-        "effects": [(one, Markup(plots.effect(one))) for one in found.effects[:shown]],
+        "distribution": Markup(plots.distribution(found.totals, found.points, passing, lang)),
+        "scatter": Markup(plots.items(rows, lang)) if rows else "",
+        "effects": [(one, Markup(plots.effect(one, lang))) for one in found.effects[:shown]],
     }
 
 
-def _number(value: float | None) -> str:
-    return "–" if value is None else f"{value:.2f}"
+def _said(lang: str, form: str, value: float | str) -> str:
+    return numbers_in(lang, form % value)
 
 
-def _chance(value: float) -> str:
-    return "< 0.001" if value < 0.001 else f"{value:.3f}"
+def _number(lang: str, value: float | None) -> str:
+    return "–" if value is None else _said(lang, "%.2f", value)
+
+
+def _chance(lang: str, value: float) -> str:
+    return _said(lang, "< %s", "0.001") if value < 0.001 else _said(lang, "%.3f", value)
 
 
 def told(mistake: Mistake, key_of: Callable[[str], Key], lang: str) -> str:

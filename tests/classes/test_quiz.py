@@ -6,10 +6,14 @@ What Ben gave, and what it is worth, was worked out by hand there.
 from __future__ import annotations
 
 import csv
+import re
 from pathlib import Path
 
 import pytest
 from made import run
+
+from quizgen.classes import plots
+from quizgen.classes.effects import Effect, Level
 
 HERE = Path(__file__).parents[1] / "responses" / "moodle"
 KEYS = HERE / "quiz.keys.jsonl"
@@ -65,6 +69,20 @@ def test_the_analysis_speaks_the_language_that_is_asked_for(taken, lang, said):
     assert f'<html lang="{lang}">' in page
     assert f"<th>{said}</th>" in page
     assert ("@font-face" in page) == (lang == "bn")
+    # 27, 14.25 and 27 points: 22.75 each, 7.36 apart
+    assert [said in page for said in ("22,8", "7,4")] == [lang == "de"] * 2
+    assert [said in page for said in ("22.8", "7.4")] == [lang != "de"] * 2
+    numbers = " ".join(re.findall(r'<td class="number[^>]*>(.*?)</td>', page))
+    assert set(re.findall(r"\d([.,])\d", numbers)) == {"," if lang == "de" else "."}
+
+
+@pytest.mark.parametrize(("lang", "sign"), [("en", "."), ("bn", "."), ("de", ",")])
+def test_the_plots_have_the_decimal_sign_of_the_language(lang, sign):
+    """Numbers at axes are drawn; what they say stands beside them in a comment."""
+    effect = Effect("t", "q", (Level("0.5", 9, 0.25, 0.1), Level("1.5", 9, 0.5, 0.1)), 0.01)
+    drawn = (plots.items([("1", 0.4, 0.3), ("2", 0.8, 0.1)], lang), plots.effect(effect, lang))
+    for svg in drawn:
+        assert set(re.findall(r"<!-- [^ ]*?\d([.,])\d", svg)) == {sign}
 
 
 def test_a_later_report_adds_people_and_changes_nobodys_answers(tmp_path, capsys):
