@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 import scenes_at_random as at_random
 
-from quizgen.camera import Camera, Scene, SceneError
-from quizgen.camera.effects import EFFECTS, questions
+from quizgen.camera import Camera, Scene, SceneError, View
+from quizgen.camera.effects import EFFECTS, gamma, questions
 from quizgen.camera.effects.binning import BINNING
 from quizgen.camera.effects.distortion import K1, K2
-from quizgen.camera.facts import DEVIATIONS, EXCEEDED, Error, coarse, glimpsed, measured
+from quizgen.camera.facts import DEVIATIONS, EXCEEDED, Error, Facts, coarse, glimpsed, measured
 from quizgen.camera.plan import SKIP, Plan, Prepared, Step, _Chain, _units, everything, plan
 from quizgen.camera.simulate import difference_dn, run
 
@@ -204,3 +204,16 @@ def test_errors_add_as_stated():
     total = Error(1.0, 3.0).plus(Error(2.0, 4.0))
     assert (total.sure, total.sigma) == (3.0, 5.0)
     assert total.total == pytest.approx(3 + 5 * DEVIATIONS)
+
+
+@pytest.mark.parametrize("exponent", [1.0001, 1.4, 2.2, 30.0])
+@pytest.mark.parametrize(("low", "high"), [(0.0, 1.0), (0.5, 0.9), (0.01, 0.05), (-0.2, 3.0)])
+def test_a_power_is_farthest_from_the_diagonal_where_said(exponent, low, high):
+    """Against a fine grid; it can only miss the top by a little."""
+    view = View(Scene(), Camera(gamma=exponent))
+    grid = np.linspace(max(low, 0.0), min(high, 1.0), 200_001)
+    clipped = max(-low, high - 1.0, 0.0)
+    apart = float((grid ** (1.0 / exponent) - grid).max())
+    assert gamma.skipped(Facts(low, high, ()), view).total == pytest.approx(
+        clipped + apart, abs=2e-6
+    )

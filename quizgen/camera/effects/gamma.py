@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-import numpy as np
+import math
+
 from msgspec.structs import replace
 
 from quizgen.camera.blocks import Work
@@ -50,11 +51,19 @@ def _gap(width: float, bottom: float, view: View) -> float:
 def skipped(facts: Facts, view: View) -> Error:
     """Largest distance of the curve from the diagonal over the range, and what it clips."""
     low, high = max(0.0, min(facts.bottom, 1.0)), min(1.0, max(facts.top, 0.0))
-    grid = np.linspace(low, high, 257)
-    curve = np.array([encode_number(float(value), view.camera[GAMMA]) for value in grid])
-    # both curves rise, so between two points the gap is at most the later minus the earlier
-    gap = float(max((curve[1:] - grid[:-1]).max(), curve[0] - low))
+    gamma = view.camera[GAMMA]
+    # a concave curve is farthest from the diagonal where it is as steep, or at the nearest end
+    farthest = min(max(low, _as_steep(gamma)), high)
+    gap = encode_number(farthest, gamma) - farthest
     return facts.outside(0.0, 1.0).plus(Error(gap + CURVE_ERROR))
+
+
+def _as_steep(gamma: str | float) -> float:
+    """Where a tone curve rises as steeply as the diagonal."""
+    if gamma == "srgb":
+        return (1.055 / 2.4) ** (2.4 / 1.4)
+    exponent = float(gamma)
+    return math.exp(-exponent / (exponent - 1.0) * math.log(exponent))
 
 
 def table(facts: Facts, view: View) -> Error:
