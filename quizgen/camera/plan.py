@@ -132,8 +132,9 @@ class _Chain:
         self.present, self.view, self.facts = present, view, facts
         self.before = _facts_along(present, view, facts)
         self._made: dict[tuple[int, str], Error] = {}
+        self._known: dict[frozenset[tuple[int, str]], float] = {}
 
-    def _off(self, index: int, made: str) -> Error:
+    def off(self, index: int, made: str) -> Error:
         """Error of a choice other than exact, worked out when first asked for."""
         key = index, made
         if key not in self._made:
@@ -151,12 +152,12 @@ class _Chain:
         for index, effect in enumerate(self.present):
             made = choice.get(index, EXACT)
             if made == SKIP:
-                lost = self._off(index, SKIP)
+                lost = self.off(index, SKIP)
                 error = error.plus(lost) if effect.random else error.along(lost)
                 continue
             error = self._carried(effect, index, error)
             if made != EXACT:
-                error = error.plus(self._off(index, made))
+                error = error.plus(self.off(index, made))
         return error
 
     def _carried(self, effect: Effect, index: int, error: Error) -> Error:
@@ -168,7 +169,10 @@ class _Chain:
 
     def dn(self, choice: dict[int, str]) -> float:
         """The same in grey levels."""
-        return GREY_LEVELS * self.error(choice).total
+        key = frozenset(pair for pair in choice.items() if pair[1] != EXACT)
+        if key not in self._known:
+            self._known[key] = GREY_LEVELS * self.error(choice).total
+        return self._known[key]
 
 
 def _lost(effect: Effect, facts: Facts, view: View) -> Error:
@@ -249,8 +253,23 @@ def _affordable(chain: _Chain, units: list[_Unit], budget: float) -> Iterator[tu
                 yield unit, made
 
 
-def _total(costs: list[dict[str, float]], choice: dict[int, str]) -> float:
-    return sum(costs[index][made] for index, made in choice.items())
+def _gained(
+    unit: _Unit,
+    chains: tuple[_Chain, _Chain],
+    costs: list[dict[str, float]],
+    choice: dict[int, str],
+    budget: float,
+) -> float:
+    """The most that a second look at one unit may save; what looks the same need not be asked."""
+    first, second = chains
+    gains = [0.0]
+    for made in unit.choices[1:]:
+        gain = sum(costs[index][choice[index]] - costs[index][made] for index in unit.members)
+        same = all(first.off(index, made) == second.off(index, made) for index in unit.members)
+        hopeful = gain > max(gains) and not same
+        if hopeful and second.dn(dict.fromkeys(unit.members, made)) <= budget:
+            gains.append(gain)
+    return max(gains)
 
 
 def _best(
@@ -263,8 +282,9 @@ def _best(
     choice = _spend(chain, units, costs, budget)
     if all(unit.fixed or choice[unit.members[0]] == SKIP for unit in units):
         return chain, choice
-    hopeful = _spend(_Chain(present, view, glimpsed(prepared.stack, view)), units, costs, budget)
-    gain = _total(costs, choice) - _total(costs, hopeful)
+    hopeful = _Chain(present, view, glimpsed(prepared.stack, view))
+    ran = [unit for unit in units if not unit.fixed and choice[unit.members[0]] != SKIP]
+    gain = sum(_gained(unit, (chain, hopeful), costs, choice, budget) for unit in ran)
     if gain <= FACTS_PER_MEGAPIXEL * view.megapixels:
         return chain, choice
     chain = _Chain(present, view, measured(prepared.stack, view))
@@ -362,8 +382,8 @@ def _report(
 ) -> Plan:
     times = _costs(chain.present, chain.view, opencv_used=opencv() is not None)
     steps, skipped = [], []
-    for unit in units:
-        alone = min(_alone(chain, choice, unit), GREY_LEVELS)
+    bounds = _alone(chain, choice, units)
+    for unit, alone in zip(units, bounds, strict=True):
         for index in unit.members:
             name, made, time = chain.present[index].name, choice[index], times[index]
             if made == SKIP:
@@ -376,12 +396,19 @@ def _report(
     return Plan(ran, tuple(skipped), absent, chain.dn(choice), spent, limit)
 
 
-def _alone(chain: _Chain, choice: dict[int, str], unit: _Unit) -> float:
-    """What one unit changes in this plan: with it against without it, all other choices as made."""
-    kept = [i for i in range(len(chain.present)) if choice[i] != SKIP or i in unit.members]
-    present = tuple(chain.present[index] for index in kept)
-    without = {kept.index(index): SKIP for index in unit.members}
-    return _Chain(present, chain.view, chain.facts).dn(without)
+def _alone(chain: _Chain, choice: dict[int, str], units: list[_Unit]) -> list[float]:
+    """What each unit changes in this plan: with it against without it, other choices as made."""
+    ran = tuple(index for index, made in sorted(choice.items()) if made != SKIP)
+    without: dict[tuple[int, ...], _Chain] = {tuple(sorted(choice)): chain}
+    bounds = []
+    for unit in units:
+        kept = tuple(sorted({*ran, *unit.members}))
+        if kept not in without:
+            present = tuple(chain.present[index] for index in kept)
+            without[kept] = _Chain(present, chain.view, chain.facts)
+        members = {kept.index(index): SKIP for index in unit.members}
+        bounds.append(min(without[kept].dn(members), GREY_LEVELS))
+    return bounds
 
 
 def _why_skipped(bound: float) -> str:
