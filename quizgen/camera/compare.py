@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quizgen.camera import effects
+from quizgen.camera.chain import EXACT, GREY_LEVELS
 from quizgen.camera.codes import rounded
-from quizgen.camera.plan import EXACT, GREY_LEVELS, Plan, Prepared, Skipped, Step
+from quizgen.camera.plan import Plan, Prepared, Skipped, Step
 from quizgen.camera.simulate import Photo, difference_dn, run
 
 Codes = NDArray[np.uint8]

@@ -21,11 +21,16 @@ Carry = Callable[[Error, Facts, View], Error]
 After = Callable[[Facts, View], Facts]
 Cost = Callable[[View, str, bool], float]
 Check = Callable[[View], None]
+Has = Callable[[View], bool]
 
 
 def _anything(facts: Facts, view: View) -> Error:
     """Nothing is known: skipping may change everything."""
     return Error(float("inf"))
+
+
+def _never(view: View) -> bool:
+    return False
 
 
 def _possible(view: View) -> None:
@@ -129,6 +134,8 @@ class Effect(msgspec.Struct, frozen=True, kw_only=True):
         that it is never skipped.
     carried : callable
         What becomes of an error that is already there.
+    keeps_clipped : callable
+        Whether values beyond 0 and 1 end there, once clipped, as they would if clipped before it.
     after : callable
         Facts of the output.
     rungs : tuple of Rung
@@ -151,11 +158,12 @@ class Effect(msgspec.Struct, frozen=True, kw_only=True):
     stage: Stage
     decides: tuple[str, ...]
     settings: tuple[AnySetting, ...] = ()
-    present: Callable[[View], bool]
+    present: Has
     run: Run
     cost: Cost
     skipped: Bound = _anything
     carried: Carry = same_error
+    keeps_clipped: Has = _never
     after: After = same_facts
     rungs: tuple[Rung, ...] = ()
     pair: str = ""

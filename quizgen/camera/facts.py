@@ -63,6 +63,9 @@ class Error(msgspec.Struct, frozen=True):
         Bound on the standard deviation of a normal value that the rest is a share of.
     odd : float
         Share of values of which nothing of this is true.
+    beyond : float
+        By how much more one picture may stand beyond 0 or 1: between the two pictures clipped to
+        [0, 1], the other parts are bounds on their own.
 
     None is ever negative; what cannot be computed is infinite.
     """
@@ -70,11 +73,12 @@ class Error(msgspec.Struct, frozen=True):
     sure: float = 0.0
     sigma: float = 0.0
     odd: float = 0.0
+    beyond: float = 0.0
 
     def __post_init__(self) -> None:
-        if self.sure >= 0.0 and self.sigma >= 0.0:
+        if self.sure >= 0.0 and self.sigma >= 0.0 and self.beyond >= 0.0:
             return
-        for part in ("sure", "sigma"):
+        for part in ("sure", "sigma", "beyond"):
             value = getattr(self, part)
             known = math.inf if math.isnan(value) else max(0.0, value)
             msgspec.structs.force_setattr(self, part, known)
@@ -84,26 +88,37 @@ class Error(msgspec.Struct, frozen=True):
         """Difference exceeded by at most the share `EXCEEDED` of the values."""
         if self.odd > ODD + (0.0 if self.sigma else _NORMAL):
             return math.inf
-        return self.sure + DEVIATIONS * self.sigma
+        return self.sure + self.beyond + DEVIATIONS * self.sigma
 
     @property
     def certain(self) -> float:
         """Difference that all but 6e-7 of the values keep, however they are mixed afterwards."""
-        return self.sure + CERTAIN * self.sigma
+        return self.sure + self.beyond + CERTAIN * self.sigma
 
     def plus(self, other: Error) -> Error:
         """Both errors of different luck: random parts add in quadrature."""
-        sigma = math.hypot(self.sigma, other.sigma)
-        return Error(self.sure + other.sure, sigma, self.odd + other.odd)
+        return self._with(other, math.hypot(self.sigma, other.sigma))
 
     def along(self, other: Error) -> Error:
         """Both errors of the same luck: random parts add."""
-        sigma = self.sigma + other.sigma
-        return Error(self.sure + other.sure, sigma, self.odd + other.odd)
+        return self._with(other, self.sigma + other.sigma)
+
+    def _with(self, other: Error, sigma: float) -> Error:
+        beyond = self.beyond + other.beyond
+        return Error(self.sure + other.sure, sigma, self.odd + other.odd, beyond)
 
     def times(self, factor: float) -> Error:
         """Scaled by a factor >= 0."""
-        return Error(self.sure * factor, self.sigma * factor, self.odd)
+        beyond = self.beyond * factor
+        return Error(self.sure * factor, self.sigma * factor, self.odd, beyond)
+
+    def everywhere(self) -> Error:
+        """What may stand beyond 0 or 1 counts like all else."""
+        return Error(self.sure + self.beyond, self.sigma, self.odd) if self.beyond else self
+
+    def clipped(self) -> Error:
+        """After both pictures are clipped to [0, 1]."""
+        return Error(self.sure, self.sigma, self.odd) if self.beyond else self
 
 
 def mean_size(sigma: float, count: int) -> float:

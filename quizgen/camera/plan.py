@@ -18,10 +18,11 @@ from msgspec.structs import replace
 
 from quizgen.camera import effects
 from quizgen.camera.camera import Camera
+from quizgen.camera.chain import EXACT, GREY_LEVELS, SKIP, Chain
 from quizgen.camera.costs import FACTS_PER_MEGAPIXEL
 from quizgen.camera.draw import Stack, draw
-from quizgen.camera.effect import Effect, same_stack
-from quizgen.camera.facts import LARGEST, NO_ERROR, Error, Facts, coarse, glimpsed, measured
+from quizgen.camera.effect import Effect, same_error
+from quizgen.camera.facts import coarse, glimpsed, measured
 from quizgen.camera.filters import opencv
 from quizgen.camera.scene import Scene, SceneError
 from quizgen.camera.view import View
@@ -29,13 +30,6 @@ from quizgen.outside import located
 
 BUDGETS = {"same": 0.5, "visible": 2.0, "sketch": 8.0}
 """Named budgets in 8-bit grey levels."""
-
-GREY_LEVELS = 255.0
-
-EXACT, SKIP = "", "skip"
-
-_ROUNDING = 5e-7
-"""What single precision adds to a difference in one step, relative to the largest value."""
 
 
 class Step(msgspec.Struct, frozen=True):
@@ -125,81 +119,6 @@ class _Unit(msgspec.Struct, frozen=True):
     fixed: bool
 
 
-class _Chain:
-    """The present effects of one view with their facts; predicts the error of any choice."""
-
-    def __init__(self, present: tuple[Effect, ...], view: View, facts: Facts) -> None:
-        self.present, self.view, self.facts = present, view, facts
-        self.before = _facts_along(present, view, facts)
-        self._made: dict[tuple[int, str], Error] = {}
-        self._known: dict[frozenset[tuple[int, str]], float] = {}
-
-    def off(self, index: int, made: str) -> Error:
-        """Error of a choice other than exact, worked out when first asked for."""
-        key = index, made
-        if key not in self._made:
-            effect, facts = self.present[index], self.before[index]
-            if made == SKIP:
-                self._made[key] = _lost(effect, facts, self.view)
-            else:
-                rung = next(rung for rung in effect.rungs if rung.name == made)
-                self._made[key] = rung.error(facts, self.view).plus(_rounding(facts))
-        return self._made[key]
-
-    def error(self, choice: dict[int, str]) -> Error:
-        """Difference to running everything exactly; choices not given are exact."""
-        error = NO_ERROR
-        for index, effect in enumerate(self.present):
-            made = choice.get(index, EXACT)
-            if made == SKIP:
-                lost = self.off(index, SKIP)
-                error = error.plus(lost) if effect.random else error.along(lost)
-                continue
-            error = self._carried(effect, index, error)
-            if made != EXACT:
-                error = error.plus(self.off(index, made))
-        return error
-
-    def _carried(self, effect: Effect, index: int, error: Error) -> Error:
-        if error == NO_ERROR or math.isinf(error.total):
-            return error
-        facts = self.before[index]
-        carried = effect.carried(error, facts, self.view)
-        return carried.plus(_rounding(facts))
-
-    def dn(self, choice: dict[int, str]) -> float:
-        """The same in grey levels."""
-        key = frozenset(pair for pair in choice.items() if pair[1] != EXACT)
-        if key not in self._known:
-            self._known[key] = GREY_LEVELS * self.error(choice).total
-        return self._known[key]
-
-
-def _lost(effect: Effect, facts: Facts, view: View) -> Error:
-    """Loss of skipping, with rounding; a limit of the sensor that is never met costs nothing."""
-    lost = effect.skipped(facts, view)
-    if lost == NO_ERROR and effect.stage == "sensor":
-        return lost
-    return lost.plus(_rounding(facts))
-
-
-def _rounding(facts: Facts) -> Error:
-    return Error(_ROUNDING * max(facts.size, facts.top))
-
-
-def _facts_along(present: tuple[Effect, ...], view: View, facts: Facts) -> list[Facts]:
-    before = []
-    for effect in present:
-        if effect.stage not in ("scene", "optics"):
-            facts = facts.flat()
-        before.append(facts)
-        rounded = facts.rounded + _ROUNDING * (effect.run is not same_stack)
-        facts = replace(effect.after(facts, view), rounded=rounded)
-        if not facts.size + facts.reach < LARGEST:
-            raise SceneError(f"{effect.name} makes signals of more than {LARGEST:g}")
-    return before
-
-
 def _units(present: tuple[Effect, ...], asked: frozenset[str]) -> list[_Unit]:
     units: dict[str, list[int]] = {}
     for index, effect in enumerate(present):
@@ -223,14 +142,28 @@ def _costs(present: tuple[Effect, ...], view: View, *, opencv_used: bool) -> lis
 
 
 def _spend(
-    chain: _Chain, units: list[_Unit], costs: list[dict[str, float]], budget: float
+    chain: Chain, units: list[_Unit], costs: list[dict[str, float]], budget: float
 ) -> dict[int, str]:
     """Take the affordable choice that saves most per grey level, again and again."""
     choice = {i: EXACT if unit.fixed else SKIP for unit in units for i in unit.members}
     if chain.dn(choice) <= budget:
         return choice
     choice = dict.fromkeys(choice, EXACT)
-    possible = list(_affordable(chain, units, budget))
+    while True:
+        possible = list(_affordable(chain, units, choice, budget))
+        more = _greedily(chain, possible, costs, choice, budget)
+        again, choice = _opens_more(chain, choice, more), more
+        if not again:
+            return choice
+
+
+def _greedily(
+    chain: Chain,
+    possible: list[tuple[_Unit, str]],
+    costs: list[dict[str, float]],
+    choice: dict[int, str],
+    budget: float,
+) -> dict[int, str]:
     while True:
         now, best = chain.dn(choice), (0.0, choice)
         for unit, made in possible:
@@ -245,49 +178,63 @@ def _spend(
         choice = best[1]
 
 
-def _affordable(chain: _Chain, units: list[_Unit], budget: float) -> Iterator[tuple[_Unit, str]]:
-    """Choices that the budget allows on their own: with others beside them none gets cheaper."""
+def _affordable(
+    chain: Chain, units: list[_Unit], choice: dict[int, str], budget: float
+) -> Iterator[tuple[_Unit, str]]:
+    """Choices that the budget allows beside those already made."""
     for unit in units:
         for made in () if unit.fixed else unit.choices:
-            if made == EXACT or chain.dn(dict.fromkeys(unit.members, made)) <= budget:
+            trial = {**choice, **dict.fromkeys(unit.members, made)}
+            if made == EXACT or chain.dn(trial) <= budget:
                 yield unit, made
 
 
-def _gained(
-    unit: _Unit,
-    chains: tuple[_Chain, _Chain],
-    costs: list[dict[str, float]],
-    choice: dict[int, str],
-    budget: float,
-) -> float:
-    """The most that a second look at one unit may save; what looks the same need not be asked."""
+def _opens_more(chain: Chain, before: dict[int, str], now: dict[int, str]) -> bool:
+    """Whether something is newly left out that makes errors larger, such as a converter."""
+    return any(
+        now[index] == SKIP != before[index] and effect.carried is not same_error
+        for index, effect in enumerate(chain.present)
+    )
+
+
+def _total(costs: list[dict[str, float]], choice: dict[int, str]) -> float:
+    return sum(costs[index][made] for index, made in choice.items())
+
+
+def _opened(
+    units: list[_Unit], chains: tuple[Chain, Chain], choice: dict[int, str], budget: float
+) -> bool:
+    """Whether a second look affords a unit that a first has kept; what looks the same is passed."""
     first, second = chains
-    gains = [0.0]
-    for made in unit.choices[1:]:
-        gain = sum(costs[index][choice[index]] - costs[index][made] for index in unit.members)
-        same = all(first.off(index, made) == second.off(index, made) for index in unit.members)
-        hopeful = gain > max(gains) and not same
-        if hopeful and second.dn(dict.fromkeys(unit.members, made)) <= budget:
-            gains.append(gain)
-    return max(gains)
+    for unit in units:
+        if unit.fixed or choice[unit.members[0]] == SKIP:
+            continue
+        for made in unit.choices[1:]:
+            alone = dict.fromkeys(unit.members, made)
+            if all(first.off(index, made) == second.off(index, made) for index in unit.members):
+                continue
+            if second.dn(alone) <= budget or second.dn({**choice, **alone}) <= budget:
+                return True
+    return False
 
 
 def _best(
     prepared: Prepared, present: tuple[Effect, ...], units: list[_Unit], budget: float
-) -> tuple[_Chain, dict[int, str]]:
+) -> tuple[Chain, dict[int, str]]:
     """Decide from colours alone; look at the pixels only where that can still save time."""
     view = prepared.view
     costs = _costs(present, view, opencv_used=False)
-    chain = _Chain(present, view, coarse(view))
+    chain = Chain(present, view, coarse(view))
     choice = _spend(chain, units, costs, budget)
     if all(unit.fixed or choice[unit.members[0]] == SKIP for unit in units):
         return chain, choice
-    hopeful = _Chain(present, view, glimpsed(prepared.stack, view))
-    ran = [unit for unit in units if not unit.fixed and choice[unit.members[0]] != SKIP]
-    gain = sum(_gained(unit, (chain, hopeful), costs, choice, budget) for unit in ran)
+    hopeful = Chain(present, view, glimpsed(prepared.stack, view))
+    if not _opened(units, (chain, hopeful), choice, budget):
+        return chain, choice
+    gain = _total(costs, choice) - _total(costs, _spend(hopeful, units, costs, budget))
     if gain <= FACTS_PER_MEGAPIXEL * view.megapixels:
         return chain, choice
-    chain = _Chain(present, view, measured(prepared.stack, view))
+    chain = Chain(present, view, measured(prepared.stack, view))
     return chain, _spend(chain, units, costs, budget)
 
 
@@ -378,7 +325,7 @@ def _sorted_out(view: View) -> tuple[tuple[Effect, ...], tuple[str, ...]]:
 
 
 def _report(
-    chain: _Chain, choice: dict[int, str], units: list[_Unit], absent: tuple[str, ...], limit: float
+    chain: Chain, choice: dict[int, str], units: list[_Unit], absent: tuple[str, ...], limit: float
 ) -> Plan:
     times = _costs(chain.present, chain.view, opencv_used=opencv() is not None)
     steps, skipped = [], []
@@ -396,16 +343,16 @@ def _report(
     return Plan(ran, tuple(skipped), absent, chain.dn(choice), spent, limit)
 
 
-def _alone(chain: _Chain, choice: dict[int, str], units: list[_Unit]) -> list[float]:
+def _alone(chain: Chain, choice: dict[int, str], units: list[_Unit]) -> list[float]:
     """What each unit changes in this plan: with it against without it, other choices as made."""
     ran = tuple(index for index, made in sorted(choice.items()) if made != SKIP)
-    without: dict[tuple[int, ...], _Chain] = {tuple(sorted(choice)): chain}
+    without: dict[tuple[int, ...], Chain] = {tuple(sorted(choice)): chain}
     bounds = []
     for unit in units:
         kept = tuple(sorted({*ran, *unit.members}))
         if kept not in without:
             present = tuple(chain.present[index] for index in kept)
-            without[kept] = _Chain(present, chain.view, chain.facts)
+            without[kept] = Chain(present, chain.view, chain.facts)
         members = {kept.index(index): SKIP for index in unit.members}
         bounds.append(min(without[kept].dn(members), GREY_LEVELS))
     return bounds
@@ -415,7 +362,7 @@ def _why_skipped(bound: float) -> str:
     return f"changes at most {bound:.3g} DN" if bound else "changes nothing"
 
 
-def _why_kept(chain: _Chain, unit: _Unit, index: int, made: str, alone: float) -> str:
+def _why_kept(chain: Chain, unit: _Unit, index: int, made: str, alone: float) -> str:
     if unit.fixed:
         return chain.present[index].reason or "asked about"
     size = "anything" if alone >= GREY_LEVELS else f"up to {alone:.3g} DN"

@@ -14,12 +14,13 @@ from numpy.typing import NDArray
 from quizgen.camera import effects
 from quizgen.camera.blocks import BLOCK, for_pieces, in_turn
 from quizgen.camera.camera import Camera
+from quizgen.camera.chain import GREY_LEVELS
 from quizgen.camera.codes import rounded
 from quizgen.camera.draw import Layer, Sheet, Stack, composite, lay_over, sheets
 from quizgen.camera.effect import Effect, LayerByLayer, PointByPoint
 from quizgen.camera.facts import EXCEEDED
 from quizgen.camera.filters import warm_up
-from quizgen.camera.plan import GREY_LEVELS, Plan, Prepared, Step, everything, plan
+from quizgen.camera.plan import Plan, Prepared, Step, everything, plan
 from quizgen.camera.scene import Image, Scene
 from quizgen.outside import located
 

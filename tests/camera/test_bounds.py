@@ -7,11 +7,12 @@ import pytest
 import scenes_at_random as at_random
 
 from quizgen.camera import Camera, Scene, SceneError, View
+from quizgen.camera.chain import SKIP, Chain
 from quizgen.camera.effects import EFFECTS, gamma, questions
 from quizgen.camera.effects.binning import BINNING
 from quizgen.camera.effects.distortion import K1, K2
 from quizgen.camera.facts import DEVIATIONS, EXCEEDED, Error, Facts, coarse, glimpsed, measured
-from quizgen.camera.plan import SKIP, Plan, Prepared, Step, _Chain, _units, everything, plan
+from quizgen.camera.plan import Plan, Prepared, Step, _units, everything, plan
 from quizgen.camera.simulate import difference_dn, run
 
 ROUNDING = 1e-5
@@ -67,7 +68,7 @@ def test_every_single_choice_keeps_its_bound(number):
         present = tuple(effect for effect in EFFECTS if effect.present(prepared.given))
         units = _units(present, frozenset())
         facts = [coarse(prepared.view), measured(prepared.stack, prepared.view)]
-        chains = [_Chain(present, prepared.view, known) for known in facts]
+        chains = [Chain(present, prepared.view, known) for known in facts]
         for choice in _chosen(units, source):
             made = [(e.name, choice.get(i, "")) for i, e in enumerate(present)]
             steps = tuple(Step(name, way, "", 0, 0) for name, way in made if way != SKIP)
@@ -93,7 +94,7 @@ def test_bounds_are_not_merely_large():
         scene = Scene(image.shape[1], image.shape[0], image=image, depth=2.0)
         prepared = Prepared(scene, camera)
         present = tuple(effect for effect in EFFECTS if effect.present(prepared.given))
-        chain = _Chain(present, prepared.view, measured(prepared.stack, prepared.view))
+        chain = Chain(present, prepared.view, measured(prepared.stack, prepared.view))
         without = tuple(Step(effect.name, "", "", 0, 0) for effect in present[:-1])
         photo = run(prepared, Plan(without, (), (), 0, 0, 0))
         whole = run(prepared, everything(prepared))

@@ -9,6 +9,7 @@ from scipy import stats
 from sweep import draws
 
 from quizgen.camera import Camera, Scene, SceneError, View, noise
+from quizgen.camera.chain import SKIP, Chain
 from quizgen.camera.effects import (
     EFFECTS,
     dark_current,
@@ -30,7 +31,7 @@ from quizgen.camera.facts import (
     mean_size,
     measured,
 )  # fmt: skip
-from quizgen.camera.plan import SKIP, Plan, Prepared, Step, _Chain, _units, everything, plan
+from quizgen.camera.plan import Plan, Prepared, Step, _units, everything, plan
 from quizgen.camera.simulate import Photo, is_broken, run
 
 CHANCE = 1e-9
@@ -54,7 +55,7 @@ def chosen(source, prepared):
     for budget in 10 ** source.uniform(-1, 2, 2):
         yield plan(prepared, budget=float(budget))
     present = tuple(effect for effect in EFFECTS if effect.present(prepared.given))
-    chain = _Chain(present, prepared.view, measured(prepared.stack, prepared.view))
+    chain = Chain(present, prepared.view, measured(prepared.stack, prepared.view))
     for unit in _units(present, frozenset()):
         made = unit.choices[source.integers(1, len(unit.choices))]
         choice = dict.fromkeys(unit.members, made)
@@ -136,7 +137,7 @@ def test_ranges_hold_where_counts_are_few():
         look = View(Scene(), Camera(full_well=5.0))
         facts = shot_noise.after(Facts(0.0, mean / 5, ()), look)
         assert stats.poisson.sf(math.floor(facts.top * 5), mean) < 7e-6
-    assert full_well.skipped(facts, look).sure > 0
+    assert full_well.skipped(facts, look).total > 0
 
 
 def test_noise_of_one_luck_adds_and_of_two_goes_by_squares():
@@ -150,7 +151,7 @@ def test_white_balance_multiplies_the_noise_that_is_missing():
     scene = Scene(8, 8, background=(0.25, 0.25, 0.25))
     prepared = Prepared(scene, Camera(full_well=1e4, shot_noise=False, read_noise=100.0, white_balance=(2.0, 2.0, 2.0)))  # fmt: skip
     present = tuple(effect for effect in EFFECTS if effect.present(prepared.given))
-    chain = _Chain(present, prepared.view, measured(prepared.stack, prepared.view))
+    chain = Chain(present, prepared.view, measured(prepared.stack, prepared.view))
     names = [effect.name for effect in present]
     both = {names.index("read noise"): SKIP, names.index("white balance"): SKIP}
     error = chain.error(both)
@@ -244,7 +245,7 @@ def test_what_a_full_well_holds_limits_what_comes_after():
     scene = Scene(8, 8, background=(0.98, 0.98, 0.98))
     prepared = Prepared(scene, Camera(full_well=1000.0, read_noise=2.0, bit_depth=8))
     present = tuple(effect for effect in EFFECTS if effect.present(prepared.given))
-    facts = _Chain(present, prepared.view, measured(prepared.stack, prepared.view)).before[-1]
+    facts = Chain(present, prepared.view, measured(prepared.stack, prepared.view)).before[-1]
     assert facts.high + facts.reach > 1.1
     assert facts.top == pytest.approx(1 + REACH * 2 / 1000)
 
@@ -257,7 +258,7 @@ def test_rounding_may_carry_white_over_the_full_well():
     prepared = Prepared(Scene(80, 40, image=image), camera)
     names = [effect.name for effect in EFFECTS if effect.present(prepared.given)]
     assert names == ["motion blur", "full well"]
-    chain = _Chain(
+    chain = Chain(
         tuple(effect for effect in EFFECTS if effect.name in names),
         prepared.view,
         measured(prepared.stack, prepared.view),

@@ -218,15 +218,7 @@ def test_shipped_scenes(name, tmp_path):
 EXPECTED = {
     "pinhole": [],
     "fisheye": ["distortion"],
-    "flat": [
-        "distortion",
-        "lateral colour",
-        "defocus",
-        "shot noise",
-        "read noise",
-        "quantisation",
-        "gamma",
-    ],
+    "flat": ["shot noise", "read noise", "gamma"],
     "landscape": ["shot noise", "read noise", "gamma"],
     "propeller": ["motion blur", "rolling shutter", "gamma"],
 }
@@ -238,9 +230,12 @@ def test_what_shipped_scenes_call_for(name):
 
 
 def test_a_rounding_error_may_be_a_code_in_the_dark():
-    """A code of 12 bits is 0.8 grey levels where gamma is steepest: at 2 levels the lens is left."""
-    ran = json.loads(invoke("flat", "--json", "--budget", "2"))["ran"]
-    assert ran == ["shot noise", "read noise", "quantisation", "gamma"]
+    """A code of 12 bits is 0.8 grey levels where gamma is steepest: it matters if codes are asked."""
+    lens = ["distortion", "lateral colour", "defocus"]
+    rest = ["shot noise", "read noise", "quantisation", "gamma"]
+    asked = ["flat", "--json", "--question", "noise", "--question", "bit depth", "--budget"]
+    assert json.loads(invoke(*asked, "0.5"))["ran"] == [*lens, *rest]
+    assert json.loads(invoke(*asked, "2"))["ran"] == rest
 
 
 def test_there_are_eight_scenes_and_a_list():

@@ -26,8 +26,9 @@ def work(view: View, rung: str = "") -> Work:
 
 
 def skipped(facts: Facts, view: View) -> Error:
-    """What would stand above the full well, by rounding at least."""
-    return Error(facts.just_above(1.0)).plus(facts.outside(-math.inf, 1.0))
+    """What would stand above the full well, by rounding at least, until something clips it."""
+    out = facts.outside(-math.inf, 1.0)
+    return Error(odd=out.odd, beyond=facts.just_above(1.0) + out.sure)
 
 
 def after(facts: Facts, view: View) -> Facts:

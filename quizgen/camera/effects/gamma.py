@@ -90,7 +90,8 @@ _SHORT = 2.0**-10
 
 
 def carried(error: Error, facts: Facts, view: View) -> Error:
-    """The darkest values are spread most."""
+    """The darkest values are spread most; both pictures are clipped."""
+    error = error.clipped()
     return _spread(error, facts.bottom - error.certain, view)
 
 
@@ -114,6 +115,7 @@ EFFECT = Effect(
     cost=measured((1.9, 92), table=(1.5, 76)),
     skipped=skipped,
     carried=carried,
+    keeps_clipped=lambda _: True,
     after=after,
     rungs=(Rung("table", table),),
 )

@@ -44,13 +44,14 @@ def _step(view: View) -> float:
 
 
 def skipped(facts: Facts, view: View) -> Error:
-    """Half a code, and what the converter would clip."""
-    return facts.outside(0.0, 1.0).plus(Error(_step(view) / 2.0))
+    """Half a code, and what the converter would clip, until something else does."""
+    out = facts.outside(0.0, 1.0)
+    return Error(_step(view) / 2.0, odd=out.odd, beyond=out.sure)
 
 
 def carried(error: Error, facts: Facts, view: View) -> Error:
     """Any difference may become a whole code."""
-    step = _step(view)
+    error, step = error.clipped(), _step(view)
     if error.sigma:
         return error.plus(Error(step))
     return replace(error, sure=math.ceil(error.sure / step - 1e-9) * step)
@@ -80,5 +81,6 @@ EFFECT = Effect(
     cost=measured((0.39, 38.4)),
     skipped=skipped,
     carried=carried,
+    keeps_clipped=lambda _: True,
     after=after,
 )

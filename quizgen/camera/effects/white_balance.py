@@ -40,6 +40,11 @@ def skipped(facts: Facts, view: View) -> Error:
     return facts.amplified(factor)
 
 
+def _nothing_darker(view: View) -> bool:
+    gains = view.camera[WHITE_BALANCE]
+    return min(gains) >= 1.0
+
+
 def carried(error: Error, facts: Facts, view: View) -> Error:
     """Amplified by the largest gain."""
     gains = view.camera[WHITE_BALANCE]
@@ -62,5 +67,6 @@ EFFECT = Effect(
     cost=measured((1.55, 76.5)),
     skipped=skipped,
     carried=carried,
+    keeps_clipped=_nothing_darker,
     after=after,
 )

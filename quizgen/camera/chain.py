@@ -1,0 +1,96 @@
+"""The effects of a view in a row: what is known before each, and what becomes of an error."""
+
+from __future__ import annotations
+
+import math
+
+from msgspec.structs import replace
+
+from quizgen.camera.effect import Effect, same_stack
+from quizgen.camera.facts import LARGEST, NO_ERROR, Error, Facts
+from quizgen.camera.scene import SceneError
+from quizgen.camera.view import View
+
+GREY_LEVELS = 255.0
+
+EXACT, SKIP = "", "skip"
+
+_ROUNDING = 5e-7
+"""What single precision adds to a difference in one step, relative to the largest value."""
+
+
+class Chain:
+    """The present effects of one view with their facts; predicts the error of any choice."""
+
+    def __init__(self, present: tuple[Effect, ...], view: View, facts: Facts) -> None:
+        self.present, self.view, self.facts = present, view, facts
+        self.before = _facts_along(present, view, facts)
+        self._made: dict[tuple[int, str], Error] = {}
+        self._known: dict[frozenset[tuple[int, str]], float] = {}
+
+    def off(self, index: int, made: str) -> Error:
+        """Error of a choice other than exact, worked out when first asked for."""
+        key = index, made
+        if key not in self._made:
+            effect, facts = self.present[index], self.before[index]
+            if made == SKIP:
+                self._made[key] = _lost(effect, facts, self.view)
+            else:
+                rung = next(rung for rung in effect.rungs if rung.name == made)
+                self._made[key] = rung.error(facts, self.view).plus(_rounding(facts))
+        return self._made[key]
+
+    def error(self, choice: dict[int, str]) -> Error:
+        """Difference to running everything exactly; choices not given are exact."""
+        error = NO_ERROR
+        for index, effect in enumerate(self.present):
+            made = choice.get(index, EXACT)
+            if made == SKIP:
+                lost = self.off(index, SKIP)
+                error = error.plus(lost) if effect.random else error.along(lost)
+                continue
+            error = self._carried(effect, index, error)
+            if made != EXACT:
+                error = error.plus(self.off(index, made))
+        return error
+
+    def _carried(self, effect: Effect, index: int, error: Error) -> Error:
+        if error == NO_ERROR or math.isinf(error.total):
+            return error
+        facts = self.before[index]
+        if not effect.keeps_clipped(self.view):
+            error = error.everywhere()
+        carried = effect.carried(error, facts, self.view)
+        return carried.plus(_rounding(facts))
+
+    def dn(self, choice: dict[int, str]) -> float:
+        """The same in grey levels."""
+        key = frozenset(pair for pair in choice.items() if pair[1] != EXACT)
+        if key not in self._known:
+            self._known[key] = GREY_LEVELS * self.error(choice).total
+        return self._known[key]
+
+
+def _lost(effect: Effect, facts: Facts, view: View) -> Error:
+    """Loss of skipping, with rounding; a limit of the sensor that is never met costs nothing."""
+    lost = effect.skipped(facts, view)
+    if lost == NO_ERROR and effect.stage == "sensor":
+        return lost
+    return lost.plus(_rounding(facts))
+
+
+def _rounding(facts: Facts) -> Error:
+    return Error(_ROUNDING * max(facts.size, facts.top))
+
+
+def _facts_along(present: tuple[Effect, ...], view: View, facts: Facts) -> list[Facts]:
+    before = []
+    for effect in present:
+        if effect.stage not in ("scene", "optics"):
+            facts = facts.flat()
+        before.append(facts)
+        rounded = facts.rounded + _ROUNDING * (effect.run is not same_stack)
+        facts = replace(effect.after(facts, view), rounded=rounded)
+        if not facts.size + facts.reach < LARGEST:
+            raise SceneError(f"{effect.name} makes signals of more than {LARGEST:g}")
+    return before
