@@ -226,6 +226,25 @@ def summed_bound(count):
     return max(errors) + pmf_long_bound(None) + 2 * UNIT + arb(2) ** -56 + SECOND
 
 
+def most_terms():
+    """Terms of a sum until one is below what is left out, by whole numbers.
+
+    To 60 the ratio of neighbours is largest where the mean is the count; beyond it is 2/3.
+    """
+    least = fmpq(1, 2**60)
+
+    def terms(ratios):
+        product = fmpq(1)
+        for count, ratio in enumerate(ratios, 1):
+            product *= ratio
+            if product <= least:
+                return count
+        return count
+
+    up = max(terms(fmpq(k, k + 1 + j) for j in range(1, 1000)) for k in range(1, 61))
+    return max(up, terms(fmpq(2, 3) for _ in range(1000)))
+
+
 def fold_bound(_):
     """Bound for the fold of two coefficients, from what stands in the root.
 

@@ -1,7 +1,7 @@
 """Prove bounds on the error of kernels over their whole domain, with Arb.
 
 Run: ``python tests/arrays/prove.py``. Writes ``proofs.tsv``: kernel, bound in units in the last
-place, boxes looked at, and the digest of the code that was proven.
+place, boxes looked at, rounds of a loop that an element takes at most, and the digest of the code.
 
 The code itself runs, on boxes instead of numbers: each holds what exact arithmetic would give for
 every input of the box, and how far rounding may have moved that. How far the polynomials are from
@@ -44,7 +44,7 @@ from quizgen.arrays import (
 
 PROOFS = Path(__file__).with_name("proofs.tsv")
 DOCS = Path(__file__).parents[2] / "docs/accuracy.md"
-HEAD = "  | kernel | relative error, in 2^-53 | boxes |\n  |---|---|---|\n"
+HEAD = "  | kernel | relative error, in 2^-53 | boxes | rounds |\n  |---|---|---|---|\n"
 COMPENSATED = arb(2) ** -80
 
 
@@ -174,6 +174,8 @@ class Piece(NamedTuple):
     high: float
     count: int
     code: tuple[Any, ...]
+    rounds: int = 1
+    """Of a loop, at most, for any element."""
 
     def digest(self):
         """Of everything that the proven functions run."""
@@ -212,13 +214,13 @@ PIECES = {
     "logarithm.log_pair": Piece(counted.log_bound, 0.0, 0.1716, 200, LOGARITHM),
     "inverse_radius, k1 >= 0, k2 = 0": Piece(counted.pincushion_bound, 0.0, 1.0, 1, CUBIC),
     "inverse_radius, k1 < 0, k2 = 0 (log2 of slope)": Piece(
-        counted.barrel_inverse_bound, -60.0, 0.0, 60, BARREL
+        counted.barrel_inverse_bound, -60.0, 0.0, 60, BARREL, quintic._STEPS
     ),
     "poisson.pmf by factorials": Piece(counted.pmf_short_bound, 0.0, 1.0, 1, PROBABILITY),
     "poisson.pmf by the saddle point": Piece(counted.pmf_long_bound, 0.0, 1.0, 1, PROBABILITY),
-    "poisson.lower by sums": Piece(counted.summed_bound, 0.0, 60.0, 60, SUMS),
+    "poisson.lower by sums": Piece(counted.summed_bound, 0.0, 60.0, 60, SUMS, counted.most_terms()),
     "inverse_radius, k2 (log2 of slope)": Piece(
-        counted.quintic_inverse_bound, -40.0, 0.0, 40, ROOT
+        counted.quintic_inverse_bound, -40.0, 0.0, 40, ROOT, 2 * quintic._STEPS
     ),
     "luminosity.efficiency": Piece(counted.curve_bound, 0.0, 1.0, 1, (luminosity.Curve.read,)),
     "projection.pixel, f x/(pitch z)": Piece(counted.term_bound, 0.0, 1.0, 1, PIXEL),
@@ -234,13 +236,13 @@ def worst(piece):
 def table():
     """Rows of the record, as the documents print them."""
     rows = (line.split("\t") for line in PROOFS.read_text().splitlines())
-    return "\n".join(f"  | {name} | {bound} | {count} |" for name, bound, count, _ in rows)
+    return "\n".join(f"  | {' | '.join(row[:-1])} |" for row in rows)
 
 
 def main():
     ctx.prec, ctx.cap = 300, ORDER
     rows = [
-        f"{name}\t{worst(piece):.4g}\t{piece.count}\t{piece.digest()}"
+        f"{name}\t{worst(piece):.4g}\t{piece.count}\t{piece.rounds}\t{piece.digest()}"
         for name, piece in PIECES.items()
     ]
     PROOFS.write_text("\n".join(rows) + "\n")

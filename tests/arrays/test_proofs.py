@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import random
+
 import flint
+import numpy as np
 import prove
 import pytest
 from flint import arb
@@ -21,7 +24,8 @@ def precision():
 @pytest.mark.parametrize("name", prove.PIECES)
 def test_the_code_is_what_was_proven(name):
     """After a change: ``python tests/arrays/prove.py``."""
-    bound, _, digest = ROWS[name]
+    bound, _, rounds, digest = ROWS[name]
+    assert int(rounds) == prove.PIECES[name].rounds
     assert digest == prove.PIECES[name].digest()
     assert float(bound) < 30
 
@@ -50,3 +54,34 @@ def test_a_wrong_fraction_is_seen(monkeypatch):
     wrong = ((first * (1 + 2**-44), *rest), below)
     monkeypatch.setattr(prove.gaussian, "_QUANTILE_NEAR", wrong)
     assert prove.tail_bound(arb(2) + arb(0, 0.001)) / prove.UNIT > 100
+
+
+@pytest.mark.parametrize("k", [1, 2, 30, 59, 60, 61, 5000])
+def test_no_sum_has_more_terms_than_recorded(k, monkeypatch):
+    most, asked, plain = prove.PIECES["poisson.lower by sums"].rounds, [], np.maximum
+    monkeypatch.setattr(np, "maximum", lambda *args: (asked.append(1), plain(*args))[1])
+    for mean in ([k, k * (1 + 1e-12)] if k <= 60 else []) + [1.5 * (k + 1)]:
+        asked.clear()
+        prove.poisson._sum_down(np.array([float(k)]), np.array([mean]))
+        assert 0 < len(asked) <= 2 * most  # there and back
+
+
+def test_no_root_takes_more_rounds_than_recorded(monkeypatch):
+    most = prove.PIECES["inverse_radius, k2 (log2 of slope)"].rounds
+    asked = []
+    plain = prove.quintic.Quintic.value_and_slope
+    monkeypatch.setattr(
+        prove.quintic.Quintic, "value_and_slope",
+        lambda self, x: (asked.append(1), plain(self, x))[1],
+    )  # fmt: skip
+    source = random.Random(8)
+    for _ in range(300):
+        k1 = source.choice([-1, 1]) * 10 ** source.uniform(-8, 8)
+        k2 = 9 * k1 * k1 / 20 * (1 + source.choice([-1, 1]) * 10 ** source.uniform(-16, 0))
+        fold = prove.distortion.fold_radius(k1, k2)
+        x = (fold if np.isfinite(fold) else abs(k1) ** -0.5) * (1 - 10 ** source.uniform(-12, -0.1))
+        asked.clear()
+        prove.distortion._inverse(
+            *(np.array([v]) for v in (x * (1 + k1 * x**2 + k2 * x**4), k1, k2))
+        )
+        assert len(asked) <= most // 2
