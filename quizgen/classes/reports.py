@@ -16,7 +16,7 @@ from quizgen.locale import FIRST, amount, known, line_heights, numbers_in, table
 from quizgen.marking.mark import show
 from quizgen.marking.options import Options
 from quizgen.outside import visible
-from quizgen.paper.key import Key, KeyQuestion
+from quizgen.paper.key import Key, KeyPart, KeyQuestion
 from quizgen.paper.marking import Marker
 from quizgen.render.fonts import bangla_faces
 from quizgen.render.layouts import environment
@@ -198,13 +198,20 @@ def _rows(question: KeyQuestion, marks: Marks) -> Iterator[Row]:
         yield Row(
             part.id.removeprefix(question.number),
             _typed(found.typed, part.spec["kind"], words),
-            words["solution"]
-            if part.spec["kind"] in NOT_TYPED
-            else show(part.in_order(), known(marks.lang)),
+            _right(part, known(marks.lang)),
             _points(found, known(marks.lang)),
             message,
             _said(found, words),
         )
+
+
+def _right(part: KeyPart, lang: str) -> str:
+    """The key as a person writes it; a program's output stays as it is printed."""
+    kind = part.spec["kind"]
+    if kind in NOT_TYPED:
+        return str(table(lang, "classes")["report"]["solution"])
+    right = show(part.in_order(), lang)
+    return right if kind == "code" else numbers_in(lang, right)
 
 
 def _typed(typed: str, kind: str, words: Mapping[str, str]) -> str:

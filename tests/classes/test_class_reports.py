@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
-from quizgen.classes.mark import Marks, PartMark
-from quizgen.classes.reports import Report, Row, Section, report_html, report_pdf
+from quizgen.bank.folder import Bank
+from quizgen.classes.grades import Graded
+from quizgen.classes.mark import Marks, PartMark, item_of
+from quizgen.classes.reports import Report, Row, Section, report_html, report_of, report_pdf
+from quizgen.classes.roster import Student
+from quizgen.paper.key import key_of
+from quizgen.paper.paper import single
 
 MARKS = Marks("1", (PartMark("1", "x", "3", "wrong", 1.0, 0.0),))
 
@@ -37,3 +44,21 @@ def test_all_points_are_said_only_where_nothing_is_open(marks, said):
 def test_bangla_in_an_english_report_brings_its_font(said):
     assert "@font-face" not in report_html(report("en")).decode()
     assert "@font-face" in report_html(report("en", **said)).decode()
+
+
+@pytest.mark.parametrize(
+    ("lang", "right"),
+    [("en", ["0.09091 cycle/px", "0.689"]), ("de", ["0,09091 cycle/px", "0,689"])],
+)
+def test_what_is_right_has_the_decimal_sign_of_the_language(lang, right):
+    """1/11 of a cycle per pixel, and what that leaves of the contrast."""
+    bank = Bank(Path(__file__).parents[2] / "examples" / "filtering", trusted=True)
+    paper = single(bank.template("spectrum-of-a-mean"), 0, lang, figures=False)
+    key = key_of(paper)
+    given = [
+        PartMark(part.id, item_of(key.questions[0], part), "3", "wrong", 1.0, 0.0)
+        for part in key.questions[0].parts
+    ]
+    line = Graded(Student("1", "Ada"), "G-1", Marks("1", tuple(given), lang), "5", passed=False)
+    (section,) = report_of(line, key).sections
+    assert [row.right for row in section.rows] == right
