@@ -15,6 +15,9 @@ GREY_LEVELS = 255.0
 
 EXACT, SKIP = "", "skip"
 
+_FAR = 16.0
+"""How much smaller than a loss the error may still become, at four stops less light."""
+
 _ROUNDING = 5e-7
 """What single precision adds to a difference in one step, relative to the largest value."""
 
@@ -69,6 +72,11 @@ class Chain:
         if key not in self._known:
             self._known[key] = GREY_LEVELS * self.error(choice).total
         return self._known[key]
+
+    def hopeless(self, indices: tuple[int, ...], made: str, budget: float) -> bool:
+        """Whether a choice alone loses so much that following it to the end is a waste of time."""
+        far = _FAR * budget / GREY_LEVELS
+        return any(self.off(index, made).total > far for index in indices)
 
 
 def _lost(effect: Effect, facts: Facts, view: View) -> Error:

@@ -146,7 +146,7 @@ def _spend(
 ) -> dict[int, str]:
     """Take the affordable choice that saves most per grey level, again and again."""
     choice = {i: EXACT if unit.fixed else SKIP for unit in units for i in unit.members}
-    if chain.dn(choice) <= budget:
+    if all(unit.fixed or _is_within(chain, choice, unit, budget) for unit in units):
         return choice
     choice = dict.fromkeys(choice, EXACT)
     while True:
@@ -185,8 +185,13 @@ def _affordable(
     for unit in units:
         for made in () if unit.fixed else unit.choices:
             trial = {**choice, **dict.fromkeys(unit.members, made)}
-            if made == EXACT or chain.dn(trial) <= budget:
+            if made == EXACT or _is_within(chain, trial, unit, budget):
                 yield unit, made
+
+
+def _is_within(chain: Chain, trial: dict[int, str], unit: _Unit, budget: float) -> bool:
+    made = trial[unit.members[0]]
+    return not chain.hopeless(unit.members, made, budget) and chain.dn(trial) <= budget
 
 
 def _opens_more(chain: Chain, before: dict[int, str], now: dict[int, str]) -> bool:
@@ -213,7 +218,9 @@ def _opened(
             alone = dict.fromkeys(unit.members, made)
             if all(first.off(index, made) == second.off(index, made) for index in unit.members):
                 continue
-            if second.dn(alone) <= budget or second.dn({**choice, **alone}) <= budget:
+            if _is_within(second, alone, unit, budget):
+                return True
+            if _is_within(second, {**choice, **alone}, unit, budget):
                 return True
     return False
 

@@ -218,3 +218,19 @@ def test_a_power_is_farthest_from_the_diagonal_where_said(exponent, low, high):
     assert gamma.skipped(Facts(low, high, ()), view).total == pytest.approx(
         clipped + apart, abs=2e-6
     )
+
+
+@pytest.mark.parametrize(("gains", "absorbed"), [((1.5, 1.0, 2.0), True), ((0.7, 1.0, 2.0), False)])
+def test_what_gamma_clips_anyway_is_not_lost_with_the_converter(gains, absorbed):
+    """From -0.3 to 1.4, without the codes of 12 bits: half a code where gamma is steepest, or all."""
+    ramp = np.linspace(-0.3, 1.4, 64 * 64 * 3, dtype=np.float32).reshape(64, 64, 3)
+    camera = Camera(bit_depth=12, white_balance=gains, gamma="srgb")
+    prepared = Prepared(Scene(64, 64, image=ramp), camera)
+    present = tuple(effect for effect in EFFECTS if effect.present(prepared.given))
+    bound = Chain(present, prepared.view, coarse(prepared.view)).dn({0: SKIP})
+    steps = tuple(Step(effect.name, "", "", 0, 0) for effect in present[1:])
+    change = apart(run(prepared, Plan(steps, (), (), 0, 0, 0)), run(prepared, everything(prepared)))
+    steepest = 12.92 * 0.5 / 4095 * max(gains) * 255
+    assert change <= bound
+    assert (bound <= 1.01 * steepest) is absorbed
+    assert (change <= steepest) is absorbed
