@@ -14,7 +14,7 @@ import msgspec
 import numpy as np
 from msgspec.structs import replace
 
-from quizgen.camera.draw import Layer, Sheet, Stack, sheets
+from quizgen.camera.draw import Layer, Sheet, Stack, content, sheets
 from quizgen.camera.scene import Image
 from quizgen.camera.view import View
 
@@ -308,10 +308,23 @@ def coarse(view: View) -> Facts:
 
 
 def measured(stack: Stack, view: View) -> Facts:
-    """Facts from one pass over the drawn layers."""
+    """Facts from one pass over the drawn layers, where something is."""
     low, high = view.scene.range
-    middle = (low + high) / 2
-    return Facts(low, high, tuple(_measure(layer, middle, high - low, 1) for layer in stack))
+    middle, filled = (low + high) / 2, (_filled(layer) for layer in stack)
+    return Facts(low, high, tuple(_measure(layer, middle, high - low, 1) for layer in filled))
+
+
+def _filled(layer: Layer) -> Layer:
+    """The part of a layer that is not empty, with two empty lines around it: no step is lost."""
+    if layer.cover is None:
+        return layer
+    rows, columns = content(layer.cover)
+    box = _with_margin(rows), _with_margin(columns)
+    return replace(layer, colour=layer.colour[box], cover=layer.cover[box])
+
+
+def _with_margin(part: slice) -> slice:
+    return slice(max(part.start - 2, 0), max(part.stop + 2, 3))
 
 
 def glimpsed(stack: Stack, view: View, every: int = 16) -> Facts:

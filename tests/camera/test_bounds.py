@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import scenes_at_random as at_random
 
-from quizgen.camera import Camera, Scene, SceneError, View
+from quizgen.camera import Camera, Scene, SceneError, View, facts
 from quizgen.camera.chain import SKIP, Chain
 from quizgen.camera.effects import EFFECTS, gamma, questions
 from quizgen.camera.effects.binning import BINNING
@@ -67,8 +67,8 @@ def test_every_single_choice_keeps_its_bound(number):
     for seed, source, prepared, whole in photographs(*batch(number), noise=False):
         present = tuple(effect for effect in EFFECTS if effect.present(prepared.given))
         units = _units(present, frozenset())
-        facts = [coarse(prepared.view), measured(prepared.stack, prepared.view)]
-        chains = [Chain(present, prepared.view, known) for known in facts]
+        looks = [coarse(prepared.view), measured(prepared.stack, prepared.view)]
+        chains = [Chain(present, prepared.view, known) for known in looks]
         for choice in _chosen(units, source):
             made = [(e.name, choice.get(i, "")) for i, e in enumerate(present)]
             steps = tuple(Step(name, way, "", 0, 0) for name, way in made if way != SKIP)
@@ -234,3 +234,13 @@ def test_what_gamma_clips_anyway_is_not_lost_with_the_converter(gains, absorbed)
     assert change <= bound
     assert (bound <= 1.01 * steepest) is absorbed
     assert (change <= steepest) is absorbed
+
+
+def test_nothing_steep_lies_where_a_layer_is_empty():
+    """Facts of the filled part of each layer are those of the whole layer."""
+    for _, _, prepared, _ in photographs(0, 60, noise=False):
+        low, high = prepared.view.scene.range
+        whole = tuple(
+            facts._measure(layer, (low + high) / 2, high - low, 1) for layer in prepared.stack
+        )
+        assert measured(prepared.stack, prepared.view).layers == whole
