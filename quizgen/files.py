@@ -31,6 +31,11 @@ _DAY = (1980, 1, 1, 0, 0, 0)
 _LEFT_BEHIND = re.compile(r"\..*\.\d+-[0-9a-f]{8}\.part", re.DOTALL)
 
 
+def _meant(path: str) -> str:
+    """What a file will be called that is still being written; any other path as it is."""
+    return re.sub(r"\.([^/\\]*)\.\d+-[0-9a-f]{8}\.part", r"\1", path)
+
+
 def private(path: Path, *, anew: bool = False) -> io.BufferedWriter:
     """Open a file that only its owner reads, to add to its end.
 
@@ -101,7 +106,8 @@ def write_all(folder: Path, contents: Mapping[str, bytes], mode: int = USUAL) ->
         with _undisturbed():
             _appear(stage, folder, list(contents), new=new)
     except OSError as error:
-        raise RenderError(f"{error.filename or folder}: {error.strerror or error}") from error
+        place = _meant(str(error.filename or folder))
+        raise RenderError(f"{place}: {error.strerror or error}") from error
     finally:
         shutil.rmtree(stage, ignore_errors=True)
     return [folder / name for name in contents]

@@ -9,6 +9,7 @@ import sys
 
 import pytest
 
+from quizgen.errors import RenderError
 from quizgen.files import STALE, write_all
 
 KILLED = """
@@ -217,3 +218,14 @@ def written_by(words, folder, monkeypatch) -> dict[str, bytes]:
     assert done.exit_code == 0, done.output
     (only,) = sets
     return {name: hashlib.sha256(data).digest() for name, data in only.items()}
+
+
+def test_a_folder_that_cannot_be_written_is_named_as_it_was_asked_for(tmp_path, monkeypatch):
+    def refused(path, *_args, **_options):
+        raise PermissionError(13, "Permission denied", f"{path}")
+
+    monkeypatch.setattr("quizgen.files._stage", refused)
+    for folder in (tmp_path / "paper", tmp_path):
+        with pytest.raises(RenderError) as found:
+            write_all(folder, {"exam.html": b"x"})
+        assert str(found.value).replace("/:", ":") == f"{folder}: Permission denied"
