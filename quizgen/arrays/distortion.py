@@ -13,7 +13,7 @@ from quizgen.arrays.aliases import Array, Counts, Flags, Numbers, Result
 from quizgen.arrays.domain import NONNEGATIVE, REAL, Rule
 from quizgen.arrays.kernel import Kernel, lowest
 from quizgen.arrays.quintic import Quintic, cubic, room
-from quizgen.arrays.rational import exactly
+from quizgen.arrays.rational import binary, exactly, over_power
 
 _UNSURE = 2.0**-40
 _REACH = 2.0**60
@@ -42,10 +42,15 @@ def _distort(x: Array, y: Array, k1: Array, k2: Array) -> tuple[Array, ...]:
 _ALLOWED = 3.0
 
 
-def _distort_exact(x: fmpq, y: fmpq, k1: fmpq, k2: fmpq) -> tuple[fmpq, fmpq]:
-    r2 = x * x + y * y
-    scale = 1 + r2 * (k1 + k2 * r2)
-    return x * scale, y * scale
+def _distort_exact(x: fmpq, y: fmpq, k1: fmpq, k2: fmpq) -> tuple[float, float]:
+    """In whole numbers over powers of two, which need no common divisors."""
+    (X, a), (Y, b), (K1, c), (K2, d) = map(binary, (x, y, k1, k2))
+    s = max(a, b)
+    R = (X << s - a) ** 2 + (Y << s - b) ** 2
+    t = max(c, d + 2 * s)
+    bend = (K1 << t - c) + (K2 * R << t - d - 2 * s)
+    scale, below = (1 << 2 * s + t) + R * bend, 2 * s + t
+    return over_power(X * scale, a + below), over_power(Y * scale, b + below)
 
 
 def _exponent(value: Array) -> Counts:

@@ -51,16 +51,17 @@ _CLOSE = 2.0**-40
 
 def _to_rgb_exact(H: fmpq, S: fmpq, V: fmpq) -> tuple[fmpq, ...]:
     sixths, depth = H / 60, V * S
-    sixths -= 6 * (sixths / 6).floor()
+    sector = sixths.floor()
+    along = sixths - sector
+    low, turn = V - depth, int(sector) % 6
+    some = V - depth * (along if turn % 2 else 1 - along)
+    first, second, third = _CHANNELS[turn]
+    values = (V, some, low)
+    return values[first], values[second], values[third]
 
-    def channel(turn: int) -> fmpq:
-        place = sixths + turn
-        if place >= 6:
-            place -= 6
-        return V - depth * max(0, min(place, 4 - place, 1))
 
-    return channel(5), channel(3), channel(1)
-
+_CHANNELS = ((0, 1, 2), (1, 0, 2), (2, 0, 1), (2, 1, 0), (1, 2, 0), (0, 2, 1))
+"""Which of the highest, the changing and the lowest value is red, green and blue, by sector."""
 
 _TO_RGB = Kernel(_to_rgb, (REAL,) * 3, exact=_to_rgb_exact, reach=2.0**400, outputs=3)
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import SupportsIndex
 
-from flint import fmpq
+from flint import fmpq, fmpz
 
 from quizgen.arrays.aliases import Array
 
@@ -21,6 +22,26 @@ def nearest(value: fmpq | float) -> float:
         return int(value.p) / int(value.q)
     except OverflowError:
         return float("inf") if value > 0 else -float("inf")
+
+
+def binary(value: fmpq) -> tuple[fmpz, int]:
+    """A double's fraction as a whole number over a power of two."""
+    return value.p, value.q.bit_length() - 1
+
+
+def over_power(number: fmpz, power: int) -> float:
+    """The nearest double of ``number / 2**power``."""
+    spare = number.bit_length() - _KEPT
+    if spare > 0:  # the bits left out are one, that tells a tie from more
+        tail = int(number != (number >> spare) << spare)
+        number, power = (number >> spare) << 1 | tail, power - spare + 1
+    try:
+        return math.ldexp(int(number), -power) if power < 0 else int(number) / (1 << power)
+    except OverflowError:
+        return math.inf if number > 0 else -math.inf
+
+
+_KEPT = 128
 
 
 def fraction(value: float) -> fmpq:
