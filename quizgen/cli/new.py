@@ -12,6 +12,7 @@ from quizgen.bank.scaffold import FIRST, KINDS, english_words, new_bank, new_lan
 from quizgen.cli.command import command
 from quizgen.cli.options import Tongue
 from quizgen.errors import BankError
+from quizgen.files import write_all
 from quizgen.outside import NAMES, is_name
 
 P = ParamSpec("P")
@@ -56,8 +57,10 @@ def bank(folder: Path, langs: tuple[str, ...]) -> None:
               help="With everything that quizgen says, in English, to be translated.")  # fmt: skip
 def language(lang: str, root: Path, words: bool) -> None:
     """Write into a bank what quizgen does not know of the language LANG."""
+    from quizgen.bank.folder import Bank
     from quizgen.locale import SHIPPED
 
+    Bank(root)  # or says that none is there
     if (SHIPPED / lang).is_dir():
         raise BankError(f"quizgen has words for {lang!r} itself")
     found = new_language(lang)
@@ -110,10 +113,7 @@ def _write(root: Path, contents: Mapping[str, bytes]) -> None:
     for name in contents:
         if (root / name).exists():
             raise BankError(f"{root / name}: there already; nothing was written")
-    for name, data in contents.items():
-        path = root / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(data)
+    for path in write_all(root, contents):
         click.echo(str(path))
 
 

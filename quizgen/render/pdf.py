@@ -89,9 +89,10 @@ class _Sheet:
         paper, main = self.paper, self.main
         minutes = word(main, "paper.minutes")
         more = f" + {paper.holder.extra} {minutes}" if paper.holder and paper.holder.extra else ""
+        count = "question" if len(paper.items) == 1 else "contents"
         total = (
             f"{marks(paper.points, main)}, {paper.minutes} {minutes}{more}, "
-            f"{len(paper.items)} {word(main, 'paper.contents')}"
+            f"{len(paper.items)} {word(main, f'paper.{count}')}"
         )
         rows = [("code", f"raw({string(paper.code)})"), ("total", string(total))]
         if paper.holder:

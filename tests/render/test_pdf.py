@@ -8,8 +8,8 @@ import pikepdf
 import pytest
 
 from quizgen.paper.blueprint import load_blueprint
-from quizgen.paper.paper import build
-from quizgen.render import KINDS, render_paper
+from quizgen.paper.paper import build, single
+from quizgen.render import KINDS, pdf, render_paper
 
 
 @pytest.fixture(scope="module")
@@ -77,3 +77,9 @@ def test_english_papers_carry_no_bangla_font(bank):
         io.BytesIO(render_paper(build(bank, load_blueprint("trial"), 1, "en"), "exam", "pdf"))
     )
     assert not any("HindSiliguri" in str(f.get("/BaseFont")) for f in fonts_of(pdf))
+
+
+@pytest.mark.parametrize(("lang", "said"), [("en", "1 Question"), ("bn", "1 প্রশ্ন")])
+def test_one_question_is_counted_as_one(bank, lang, said):
+    paper = single(bank.template("point-to-image-plane"), 0, lang)
+    assert f', {said}"' in pdf._Sheet(paper, "exam").source()
