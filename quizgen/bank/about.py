@@ -138,8 +138,8 @@ def _check_version(path: Path, requires: str) -> None:
 
 
 def in_language(texts: Mapping[str, str], lang: str, otherwise: str) -> str:
-    """A text in a language, else in English, else something else."""
-    return texts.get(lang) or texts.get(FIRST) or otherwise
+    """A text in a language, else in English, else in the first that it has, else another text."""
+    return texts.get(lang) or texts.get(FIRST) or next(iter(texts.values()), "") or otherwise
 
 
 def marked_with(about: About, answers: Sequence[Mapping[str, object]]) -> Iterator[bytes]:

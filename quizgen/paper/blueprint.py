@@ -235,8 +235,8 @@ def _whole(blueprint: Authored) -> Iterator[str]:
     for name in ("figures", "figure_kinds", "photographs"):
         if not 0 <= getattr(blueprint, name) <= MOST_QUESTIONS:
             yield f"{name} must be 0 to {MOST_QUESTIONS}"
-    if "en" not in blueprint.title:
-        yield "title.en is missing"
+    if not any(blueprint.title.values()):
+        yield "title: is empty (write it in the language of the bank, such as title.en)"
 
 
 def _problems(slot: SlotRule) -> Iterator[str]:

@@ -11,6 +11,7 @@ from typing import NamedTuple
 import msgspec
 from msgspec.structs import replace
 
+from quizgen.bank.about import in_language
 from quizgen.bank.draw import Draw
 from quizgen.bank.folder import Bank
 from quizgen.bank.levels import EXAM
@@ -145,8 +146,8 @@ class Paper(msgspec.Struct, frozen=True):
         return said.get(lang) or said.get("en") or word(lang, "paper.aids_allowed")
 
     def title(self, lang: str) -> str:
-        """Title in a language, English where the blueprint has no other."""
-        return self.blueprint.title.get(lang) or self.blueprint.title["en"]
+        """Title in a language, else in English, else in another one."""
+        return in_language(self.blueprint.title, lang, self.blueprint.name)
 
 
 def build(

@@ -117,6 +117,33 @@ def test_cards_and_practice_speak_it(place):
     assert "Une cycliste parcourt" in quizgen(place, *words, typed="!\n")
 
 
+PLAN = 'title = { fr = "Essai" }\n[[slot]]\ntemplates = ["travel-time"]\n'
+WORD = """[[entry]]
+id = "vitesse"
+number = 1
+topic = "example"
+tier = "A"
+section = "1"
+group = "mechanics"
+term.fr = "Vitesse"
+meaning.fr = "La distance parcourue par unité de temps."
+"""
+
+
+def test_a_blueprint_and_words_to_learn_need_no_english(tmp_path):
+    quizgen(tmp_path, "new", "bank", "trajets", "--lang", "fr")
+    (tmp_path / "plan.toml").write_text(PLAN, "utf-8")
+    quizgen(tmp_path, "exam", *BANK, "--blueprint", "plan.toml", "--format", "html", "--out", "p")
+    assert ">Essai</h1>" in (tmp_path / "p" / "exam.html").read_text("utf-8")
+    (tmp_path / "trajets" / "templates" / "cards").mkdir()
+    (tmp_path / "trajets" / "templates" / "cards" / "vocabulary.toml").write_text(WORD, "utf-8")
+    quizgen(tmp_path, "cards", *BANK, "--kind", "vocab", "--format", "csv", "--out", "c")
+    with (tmp_path / "c" / "quizgen.csv").open(encoding="utf-8-sig") as stream:
+        sides = [(row["front"], row["back"]) for row in csv.DictReader(stream)]
+    word, meaning = "Vitesse", "La distance parcourue par unité de temps."
+    assert sides == [(word, meaning), (meaning, word)]
+
+
 def test_another_language_names_those_of_the_bank(place):
     said = quizgen(place, "exam", *BANK, "--topic", "all", "--lang", "it", fails=True)
     assert "language: 'it' (allowed: fr, both)" in said

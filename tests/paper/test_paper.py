@@ -206,7 +206,7 @@ def test_shipped_blueprints_load(name):
         ),
         ("title = {en = 'x'}\n[[slot]]\ntier = 'E'", "allowed: A, B, C, D"),
         ("title = {en = 'x'}\n[[slot]]\ncount = 0", "count must be"),
-        ("title = {bn = 'x'}\n[[slot]]\ncount = 1", "title.en"),
+        ("title = {}\n[[slot]]\ncount = 1", "title: is empty"),
         ("title = {en = 'x'}\n[[slot]]\npoints = 0", "points must be"),
         ("title = {en = 'x'\n", "not valid TOML"),
         ("title = {en = 'x'}\nslot = []", "at least one"),

@@ -10,16 +10,23 @@ from quizgen.cards.content import Term, entries
 from quizgen.cards.kinds._authored import noted
 from quizgen.cards.note import Note, Words
 from quizgen.cards.wish import Wish
-from quizgen.locale import FIRST
+from quizgen.locale import FIRST, leading
 from quizgen.question.authored import passage, sentence
 
 
 def notes(wish: Wish) -> Iterator[Note]:
-    """One note per term; the English term is always there, because exams use it."""
+    """One note per term; the English term is always there, because exams use it.
+
+    In a bank without English the term in its own first language stands in its place.
+    """
     for entry in entries(wish.bank, Term):
-        shown = (FIRST, *(lang for lang in wish.langs if lang != FIRST))
+        named = {lang: lang for lang in wish.langs} | {FIRST: leading(tuple(entry.term))}
+        others = [lang for lang in wish.langs if lang not in (FIRST, named[FIRST])]
         said: dict[str, Words] = {
-            "Term": {lang: (Paragraph(sentence(entry, "term", lang)),) for lang in shown},
+            "Term": {
+                lang: (Paragraph(sentence(entry, "term", named[lang])),)
+                for lang in (FIRST, *others)
+            },
             "Meaning": {lang: passage(entry, "meaning", lang) for lang in wish.langs},
         }
         refs = (f"V{entry.number:02}", *entry.refs)
