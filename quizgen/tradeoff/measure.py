@@ -44,8 +44,8 @@ class Effort:
     photos: int
 
 
-FULL = Effort(inputs=400, scalars=60, repeats=7, papers=7, places=41, scenes=8, photos=3)
-QUICK = Effort(inputs=60, scalars=8, repeats=3, papers=3, places=21, scenes=2, photos=1)
+FULL = Effort(inputs=400, scalars=60, repeats=7, papers=7, places=41, scenes=8, photos=2)
+QUICK = Effort(inputs=30, scalars=4, repeats=3, papers=2, places=21, scenes=2, photos=1)
 
 
 @dataclass(frozen=True)

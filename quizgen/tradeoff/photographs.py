@@ -18,7 +18,7 @@ BUDGETS = (0.1, 0.5, 2.0, 8.0, 32.0)
 """Grey levels of 255 by which a picture may differ from that of all effects."""
 
 
-_DOUBLES = 2
+_DOUBLES = 1
 """Photographs in float64 of a plan at most: they take long."""
 
 
