@@ -6,24 +6,27 @@ A worker that is killed costs the job that it was at, which another one does aga
 
 from __future__ import annotations
 
+import contextlib
 import gc
 import multiprocessing
 import os
+import pickle
 import signal
 import threading
+import traceback
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import (
     FIRST_COMPLETED,
     Executor,
     Future,
-    ProcessPoolExecutor,
     ThreadPoolExecutor,
     wait,
 )
-from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
-from typing import ParamSpec, TypeVar
+from multiprocessing.connection import Connection
+from multiprocessing.reduction import ForkingPickler
+from typing import Any, ParamSpec, TypeVar, cast
 
 from quizgen.errors import ChoiceError, WorkerError
 
@@ -35,6 +38,8 @@ TRIES = 3
 """Workers that may die of one job before it is given up."""
 AHEAD = 2
 """Jobs that wait for each worker: enough to keep it busy, few enough to keep memory flat."""
+
+_SPAWN = multiprocessing.get_context("spawn")
 
 
 class Here(Executor):
@@ -58,45 +63,110 @@ class Processes(ThreadPoolExecutor):
     def __init__(self, count: int) -> None:
         super().__init__(count)
         self._own = threading.local()
-        self._all: list[ProcessPoolExecutor] = []
+        self._all: list[_Worker] = []
+        self._stopped = False
+        self._changing = threading.Lock()
 
     def submit(self, fn: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> Future[T]:
         """Do it in a process that is free."""
         return super().submit(self._elsewhere, fn, *args, **kwargs)
 
     def _elsewhere(self, fn: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> T:
+        job = bytes(ForkingPickler.dumps((fn, args, kwargs)))
         for _ in range(TRIES):
-            try:
-                return self._process().submit(fn, *args, **kwargs).result()
-            except BrokenProcessPool:
-                self._own.process = None
+            answer = self._worker().answer(job)
+            if answer is not None:
+                return cast("T", _value(answer))
+            self._own.worker = None
         raise WorkerError(f"{TRIES} processes died of the same work (is there memory enough?)")
 
-    def _process(self) -> ProcessPoolExecutor:
+    def _worker(self) -> _Worker:
         """The process of this thread, begun anew if it has died."""
-        if getattr(self._own, "process", None) is None:
-            spawn = multiprocessing.get_context("spawn")
-            self._own.process = ProcessPoolExecutor(
-                1, mp_context=spawn, initializer=_begin, initargs=gc.get_threshold()
-            )
-            self._all.append(self._own.process)
-        found: ProcessPoolExecutor = self._own.process
+        with self._changing:
+            if self._stopped:
+                raise WorkerError("the work was stopped")
+            if getattr(self._own, "worker", None) is None:
+                self._own.worker = _Worker()
+                self._all.append(self._own.worker)
+        found: _Worker = self._own.worker
         return found
 
+    def stop(self) -> None:
+        """End all processes, whatever they do."""
+        with self._changing:
+            self._stopped = True
+            for worker in self._all:
+                worker.process.kill()
+        self.shutdown(cancel_futures=True)
+
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
-        """End all processes."""
+        """End all processes once their work is done."""
         super().shutdown(wait, cancel_futures=cancel_futures)
-        for process in self._all:
-            process.shutdown(wait, cancel_futures=cancel_futures)
+        if wait:
+            for worker in self._all:
+                worker.close()
+
+
+class _Worker:
+    """A process that does one job after another, told over a pipe.
+
+    A pipe ends with the process, even amid an answer; the queue of a ``ProcessPoolExecutor``, whose
+    other end is open here too, leaves who reads such an answer waiting for the rest for ever.
+    """
+
+    def __init__(self) -> None:
+        self._line, there = _SPAWN.Pipe()
+        self.process = _SPAWN.Process(
+            target=_work, args=(there, gc.get_threshold()), daemon=True
+        )  # fmt: skip
+        with uninterrupted():
+            self.process.start()
+        there.close()
+
+    def answer(self, job: bytes) -> bytes | None:
+        """What comes of a job, or nothing if the process died of it."""
+        with contextlib.suppress(EOFError, OSError):
+            self._line.send_bytes(job)
+            return self._line.recv_bytes()
+        return None
+
+    def close(self) -> None:
+        """Let it end: there is no more work."""
+        self._line.close()
+        self.process.join()
+
+
+@contextmanager
+def uninterrupted() -> Iterator[None]:
+    """Leave Ctrl-C to this process, which ends those it begins: they never see it."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    from multiprocessing import resource_tracker
+
+    resource_tracker.ensure_running()  # else it begins with the process, and unblocks signals
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _work(line: Connection, threshold: tuple[int, int, int]) -> None:
+    """Do jobs until there are none."""
+    _begin(*threshold)
+    with contextlib.suppress(EOFError, OSError):
+        while True:
+            line.send_bytes(_answer(line.recv_bytes()))
 
 
 def _begin(*threshold: int) -> None:
-    """A worker ends with its parent and at Ctrl-C, and typesets in one thread: it has company.
+    """A worker ends with its parent, and typesets in one thread: it has company.
 
     It looks for garbage as seldom as its parent, which took a twentieth of each of many papers.
     """
     gc.set_threshold(*threshold)
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # where it cannot be blocked
     os.environ["RAYON_NUM_THREADS"] = "1"
     threading.Thread(target=_end_with_parent, daemon=True).start()
 
@@ -106,6 +176,33 @@ def _end_with_parent() -> None:
     if parent is not None:
         parent.join()
         os._exit(1)
+
+
+def _answer(job: bytes) -> bytes:
+    """What a job gives, or the error that it ends in, as it goes over the line."""
+    try:
+        work, args, kwargs = pickle.loads(job)  # noqa: S301 - from the parent
+        return bytes(ForkingPickler.dumps((True, work(*args, **kwargs))))
+    except Exception as error:  # noqa: BLE001 - raised again by who asked
+        error.add_note(traceback.format_exc())
+        return _error(error)
+
+
+def _error(error: Exception) -> bytes:
+    """An error as it goes over the line: in words if it cannot be taken apart and put together."""
+    try:
+        told = bytes(ForkingPickler.dumps((False, error)))
+        pickle.loads(told)  # noqa: S301 - made here
+    except Exception:  # noqa: BLE001 - whatever its own code raises
+        return bytes(ForkingPickler.dumps((False, RuntimeError(traceback.format_exc()))))
+    return told
+
+
+def _value(answer: bytes) -> Any:
+    good, value = pickle.loads(answer)  # noqa: S301 - from our own process
+    if not good:
+        raise value
+    return value
 
 
 @contextmanager
@@ -133,8 +230,10 @@ def workers(count: int, scheduler: str = "") -> Iterator[tuple[Executor, int]]:
         executor = Processes(count)
         try:
             yield executor, count * AHEAD
-        finally:
-            executor.shutdown(cancel_futures=True)
+        except BaseException:
+            executor.stop()
+            raise
+        executor.shutdown()
 
 
 @contextmanager

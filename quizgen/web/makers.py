@@ -8,13 +8,12 @@ from __future__ import annotations
 
 import contextlib
 import multiprocessing
-import signal
 import threading
-from collections.abc import Iterator
 from multiprocessing.connection import Connection
 
 from quizgen.bank.folder import Bank
 from quizgen.errors import BankError
+from quizgen.executors import uninterrupted
 from quizgen.web.made import Job, Wanted, WantedPaper, make
 
 LONGEST = 120.0
@@ -43,7 +42,7 @@ class Maker:
     def _begin(self) -> None:
         self._line, there = _SPAWN.Pipe()
         self.process = _SPAWN.Process(target=_work, args=(there, self._bank), daemon=True)
-        with _uninterrupted():
+        with uninterrupted():
             self.process.start()
         there.close()
 
@@ -86,22 +85,6 @@ def _answer(told: bytes | Exception) -> bytes:
     if isinstance(told, bytes):
         return told
     raise told
-
-
-@contextlib.contextmanager
-def _uninterrupted() -> Iterator[None]:
-    """Leave Ctrl-C to the server, which ends its makers: a process begun here never sees it."""
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    from multiprocessing import resource_tracker
-
-    resource_tracker.ensure_running()  # else it begins with the process, and unblocks signals
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _work(line: Connection, bank: Bank) -> None:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import gc
 import os
+import time
 
 import pytest
-from dying import Mortal, always_dead
+from dying import Long, Mortal, always_dead
 from small import begun, bytes_of, with_papers
 
 from quizgen.classes import make
@@ -64,6 +65,53 @@ def test_the_jobs_of_a_process_that_is_killed_are_done_by_another(tmp_path):
     assert (tmp_path / "dead").exists()
     assert len(found) == 6
     assert os.getpid() not in found
+
+
+@pytest.mark.slow
+def test_a_process_that_dies_amid_its_answer_is_not_waited_for(tmp_path):
+    executor = Processes(1)
+    try:
+        told = executor.submit(Long, tmp_path / "dead").result(60)
+    finally:
+        executor.stop()
+    assert (tmp_path / "dead").exists()
+    assert len(told) == 300_000_000
+
+
+class TwoWordsError(Exception):
+    def __init__(self, one, two):
+        super().__init__(f"{one} and {two}")
+
+
+def fails(number):
+    raise (ValueError("a plain one") if number else TwoWordsError(1, 2))
+
+
+def test_an_error_of_a_job_comes_back_with_its_place():
+    with workers(2) as (executor, _):
+        plain, other = (executor.submit(fails, number) for number in (1, 0))
+        with pytest.raises(ValueError, match="a plain one") as caught:
+            plain.result()
+        with pytest.raises(RuntimeError, match="TwoWordsError: 1 and 2"):
+            other.result()
+    assert "in fails" in "".join(caught.value.__notes__)
+
+
+def sleeps(_job):
+    time.sleep(600)
+
+
+def test_work_that_is_given_up_ends_its_processes():
+    waiting = []
+
+    def given_up():
+        with workers(2) as (executor, _):
+            waiting.extend(executor.submit(sleeps, job) for job in range(6))
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        given_up()
+    assert all(one.done() for one in waiting)
 
 
 @pytest.mark.slow
