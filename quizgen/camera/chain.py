@@ -6,7 +6,7 @@ import math
 
 from msgspec.structs import replace
 
-from quizgen.camera.effect import Effect, same_stack
+from quizgen.camera.effect import Effect, same_error, same_stack
 from quizgen.camera.facts import LARGEST, NO_ERROR, Error, Facts
 from quizgen.camera.scene import SceneError
 from quizgen.camera.view import View
@@ -15,8 +15,8 @@ GREY_LEVELS = 255.0
 
 EXACT, SKIP = "", "skip"
 
-_FAR = 16.0
-"""How much smaller than a loss the error may still become, at four stops less light."""
+_FAR = 4.0
+"""How much smaller than a loss the error may still become, at two stops less light."""
 
 _ROUNDING = 5e-7
 """What single precision adds to a difference in one step, relative to the largest value."""
@@ -28,6 +28,7 @@ class Chain:
     def __init__(self, present: tuple[Effect, ...], view: View, facts: Facts) -> None:
         self.present, self.view, self.facts = present, view, facts
         self.before = _facts_along(present, view, facts)
+        self._rounding = [_rounding(before) for before in self.before]
         self._made: dict[tuple[int, str], Error] = {}
         self._known: dict[frozenset[tuple[int, str]], float] = {}
 
@@ -37,10 +38,10 @@ class Chain:
         if key not in self._made:
             effect, facts = self.present[index], self.before[index]
             if made == SKIP:
-                self._made[key] = _lost(effect, facts, self.view)
+                self._made[key] = self._lost(index)
             else:
                 rung = next(rung for rung in effect.rungs if rung.name == made)
-                self._made[key] = rung.error(facts, self.view).plus(_rounding(facts))
+                self._made[key] = rung.error(facts, self.view).plus(self._rounding[index])
         return self._made[key]
 
     def error(self, choice: dict[int, str]) -> Error:
@@ -52,19 +53,28 @@ class Chain:
                 lost = self.off(index, SKIP)
                 error = error.plus(lost) if effect.random else error.along(lost)
                 continue
-            error = self._carried(effect, index, error)
+            if error is not NO_ERROR:
+                error = self._carried(effect, index, error)
             if made != EXACT:
                 error = error.plus(self.off(index, made))
         return error
 
+    def _lost(self, index: int) -> Error:
+        """Loss of skipping, with rounding; a limit of the sensor never met costs nothing."""
+        effect = self.present[index]
+        lost = effect.skipped(self.before[index], self.view)
+        if lost == NO_ERROR and effect.stage == "sensor":
+            return lost
+        return lost.plus(self._rounding[index])
+
     def _carried(self, effect: Effect, index: int, error: Error) -> Error:
-        if error == NO_ERROR or math.isinf(error.total):
+        if error == NO_ERROR or error.total == math.inf:
             return error
-        facts = self.before[index]
-        if not effect.keeps_clipped(self.view):
+        if error.beyond and not effect.keeps_clipped(self.view):
             error = error.everywhere()
-        carried = effect.carried(error, facts, self.view)
-        return carried.plus(_rounding(facts))
+        if effect.carried is not same_error:
+            error = effect.carried(error, self.before[index], self.view)
+        return error.plus(self._rounding[index])
 
     def dn(self, choice: dict[int, str]) -> float:
         """The same in grey levels."""
@@ -76,15 +86,7 @@ class Chain:
     def hopeless(self, indices: tuple[int, ...], made: str, budget: float) -> bool:
         """Whether a choice alone loses so much that following it to the end is a waste of time."""
         far = _FAR * budget / GREY_LEVELS
-        return any(self.off(index, made).total > far for index in indices)
-
-
-def _lost(effect: Effect, facts: Facts, view: View) -> Error:
-    """Loss of skipping, with rounding; a limit of the sensor that is never met costs nothing."""
-    lost = effect.skipped(facts, view)
-    if lost == NO_ERROR and effect.stage == "sensor":
-        return lost
-    return lost.plus(_rounding(facts))
+        return any(self.off(index, made).clipped().total > far for index in indices)
 
 
 def _rounding(facts: Facts) -> Error:

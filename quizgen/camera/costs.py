@@ -7,6 +7,7 @@ that installing OpenCV never changes a picture; predicted times use what is inst
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 from quizgen.camera.effect import Cost
 from quizgen.camera.filters import goes_by_slabs
@@ -30,6 +31,7 @@ FACTS_PER_MEGAPIXEL = 35.0
 """Measuring a picture's steps, ms."""
 
 
+@lru_cache(maxsize=256)
 def at_size(pair: Pair, megapixels: float) -> float:
     """Cost between and beyond the two measured sizes: a power law."""
     power = math.log(pair[1] / pair[0]) / math.log(SIZES[1] / SIZES[0])

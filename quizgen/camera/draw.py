@@ -218,6 +218,8 @@ def sheets(view: View) -> tuple[Sheet, ...]:
     behind = scene.background_depth if scene.image is None else scene.depth
     base = None if isinstance(behind, np.ndarray) else behind
     bare = Sheet(base, STILL, (), opaque=True)
+    if not scene.things:
+        return (bare,)
     found = [bare]
     ordered = sorted(scene.things, key=lambda thing: -thing.depth)
     focused = aperture(view.camera) is not None

@@ -50,6 +50,7 @@ LARGEST = 1e30
 UNLIMITED = (-LARGEST, LARGEST)
 
 _ROWS = 64
+_BESIDE = 4
 
 
 class Error(msgspec.Struct, frozen=True):
@@ -205,9 +206,13 @@ class Facts(msgspec.Struct, frozen=True):
     @property
     def jump(self) -> tuple[float, float]:
         """Largest step of the flattened picture along x and y."""
-        return tuple(  # type: ignore[return-value]
-            min(sum(layer.jump[axis] for layer in self.layers), self.span) for axis in (0, 1)
-        )
+        span = self.span
+        if len(self.layers) == 1:
+            across, down = self.layers[0].jump
+        else:
+            across = sum(layer.jump[0] for layer in self.layers)
+            down = sum(layer.jump[1] for layer in self.layers)
+        return min(across, span), min(down, span)
 
     @property
     def bend(self) -> tuple[float, float]:
@@ -215,9 +220,8 @@ class Facts(msgspec.Struct, frozen=True):
         steps = self.jump
         if len(self.layers) > 1:
             return 2 * steps[0], 2 * steps[1]
-        return tuple(  # type: ignore[return-value]
-            min(self.layers[0].bend[axis], 2 * steps[axis]) for axis in (0, 1)
-        )
+        bend = self.layers[0].bend
+        return min(bend[0], 2 * steps[0]), min(bend[1], 2 * steps[1])
 
     def flat(self) -> Facts:
         """Facts of the flattened stack."""
@@ -345,24 +349,40 @@ def _differences(
     colour: Image, cover: Image | None, middle: float, span: float, every: int, axis: int
 ) -> tuple[float, float]:
     step, bend = 0.0, 0.0
-    for part in _slices(colour, every, axis):
-        first, second = _extremes(colour[part], axis)
-        if cover is not None:
-            first, second = _extremes(colour[part] - float(middle) * cover[part], axis)
-            edge = _extremes(cover[part], axis)
+    for part, covered in _parts(colour, cover, every, axis):
+        first, second = _extremes(part, axis)
+        if covered is not None:
+            first, second = _extremes(part - float(middle) * covered, axis)
+            edge = _extremes(covered, axis)
             first, second = first + edge[0] * span / 2, second + edge[1] * span / 2
         step, bend = max(step, first), max(bend, second)
     slack = 1.0 + 1e-6
     return step * slack, bend * slack
 
 
-def _slices(colour: Image, every: int, axis: int) -> Iterator[tuple[slice, ...]]:
-    """Bands across the axis, thinned out to every n-th line."""
-    lines = colour.shape[1 - axis]
-    width = _ROWS if every == 1 else lines
-    for start in range(0, lines, width):
-        band = slice(start, start + width, every)
-        yield (band, slice(None)) if axis == 1 else (slice(None), band)
+def _parts(
+    colour: Image, cover: Image | None, every: int, axis: int
+) -> Iterator[tuple[Image, Image | None]]:
+    """Bands across the axis, or lines along it thinned out to every n-th."""
+    if every > 1:
+        yield _thinned(colour, every, axis), None if cover is None else _thinned(cover, every, axis)
+        return
+    for start in range(0, colour.shape[1 - axis], _ROWS):
+        band = slice(start, start + _ROWS)
+        part = (band, slice(None)) if axis == 1 else (slice(None), band)
+        yield colour[part], None if cover is None else cover[part]
+
+
+def _thinned(values: Image, every: int, axis: int) -> Image:
+    """Every n-th row; of columns some beside each other, which are read together."""
+    height, width, channels = values.shape
+    if axis == 1:
+        return values[::every]
+    apart = every * _BESIDE
+    if width < apart:
+        return values[:, ::every]
+    groups = values[:, : width // apart * apart].reshape(height, -1, apart, channels)
+    return groups[:, :, :_BESIDE].reshape(height, -1, channels)
 
 
 def _extremes(values: Image, axis: int) -> tuple[float, float]:

@@ -176,7 +176,11 @@ def line(across: float, down: float) -> Kernel:
 
 def offsets(kernel: Kernel) -> tuple[Kernel, Kernel]:
     """Vertical and horizontal distance of every tap from the centre, in px."""
-    rows, columns = kernel.shape
+    return _offsets(*kernel.shape)
+
+
+@lru_cache(maxsize=16)
+def _offsets(rows: int, columns: int) -> tuple[Kernel, Kernel]:
     down = np.abs(np.arange(rows) - rows // 2)[:, None] * np.ones((1, columns))
     across = np.abs(np.arange(columns) - columns // 2)[None, :] * np.ones((rows, 1))
     return down, across

@@ -32,11 +32,16 @@ BUDGETS = {"same": 0.5, "visible": 2.0, "sketch": 8.0}
 """Named budgets in 8-bit grey levels."""
 
 
-class Step(msgspec.Struct, frozen=True):
-    """An effect that runs: how, why, and its predicted time in ms."""
+class Chosen(msgspec.Struct, frozen=True):
+    """An effect that runs, and how."""
 
     effect: str
     rung: str
+
+
+class Step(Chosen, frozen=True):
+    """The same with why, and its predicted time in ms."""
+
     reason: str
     bound_dn: float
     predicted_ms: float
@@ -76,6 +81,39 @@ class Plan(msgspec.Struct, frozen=True):
     budget: float
 
 
+class Decision(msgspec.Struct, frozen=True, dict=True):
+    """What is run; why, and how long that should take, is worked out when somebody asks.
+
+    Parameters
+    ----------
+    chain : Chain
+    choice : dict of int to str
+        By the effect's place in the chain: how it runs, or that it is skipped.
+    units : tuple of Unit
+    absent : tuple of str
+    budget : float
+    """
+
+    chain: Chain
+    choice: dict[int, str]
+    units: tuple[Unit, ...]
+    absent: tuple[str, ...]
+    budget: float
+
+    @property
+    def steps(self) -> tuple[Chosen, ...]:
+        """What runs, in physical order."""
+        made = zip(
+            self.chain.present, (made for _, made in sorted(self.choice.items())), strict=True
+        )
+        return tuple(Chosen(effect.name, how) for effect, how in made if how != SKIP)
+
+    @cached_property
+    def plan(self) -> Plan:
+        """The same with its reasons."""
+        return _report(self)
+
+
 class Prepared:
     """A scene in pixels, drawn when first needed.
 
@@ -91,10 +129,15 @@ class Prepared:
         self.drawn_ms = 0.0
 
     @cached_property
+    def present(self) -> tuple[Effect, ...]:
+        """Effects that the camera has, in physical order."""
+        return effects.present(self.given)
+
+    @cached_property
     def view(self) -> View:
         """Everything in px."""
         view = self.given
-        for effect in effects.present(view):
+        for effect in self.present:
             effect.check(view)
             if effect.prepare is not None:
                 started = perf_counter()
@@ -111,7 +154,7 @@ class Prepared:
         return drawn
 
 
-class _Unit(msgspec.Struct, frozen=True):
+class Unit(msgspec.Struct, frozen=True):
     """Effects that are kept or skipped together, with what each choice costs."""
 
     members: tuple[int, ...]
@@ -119,18 +162,18 @@ class _Unit(msgspec.Struct, frozen=True):
     fixed: bool
 
 
-def _units(present: tuple[Effect, ...], asked: frozenset[str]) -> list[_Unit]:
+def _units(present: tuple[Effect, ...], asked: frozenset[str]) -> tuple[Unit, ...]:
     units: dict[str, list[int]] = {}
     for index, effect in enumerate(present):
         units.setdefault(effect.pair or effect.name, []).append(index)
-    return [_unit(tuple(members), present, asked) for members in units.values()]
+    return tuple(_unit(tuple(members), present, asked) for members in units.values())
 
 
-def _unit(members: tuple[int, ...], present: tuple[Effect, ...], asked: frozenset[str]) -> _Unit:
+def _unit(members: tuple[int, ...], present: tuple[Effect, ...], asked: frozenset[str]) -> Unit:
     together = [present[index] for index in members]
     rungs = [rung.name for rung in together[0].rungs] if len(together) == 1 else []
     needed = any(effect.reason or asked.intersection(effect.decides) for effect in together)
-    return _Unit(members, (EXACT, *rungs, SKIP), needed)
+    return Unit(members, (EXACT, *rungs, SKIP), needed)
 
 
 def _costs(present: tuple[Effect, ...], view: View, *, opencv_used: bool) -> list[dict[str, float]]:
@@ -142,7 +185,7 @@ def _costs(present: tuple[Effect, ...], view: View, *, opencv_used: bool) -> lis
 
 
 def _spend(
-    chain: Chain, units: list[_Unit], costs: list[dict[str, float]], budget: float
+    chain: Chain, units: tuple[Unit, ...], costs: list[dict[str, float]], budget: float
 ) -> dict[int, str]:
     """Take the affordable choice that saves most per grey level, again and again."""
     choice = {i: EXACT if unit.fixed else SKIP for unit in units for i in unit.members}
@@ -159,7 +202,7 @@ def _spend(
 
 def _greedily(
     chain: Chain,
-    possible: list[tuple[_Unit, str]],
+    possible: list[tuple[Unit, str]],
     costs: list[dict[str, float]],
     choice: dict[int, str],
     budget: float,
@@ -179,8 +222,8 @@ def _greedily(
 
 
 def _affordable(
-    chain: Chain, units: list[_Unit], choice: dict[int, str], budget: float
-) -> Iterator[tuple[_Unit, str]]:
+    chain: Chain, units: tuple[Unit, ...], choice: dict[int, str], budget: float
+) -> Iterator[tuple[Unit, str]]:
     """Choices that the budget allows beside those already made."""
     for unit in units:
         for made in () if unit.fixed else unit.choices:
@@ -189,7 +232,7 @@ def _affordable(
                 yield unit, made
 
 
-def _is_within(chain: Chain, trial: dict[int, str], unit: _Unit, budget: float) -> bool:
+def _is_within(chain: Chain, trial: dict[int, str], unit: Unit, budget: float) -> bool:
     made = trial[unit.members[0]]
     return not chain.hopeless(unit.members, made, budget) and chain.dn(trial) <= budget
 
@@ -207,7 +250,7 @@ def _total(costs: list[dict[str, float]], choice: dict[int, str]) -> float:
 
 
 def _opened(
-    units: list[_Unit], chains: tuple[Chain, Chain], choice: dict[int, str], budget: float
+    units: tuple[Unit, ...], chains: tuple[Chain, Chain], choice: dict[int, str], budget: float
 ) -> bool:
     """Whether a second look affords a unit that a first has kept; what looks the same is passed."""
     first, second = chains
@@ -226,7 +269,7 @@ def _opened(
 
 
 def _best(
-    prepared: Prepared, present: tuple[Effect, ...], units: list[_Unit], budget: float
+    prepared: Prepared, present: tuple[Effect, ...], units: tuple[Unit, ...], budget: float
 ) -> tuple[Chain, dict[int, str]]:
     """Decide from colours alone; look at the pixels only where that can still save time."""
     view = prepared.view
@@ -296,25 +339,35 @@ def plan(
         A pure function of the arguments.
     """
     prepared = scene if isinstance(scene, Prepared) else Prepared(scene, camera or Camera())
+    return decided(prepared, question, budget).plan
+
+
+def decided(
+    prepared: Prepared,
+    question: str | tuple[str, ...] | None = None,
+    budget: str | float = 0.5,
+) -> Decision:
+    """A plan whose reasons are worked out when somebody asks for them.
+
+    Parameters
+    ----------
+    prepared : Prepared
+    question, budget
+        As for `plan`.
+    """
     given, limit = prepared.given, read_budget(budget)
     asked = wanted(question, given.scene)
     with located(given.scene.file):
-        return _planned(prepared, asked, limit)
-
-
-def _planned(prepared: Prepared, asked: frozenset[str], limit: float) -> Plan:
-    present, absent = _sorted_out(prepared.given)
-    if not present:
-        return Plan((), (), absent, 0.0, 0.0, limit)
-    units = _units(present, asked)
-    chain, choice = _best(prepared, present, units, limit)
-    return _report(chain, choice, units, absent, limit)
+        present, absent = prepared.present, _absent(prepared)
+        units = _units(present, asked)
+        chain, choice = _best(prepared, present, units, limit)
+        return Decision(chain, choice, units, absent, limit)
 
 
 def everything(scene: Scene | Prepared, camera: Camera | None = None, timed: bool = True) -> Plan:
     """The plan that runs every present effect exactly; with no times if nobody asks."""
     prepared = scene if isinstance(scene, Prepared) else Prepared(scene, camera or Camera())
-    present, absent = _sorted_out(prepared.given)
+    present, absent = prepared.present, _absent(prepared)
     with located(prepared.given.scene.file):
         used, view = opencv() is not None, prepared.view
     steps = tuple(
@@ -324,33 +377,33 @@ def everything(scene: Scene | Prepared, camera: Camera | None = None, timed: boo
     return Plan(steps, (), absent, 0.0, sum(step.predicted_ms for step in steps), 0.0)
 
 
-def _sorted_out(view: View) -> tuple[tuple[Effect, ...], tuple[str, ...]]:
-    """Effects that the camera has, and the names of those that it has not."""
-    present = effects.present(view)
-    names = {effect.name for effect in present}
-    return present, tuple(effect.name for effect in effects.EFFECTS if effect.name not in names)
+def _absent(prepared: Prepared) -> tuple[str, ...]:
+    """Names of the effects that the camera has not."""
+    there = {effect.name for effect in prepared.present}
+    return tuple(effect.name for effect in effects.EFFECTS if effect.name not in there)
 
 
-def _report(
-    chain: Chain, choice: dict[int, str], units: list[_Unit], absent: tuple[str, ...], limit: float
-) -> Plan:
+def _report(made: Decision) -> Plan:
+    chain, choice, absent = made.chain, made.choice, made.absent
+    if not choice:
+        return Plan((), (), absent, 0.0, 0.0, made.budget)
     times = _costs(chain.present, chain.view, opencv_used=opencv() is not None)
     steps, skipped = [], []
-    bounds = _alone(chain, choice, units)
-    for unit, alone in zip(units, bounds, strict=True):
+    bounds = _alone(chain, choice, made.units)
+    for unit, alone in zip(made.units, bounds, strict=True):
         for index in unit.members:
-            name, made, time = chain.present[index].name, choice[index], times[index]
-            if made == SKIP:
+            name, how, time = chain.present[index].name, choice[index], times[index]
+            if how == SKIP:
                 skipped.append(Skipped(name, _why_skipped(alone), alone, time[EXACT]))
             else:
-                reason = _why_kept(chain, unit, index, made, alone)
-                steps.append((index, Step(name, made, reason, alone, time[made])))
+                reason = _why_kept(chain, unit, index, how, alone)
+                steps.append((index, Step(name, how, reason, alone, time[how])))
     ran = tuple(step for _, step in sorted(steps, key=lambda pair: pair[0]))
     spent = sum(step.predicted_ms for step in ran)
-    return Plan(ran, tuple(skipped), absent, chain.dn(choice), spent, limit)
+    return Plan(ran, tuple(skipped), absent, chain.dn(choice), spent, made.budget)
 
 
-def _alone(chain: Chain, choice: dict[int, str], units: list[_Unit]) -> list[float]:
+def _alone(chain: Chain, choice: dict[int, str], units: tuple[Unit, ...]) -> list[float]:
     """What each unit changes in this plan: with it against without it, other choices as made."""
     ran = tuple(index for index, made in sorted(choice.items()) if made != SKIP)
     without: dict[tuple[int, ...], Chain] = {tuple(sorted(choice)): chain}
@@ -369,7 +422,7 @@ def _why_skipped(bound: float) -> str:
     return f"changes at most {bound:.3g} DN" if bound else "changes nothing"
 
 
-def _why_kept(chain: Chain, unit: _Unit, index: int, made: str, alone: float) -> str:
+def _why_kept(chain: Chain, unit: Unit, index: int, made: str, alone: float) -> str:
     if unit.fixed:
         return chain.present[index].reason or "asked about"
     size = "anything" if alone >= GREY_LEVELS else f"up to {alone:.3g} DN"

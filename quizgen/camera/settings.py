@@ -7,7 +7,7 @@ given costs nothing and changes nothing.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from typing import Any, Generic, TypeVar, cast
+from typing import Any, Generic, TypeVar
 
 import msgspec
 
@@ -30,7 +30,7 @@ class Settings:
         self.given = dict(given)
 
     def __getitem__(self, setting: Setting[T]) -> T:
-        return cast("T", self.given.get(setting.name, setting.identity))
+        return self.given.get(setting.name, setting.identity)  # type: ignore[return-value]
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Settings) and self.given == other.given

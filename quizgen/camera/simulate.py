@@ -20,7 +20,7 @@ from quizgen.camera.draw import Layer, Sheet, Stack, composite, lay_over, sheets
 from quizgen.camera.effect import Effect, LayerByLayer, PointByPoint
 from quizgen.camera.facts import EXCEEDED
 from quizgen.camera.filters import warm_up
-from quizgen.camera.plan import Plan, Prepared, Step, everything, plan
+from quizgen.camera.plan import Chosen, Decision, Plan, Prepared, decided, everything
 from quizgen.camera.scene import Image, Scene
 from quizgen.outside import located
 
@@ -33,7 +33,7 @@ class Photo(msgspec.Struct, frozen=True):
     values : numpy.ndarray
         Shape (H, W, 3), 1 = white, of the scene's precision; an ideal camera returns its input
         untouched.
-    plan : Plan
+    what : Plan or Decision
         What was run and what was left out.
     times : dict of str to float
         Measured ms per effect that ran.
@@ -42,9 +42,14 @@ class Photo(msgspec.Struct, frozen=True):
     """
 
     values: Image
-    plan: Plan
+    what: Plan | Decision
     times: dict[str, float]
     drawn_ms: float
+
+    @property
+    def plan(self) -> Plan:
+        """What was run and what was left out, with reasons."""
+        return self.what if isinstance(self.what, Plan) else self.what.plan
 
     @property
     def measured_ms(self) -> float:
@@ -68,14 +73,18 @@ def silent(name: str) -> None:
 
 
 def run(
-    prepared: Prepared, what: Plan, told: Callable[[str], None] = silent, *, last: bool = False
+    prepared: Prepared,
+    what: Plan | Decision,
+    told: Callable[[str], None] = silent,
+    *,
+    last: bool = False,
 ) -> Photo:
     """Run the steps of a plan on a scene.
 
     Parameters
     ----------
     prepared : Prepared
-    what : Plan
+    what : Plan or Decision
     told : callable
         Gets the names of effects before they run.
     last : bool
@@ -99,7 +108,7 @@ class _Run:
         if last:
             del prepared.stack
 
-    def photo(self, what: Plan) -> Photo:
+    def photo(self, what: Plan | Decision) -> Photo:
         for kind, group in groupby(what.steps, key=_kind):
             steps = tuple(group)
             if kind is LayerByLayer:
@@ -112,17 +121,17 @@ class _Run:
         times = {step.effect: self.times.get(step.effect, 0.0) for step in what.steps}
         return Photo(composite(tuple(self.stack)), what, times, self.drawn_ms)
 
-    def _count(self, step: Step, started: float) -> None:
+    def _count(self, step: Chosen, started: float) -> None:
         spent = (perf_counter() - started) * 1e3
         self.times[step.effect] = self.times.get(step.effect, 0.0) + spent
 
-    def _one(self, step: Step) -> None:
+    def _one(self, step: Chosen) -> None:
         self.told(step.effect)
         started = perf_counter()
         self.stack = list(_effect(step).run(tuple(self.stack), self.view, step.rung))
         self._count(step, started)
 
-    def _layer_by_layer(self, steps: tuple[Step, ...]) -> None:
+    def _layer_by_layer(self, steps: tuple[Chosen, ...]) -> None:
         """Finish each layer and lay it over those behind, so that few are there at a time."""
         self.told(_names(steps))
         picture: Image | None = None
@@ -143,7 +152,7 @@ class _Run:
     def _ours(self, picture: Image) -> bool:
         return all(picture is not other for other in self.kept)
 
-    def _in_one_pass(self, steps: tuple[Step, ...]) -> None:
+    def _in_one_pass(self, steps: tuple[Chosen, ...]) -> None:
         """Effects that look at one pixel only, while a piece of the picture is at hand."""
         self.told(_names(steps))
         started, picture = perf_counter(), composite(tuple(self.stack))
@@ -158,15 +167,15 @@ class _Run:
         self.stack = [Layer(result)]
 
 
-def _effect(step: Step) -> Effect:
+def _effect(step: Chosen) -> Effect:
     return effects.by_name(step.effect)
 
 
-def _kind(step: Step) -> type:
+def _kind(step: Chosen) -> type:
     return type(_effect(step).run)
 
 
-def _names(steps: tuple[Step, ...]) -> str:
+def _names(steps: tuple[Chosen, ...]) -> str:
     return ", ".join(step.effect for step in steps)
 
 
@@ -188,7 +197,7 @@ def simulate(
         Grey levels, see `quizgen.camera.plan.plan`.
     """
     prepared = Prepared(scene, camera)
-    return run(prepared, plan(prepared, question=question, budget=budget), last=True)
+    return run(prepared, decided(prepared, question, budget), last=True)
 
 
 def simulate_everything(scene: Scene, camera: Camera) -> Photo:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from quizgen.camera.plan import Plan, Skipped, Step
+    from quizgen.camera.plan import Decision, Skipped, Step
     from quizgen.camera.scene import Precision
     from quizgen.camera.simulate import Photo
 
@@ -130,7 +130,7 @@ def simulate(scene: str | None, **options: Unpack[Options]) -> None:
 def _shoot(scene: str, options: Options, told: Progress) -> Shot:
     from quizgen.camera import effects
     from quizgen.camera.compare import really
-    from quizgen.camera.plan import Prepared, everything, plan
+    from quizgen.camera.plan import Prepared, decided, everything
     from quizgen.camera.reading import load
     from quizgen.camera.simulate import run
 
@@ -139,7 +139,7 @@ def _shoot(scene: str, options: Options, told: Progress) -> Shot:
     prepared = Prepared(*load(_find(scene), options["precision"]))
     read = (perf_counter() - started) * 1e3
     told("planning")
-    what = plan(prepared, question=options["question"] or None, budget=options["budget"])
+    what = decided(prepared, options["question"] or None, options["budget"])
     planned = (perf_counter() - started) * 1e3 - read - prepared.drawn_ms
     again = options["everything"] or options["compare"] is not None
     photo = run(prepared, what, told, last=not again)
@@ -157,7 +157,7 @@ def _shoot(scene: str, options: Options, told: Progress) -> Shot:
     return shot
 
 
-def _in_float32(scene: str, what: Plan, told: Callable[[str], None]) -> Photo:
+def _in_float32(scene: str, what: Decision, told: Callable[[str], None]) -> Photo:
     from quizgen.camera.plan import Prepared
     from quizgen.camera.reading import load
     from quizgen.camera.simulate import run

@@ -56,20 +56,28 @@ def fall_off(radius: Field, view: View) -> Field:
     Natural: cos^4 of the field angle, (1 + (r/f)^2)^-2. Mechanical: lens rim and aperture as two
     discs that slide apart, by ``mechanical_vignetting`` diameters at the corner.
     """
+    return _kept(radius, *_lens(view))
+
+
+def _lens(view: View) -> tuple[float, float, float]:
+    """Focal length (0 without the natural fall-off), the rim's shift and where, px."""
     camera = view.camera
+    return view.focal if camera[NATURAL] else 0.0, camera[MECHANICAL], view.corner
+
+
+def _kept(radius: Field, focal: float, mechanical: float, corner: float) -> Field:
     kept = np.ones_like(radius)
-    if camera[NATURAL]:
-        kept = 1.0 / (1.0 + (radius / view.focal) ** 2) ** 2
-    if camera[MECHANICAL]:
-        kept = kept * rim_overlap(camera[MECHANICAL] * radius / view.corner)
+    if focal:
+        kept = 1.0 / (1.0 + (radius / focal) ** 2) ** 2
+    if mechanical:
+        kept = kept * rim_overlap(mechanical * radius / corner)
     return kept
 
 
 def fall_off_map(view: View) -> Image:
     """`fall_off` at every pixel, shape (H, W, 1)."""
-    camera = view.camera
-    focal = view.focal if camera[NATURAL] else 0.0
-    return _fall_off_map(view.width, view.height, focal, camera[MECHANICAL], view.precision)
+    focal, mechanical, _ = _lens(view)
+    return _fall_off_map(view.width, view.height, focal, mechanical, view.precision)
 
 
 @lru_cache(maxsize=2)
@@ -95,18 +103,24 @@ def work(view: View, rung: str = "") -> Work:
 
 def corner_light(view: View) -> float:
     """Share of light kept at the picture's corner."""
-    return float(fall_off(np.array(view.corner), view))
+    return _sunk(*_lens(view))[0]
 
 
 def steepest_fall_off(view: View) -> float:
-    """Largest change of the fall-off over one pixel.
+    """Largest change of the fall-off over one pixel."""
+    return _sunk(*_lens(view))[1]
+
+
+@lru_cache(maxsize=8)
+def _sunk(focal: float, mechanical: float, corner: float) -> tuple[float, float]:
+    """What is kept at the corner, and the largest change over one pixel.
 
     The fall-off only sinks with the radius, so differences over 1.25 px at steps of 0.25 px bound
     every difference over 1 px.
     """
-    radii = np.arange(0.0, view.corner + 2.0, 0.25)
-    kept = fall_off(np.minimum(radii, view.corner), view)
-    return float((kept[:-5] - kept[5:]).max())
+    radii = np.minimum(np.arange(0.0, corner + 2.0, 0.25), corner)
+    kept = _kept(radii, focal, mechanical, corner)
+    return float(kept[-1]), float((kept[:-5] - kept[5:]).max())
 
 
 def skipped(facts: Facts, view: View) -> Error:
