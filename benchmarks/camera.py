@@ -27,10 +27,11 @@ import numpy as np
 
 from quizgen.arrays.gamma import srgb_decode
 from quizgen.camera import Camera, Scene, SceneError, View, effects, filters, hsv, simulate
+from quizgen.camera.decision import Plan, Skipped
 from quizgen.camera.draw import Layer
 from quizgen.camera.effects import distortion, lateral_colour, mosaic, vignetting
 from quizgen.camera.kernels import disc
-from quizgen.camera.plan import Plan, Prepared, Skipped, everything, plan
+from quizgen.camera.plan import Prepared, everything, plan
 from quizgen.camera.simulate import difference_dn, is_broken, run
 from quizgen.cli.simulate import SCENES
 

@@ -10,7 +10,8 @@ needs NumPy only.
 """
 
 from quizgen.camera.camera import Camera
-from quizgen.camera.plan import Plan, everything, plan
+from quizgen.camera.decision import Plan
+from quizgen.camera.plan import everything, plan
 from quizgen.camera.scene import Length, Scene, SceneError, Thing
 from quizgen.camera.simulate import Photo, photographs, simulate, simulate_everything
 from quizgen.camera.view import View

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from quizgen.camera import effects
 from quizgen.camera.chain import EXACT, GREY_LEVELS
 from quizgen.camera.codes import rounded
-from quizgen.camera.plan import Plan, Prepared, Skipped, Step
+from quizgen.camera.decision import Plan, Skipped, Step
+from quizgen.camera.plan import Prepared
 from quizgen.camera.simulate import Photo, difference_dn, run
 
 Codes = NDArray[np.uint8]

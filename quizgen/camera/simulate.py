@@ -16,11 +16,12 @@ from quizgen.camera.blocks import BLOCK, for_pieces, in_turn
 from quizgen.camera.camera import Camera
 from quizgen.camera.chain import GREY_LEVELS
 from quizgen.camera.codes import rounded
+from quizgen.camera.decision import Chosen, Decision, Plan
 from quizgen.camera.draw import Layer, Sheet, Stack, composite, lay_over, sheets
 from quizgen.camera.effect import Effect, LayerByLayer, PointByPoint
 from quizgen.camera.facts import EXCEEDED
 from quizgen.camera.filters import warm_up
-from quizgen.camera.plan import Chosen, Decision, Plan, Prepared, decided, everything
+from quizgen.camera.plan import Prepared, decided, everything
 from quizgen.camera.scene import Image, Scene
 from quizgen.outside import located
 

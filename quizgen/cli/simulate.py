@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from quizgen.camera.plan import Decision, Skipped, Step
+    from quizgen.camera.decision import Decision, Skipped, Step
     from quizgen.camera.scene import Precision
     from quizgen.camera.simulate import Photo
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from importlib.resources import as_file, files
 
-from quizgen.camera.plan import Plan, Prepared, everything, plan
+from quizgen.camera.decision import Plan
+from quizgen.camera.plan import Prepared, everything, plan
 from quizgen.camera.reading import load
 from quizgen.camera.scene import PRECISIONS, Precision
 from quizgen.camera.simulate import difference_dn, run

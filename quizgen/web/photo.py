@@ -15,7 +15,7 @@ from quizgen.bank.folder import Bank
 
 if TYPE_CHECKING:
     from quizgen.camera.camera import Camera
-    from quizgen.camera.plan import Plan
+    from quizgen.camera.decision import Plan
     from quizgen.camera.scene import Image
 
 SCENES = ("portrait", "landscape", "night", "texture", "flat", "propeller", "fisheye", "pinhole")

@@ -6,13 +6,15 @@ import numpy as np
 import pytest
 import scenes_at_random as at_random
 
-from quizgen.camera import Camera, Scene, SceneError, View, facts
+from quizgen.camera import Camera, Scene, SceneError, View, look
 from quizgen.camera.chain import SKIP, Chain
+from quizgen.camera.decision import Plan, Step
 from quizgen.camera.effects import EFFECTS, gamma, questions
 from quizgen.camera.effects.binning import BINNING
 from quizgen.camera.effects.distortion import K1, K2
-from quizgen.camera.facts import DEVIATIONS, EXCEEDED, Error, Facts, coarse, glimpsed, measured
-from quizgen.camera.plan import Plan, Prepared, Step, _units, everything, plan
+from quizgen.camera.facts import DEVIATIONS, EXCEEDED, Error, Facts
+from quizgen.camera.look import coarse, glimpsed, measured
+from quizgen.camera.plan import Prepared, _units, everything, plan
 from quizgen.camera.simulate import difference_dn, run
 
 ROUNDING = 1e-5
@@ -241,6 +243,6 @@ def test_nothing_steep_lies_where_a_layer_is_empty():
     for _, _, prepared, _ in photographs(0, 60, noise=False):
         low, high = prepared.view.scene.range
         whole = tuple(
-            facts._measure(layer, (low + high) / 2, high - low, 1) for layer in prepared.stack
+            look._measure(layer, (low + high) / 2, high - low, 1) for layer in prepared.stack
         )
         assert measured(prepared.stack, prepared.view).layers == whole

@@ -10,10 +10,11 @@ import pytest
 from scipy import constants, ndimage
 
 from quizgen.camera import Camera, Scene, SceneError, View
+from quizgen.camera.decision import Plan, Step
 from quizgen.camera.draw import Layer
 from quizgen.camera.effects import axial_colour, colour_filters
 from quizgen.camera.kernels import change, change_between, disc
-from quizgen.camera.plan import Plan, Prepared, Step, everything, plan
+from quizgen.camera.plan import Prepared, everything, plan
 from quizgen.camera.reading import load
 from quizgen.camera.simulate import run
 

@@ -13,10 +13,11 @@ from sweep import draws
 from quizgen import png
 from quizgen.arrays.gamma import srgb_decode
 from quizgen.camera import Camera, Scene, SceneError
+from quizgen.camera.decision import Plan, Step
 from quizgen.camera.effects import EFFECTS
 from quizgen.camera.filters import everywhere_alike
 from quizgen.camera.noise import Luck
-from quizgen.camera.plan import Plan, Prepared, Step, everything, plan
+from quizgen.camera.plan import Prepared, everything, plan
 from quizgen.camera.power import encode_number
 from quizgen.camera.reading import load
 from quizgen.camera.simulate import run

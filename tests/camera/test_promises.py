@@ -10,6 +10,7 @@ from sweep import draws
 
 from quizgen.camera import Camera, Scene, SceneError, View, noise
 from quizgen.camera.chain import SKIP, Chain
+from quizgen.camera.decision import Plan, Step
 from quizgen.camera.effects import (
     EFFECTS,
     dark_current,
@@ -19,7 +20,7 @@ from quizgen.camera.effects import (
     rolling_shutter,
     shot_noise,
 )  # fmt: skip
-from quizgen.camera.facts import (
+from quizgen.camera.facts import (  # fmt: skip
     CERTAIN,
     DEVIATIONS,
     EXCEEDED,
@@ -29,9 +30,9 @@ from quizgen.camera.facts import (
     Error,
     Facts,
     mean_size,
-    measured,
-)  # fmt: skip
-from quizgen.camera.plan import Plan, Prepared, Step, _units, everything, plan
+)
+from quizgen.camera.look import measured
+from quizgen.camera.plan import Prepared, _units, everything, plan
 from quizgen.camera.simulate import Photo, is_broken, run
 
 CHANCE = 1e-9

@@ -1,0 +1,126 @@
+"""What is known of a picture before its effects: from its colours, a glimpse, or all of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from msgspec.structs import replace
+
+from quizgen.camera.draw import Layer, Sheet, Stack, content, sheets
+from quizgen.camera.facts import Facts, LayerFacts
+from quizgen.camera.scene import Image
+from quizgen.camera.view import View
+
+_ROWS = 64
+_BESIDE = 4
+
+
+def _guess(sheet: Sheet, middle: float, span: float) -> LayerFacts:
+    """Steps a layer may have, from its colours: from nothing to any of them, plus the cover's."""
+    jump = span if sheet.opaque else _colour_step(sheet, middle) + span / 2
+    return LayerFacts((jump, jump), (2 * jump, 2 * jump))
+
+
+def _colour_step(sheet: Sheet, middle: float) -> float:
+    textured = [thing.other for thing in sheet.things if thing.texture != "plain"]
+    colours = [*textured, *(thing.colour for thing in sheet.things)]
+    levels = [0.0, *(level - middle for colour in colours for level in colour)]
+    return max(levels) - min(levels)
+
+
+def coarse(view: View) -> Facts:
+    """Facts from the colours alone, without drawing or reading a pixel."""
+    low, high = view.scene.range
+    middle, span = (low + high) / 2, high - low
+    return Facts(low, high, tuple(_guess(sheet, middle, span) for sheet in sheets(view)))
+
+
+def measured(stack: Stack, view: View) -> Facts:
+    """Facts from one pass over the drawn layers, where something is."""
+    low, high = view.scene.range
+    middle, filled = (low + high) / 2, (_filled(layer) for layer in stack)
+    return Facts(low, high, tuple(_measure(layer, middle, high - low, 1) for layer in filled))
+
+
+def _filled(layer: Layer) -> Layer:
+    """The part of a layer that is not empty, with two empty lines around it: no step is lost."""
+    if layer.cover is None:
+        return layer
+    rows, columns = content(layer.cover)
+    box = _with_margin(rows), _with_margin(columns)
+    return replace(layer, colour=layer.colour[box], cover=layer.cover[box])
+
+
+def _with_margin(part: slice) -> slice:
+    return slice(max(part.start - 2, 0), max(part.stop + 2, 3))
+
+
+def glimpsed(stack: Stack, view: View, every: int = 16) -> Facts:
+    """Facts of every 16th row and column only: never above the true ones, so a hint, no bound."""
+    low, high = view.scene.range
+    middle = (low + high) / 2
+    return Facts(low, high, tuple(_measure(layer, middle, high - low, every) for layer in stack))
+
+
+def _measure(layer: Layer, middle: float, span: float, every: int) -> LayerFacts:
+    cover = layer.cover
+    along_x = _differences(layer.colour, cover, middle, span, every, axis=1)
+    along_y = _differences(layer.colour, cover, middle, span, every, axis=0)
+    return LayerFacts((along_x[0], along_y[0]), (along_x[1], along_y[1]))
+
+
+def _differences(
+    colour: Image, cover: Image | None, middle: float, span: float, every: int, axis: int
+) -> tuple[float, float]:
+    step, bend = 0.0, 0.0
+    for part, covered in _parts(colour, cover, every, axis):
+        first, second = _extremes(part, axis)
+        if covered is not None:
+            first, second = _extremes(part - float(middle) * covered, axis)
+            edge = _extremes(covered, axis)
+            first, second = first + edge[0] * span / 2, second + edge[1] * span / 2
+        step, bend = max(step, first), max(bend, second)
+    slack = 1.0 + 1e-6
+    return step * slack, bend * slack
+
+
+def _parts(
+    colour: Image, cover: Image | None, every: int, axis: int
+) -> Iterator[tuple[Image, Image | None]]:
+    """Bands across the axis, or lines along it thinned out to every n-th."""
+    if every > 1:
+        yield _thinned(colour, every, axis), None if cover is None else _thinned(cover, every, axis)
+        return
+    for start in range(0, colour.shape[1 - axis], _ROWS):
+        band = slice(start, start + _ROWS)
+        part = (band, slice(None)) if axis == 1 else (slice(None), band)
+        yield colour[part], None if cover is None else cover[part]
+
+
+def _thinned(values: Image, every: int, axis: int) -> Image:
+    """Every n-th row; of columns some beside each other, which are read together."""
+    height, width, channels = values.shape
+    if axis == 1:
+        return values[::every]
+    apart = every * _BESIDE
+    if width < apart:
+        return values[:, ::every]
+    groups = values[:, : width // apart * apart].reshape(height, -1, apart, channels)
+    return groups[:, :, :_BESIDE].reshape(height, -1, channels)
+
+
+def _extremes(values: Image, axis: int) -> tuple[float, float]:
+    """Largest first and second difference along an axis; at the border mirrored."""
+    if values.shape[axis] < 2:
+        return 0.0, 0.0
+    steps = np.diff(values, axis=axis)
+    ends = np.abs(np.take(steps, [0, -1], axis=axis)).max()
+    bend = 2.0 * float(ends)
+    if steps.shape[axis] > 1:
+        bend = max(bend, _largest(np.diff(steps, axis=axis)))
+    return _largest(steps), bend
+
+
+def _largest(values: Image) -> float:
+    return float(max(values.max(), -values.min()))
