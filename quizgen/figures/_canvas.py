@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 
 import msgspec
 
-from quizgen.figures._letters import outline
+from quizgen.figures._letters import glyph, runs
 from quizgen.locale import numbers_in
 from quizgen.png import encode
 
@@ -24,6 +24,7 @@ MOVE, LINE, CURVE, CLOSE = 1, 2, 3, 79
 """Codes of the points of a path, as fonts have them; a curve has its control point first."""
 _CONTROL: Final = 4
 """The control point of a curve, told from its end."""
+_RELATIVE: Final = {1: "m", 2: "l", 3: " ", 4: "q"}
 _FORMS: Final = {1: "M %s %s", 2: "L %s %s", 3: "%s %s", 4: "Q %s %s"}
 BLACK: Final = "#000000"
 
@@ -162,9 +163,41 @@ def _png(codes: bytes, shape: tuple[int, ...]) -> bytes:
 @lru_cache(maxsize=2048)
 def _label(label: Label, height: float) -> str:
     """Commands that draw a label: most stand in the same place in the next figure of the kind."""
-    shape, size, (left, low) = outline(label.text), label.size, label.at
-    points = [(x * size + left, y * size + low) for x, y in shape.points]
-    return _commands(_flipped(points, height), shape.codes, closed=False)
+    (left, low), size, top = label.at, label.size, round(100 * height)
+    letters = [
+        (run.at, _letter(run.text, run.size * size, italic=run.italic))
+        for run in runs(label.text)[0]
+    ]
+    return " ".join(
+        [
+            f"M {_HUNDREDTHS[round(100 * (left + x * size))]}"
+            f" {_HUNDREDTHS[top - round(100 * (low + y * size))]}{commands}"
+            for (x, y), commands in letters
+            if commands
+        ]
+    )
+
+
+@lru_cache(maxsize=2048)
+def _letter(character: str, size: float, *, italic: bool) -> str:
+    """Commands that draw a letter from where it starts: the same wherever it stands.
+
+    Each contour closes at its start, from which the next one goes on.
+    """
+    found = glyph(character, italic=italic)
+    told, start, at, control = [], (0, 0), (0, 0), False
+    for (x, y), code in zip(found.points, found.codes, strict=True):
+        control = code == CURVE and not control
+        if code == CLOSE:
+            told.append("z")
+            at = start
+            continue
+        to = round(100 * x * size), -round(100 * y * size)
+        way = f"{_HUNDREDTHS[to[0] - at[0]]} {_HUNDREDTHS[to[1] - at[1]]}"
+        told.append(f"{_RELATIVE[_CONTROL if control else code]}{way}")
+        at = at if control else to
+        start = to if code == MOVE else start
+    return "".join(told)
 
 
 class _Hundredths(dict[int, str]):

@@ -32,7 +32,7 @@ _TOKEN = re.compile(r"(?P<text>\{[^}]*\}|.)(?P<prime>'*)(?:_(?P<sub>\{[^}]*\}|.)
 
 
 class Outline(NamedTuple):
-    """A laid-out label: points in units of its size, drawing codes, and its width."""
+    """A letter: points in units of its size, drawing codes, and its width."""
 
     points: Sequence[Point]
     codes: bytes
@@ -55,7 +55,8 @@ def _packed() -> tuple[dict[str, Packed], dict[str, Packed]]:
 
 
 @cache
-def _glyph(character: str, italic: bool) -> Outline:
+def glyph(character: str, italic: bool) -> Outline:
+    """A letter from where it starts on its baseline."""
     found = _packed()[italic].get(character)
     if found is None:
         raise LookupError(f"no glyph for {character!r}")
@@ -113,20 +114,7 @@ def _run(found: list[Run], text: str, x: float, size: float, rise: float) -> flo
     upright = text.startswith("{")
     for character in text.strip("{}"):
         italic = character.isalpha() and not upright
-        wide = _glyph(character, italic=italic).width * size
+        wide = glyph(character, italic=italic).width * size
         found.append(Run(character, italic, (x, rise), size, wide))
         x += wide
     return x
-
-
-@lru_cache(maxsize=4096)
-def outline(label: str) -> Outline:
-    """A label as ``runs`` lays it out: one compound path, and its advance width."""
-    laid, wide = runs(label)
-    glyphs = [_glyph(run.text, italic=run.italic) for run in laid]
-    points = [
-        (x * run.size + run.at[0], y * run.size + run.at[1])
-        for glyph, run in zip(glyphs, laid, strict=True)
-        for x, y in glyph.points
-    ]
-    return Outline(points, b"".join(glyph.codes for glyph in glyphs), wide)

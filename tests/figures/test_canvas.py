@@ -9,13 +9,13 @@ from io import StringIO
 import matplotlib as mpl
 import numpy as np
 import pytest
+from figure_cases import outline
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 from matplotlib.transforms import Affine2D
 
-from quizgen.figures._canvas import Canvas, Style
-from quizgen.figures._letters import outline
+from quizgen.figures._canvas import Canvas, Label, Style
 
 PATH = re.compile(r'<path d="([^"]*)"(?: style="([^"]*)")?/>')
 WIDE, HIGH = 312.0, 170.0
@@ -69,10 +69,36 @@ def test_polygons_and_polylines_are_those_of_matplotlib(style):
         assert drawn(style, points, codes) == peer(style, points, codes)
 
 
-def test_letters_are_those_of_matplotlib():
-    shape = outline("p'_y = 6.25 {mm} σ")
-    points = [(x * 10.5 + 40, y * 10.5 + 80) for x, y in shape.points]
-    assert drawn(Style(), points, shape.codes) == peer(Style(), points, list(shape.codes))
+def corners(data):
+    """The commands of a path, and where they lead; where a letter starts is no corner."""
+    at, start, letters, places = np.zeros(2), np.zeros(2), "", []
+    for letter, numbers in re.findall(r"([MLQZmlqz])([^MLQZlqz]*?)(?=[a-zA-Z]|$)", data):
+        ways = np.array(re.findall(r"-?[\d.]+", numbers), float).reshape(-1, 2)
+        ends = ways + at if letter.islower() else ways
+        if letter == "m":  # goes on from the M before it
+            letters, places = (
+                letters.removesuffix("M"),
+                places[: len(places) - letters.endswith("M")],
+            )
+        at = start if letter in "zZ" else ends[-1]
+        start = at if letter in "mM" else start
+        letters += letter.upper()
+        places += [*ends]
+    return letters, np.array(places)
+
+
+@pytest.mark.parametrize("text", ["p'_y = 6.25 {mm} σ", "{Bild 10 %}", "k_{12} ≈ −0.05 × 8°"])
+def test_letters_are_those_of_matplotlib(text):
+    canvas = Canvas()
+    canvas.size(WIDE, HIGH, None)
+    canvas.labels.append(Label(text, (40.003, 80.004), 10.5))
+    ((data, _),) = PATH.findall(canvas.inside)
+    shape, codes, _ = outline(text)
+    points = [(x * 10.5 + 40.003, y * 10.5 + 80.004) for x, y in shape]
+    letters, places = corners(" ".join(peer(Style(), points, list(codes))[0]))
+    ours, reached = corners(data)
+    assert ours == letters
+    assert np.abs(reached - places).max() < 0.0151
 
 
 def test_pictures_lie_under_what_is_drawn():

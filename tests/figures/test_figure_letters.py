@@ -28,7 +28,7 @@ def test_every_letter_is_the_one_of_the_font(italic, name):
     for character in letters:
         shape = font.load_char(ord(character), flags=LoadFlags.NO_HINTING)
         points, codes = font.get_path()
-        ours = _letters._glyph(character, italic=italic)
+        ours = _letters.glyph(character, italic=italic)
         assert [*map(list, ours.points)] == (points / 100).tolist()
         assert [*ours.codes] == codes.tolist()
         assert ours.width == shape.linearHoriAdvance / 65536 / 100
@@ -36,12 +36,12 @@ def test_every_letter_is_the_one_of_the_font(italic, name):
 
 def test_what_figures_print_is_there():
     for character in LABELLED:
-        assert _letters._glyph(character, italic=character.isalpha()).width > 0
+        assert _letters.glyph(character, italic=character.isalpha()).width > 0
 
 
 def test_a_letter_that_is_not_there_is_named():
     with pytest.raises(LookupError, match="ক"):
-        _letters.outline("ক")
+        _letters.runs("ক")
 
 
 LOADED = """

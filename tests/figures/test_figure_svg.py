@@ -13,13 +13,13 @@ from typing import ClassVar
 from xml.etree import ElementTree as ET
 
 import pytest
-from figure_cases import FIGURES, HIDDEN, REFERENCE, draws, module, render
+from figure_cases import FIGURES, HIDDEN, REFERENCE, draws, module, outline, render
 
 from quizgen.bank.folder import builtin
 from quizgen.errors import BankError
 from quizgen.figures import _pen as pens
 from quizgen.figures._canvas import Canvas
-from quizgen.figures._letters import SUBSCRIPT, outline
+from quizgen.figures._letters import SUBSCRIPT
 from quizgen.figures._parameters import complete
 
 BOTH = list(itertools.product(FIGURES, (False, True)))
@@ -210,10 +210,10 @@ class _Recorder(pens.Pen):
 
     def label(self, at, text, anchor="c", size=pens.LABEL):
         super().label(at, text, anchor, size)
-        shape = outline(text)
-        shift = {"c": 0.5, "l": 0, "r": 1}[anchor] * shape.width * size
-        x = [at[0] - shift + size * point[0] for point in shape.points]
-        y = [at[1] - 0.33 * size + size * point[1] for point in shape.points]
+        points, _, width = outline(text)
+        shift = {"c": 0.5, "l": 0, "r": 1}[anchor] * width * size
+        x = [at[0] - shift + size * point[0] for point in points]
+        y = [at[1] - 0.33 * size + size * point[1] for point in points]
         self.boxes.append((text, size, min(x), min(y), max(x), max(y)))
 
 
