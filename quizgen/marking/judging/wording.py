@@ -140,10 +140,13 @@ def _stem(word: str) -> str:
 
 def confusable(terms: Iterable[str], words: Iterable[str]) -> list[str]:
     """The terms that could be taken for a slip in spelling one of some words, and are none."""
-    most = {fold(word): budget(fold(word)) for word in words}
-    folded = {term: fold(term) for term in terms}
-    return [
-        term
-        for term, own in folded.items()
-        if own not in most and any(slips(own, word, few) <= few for word, few in most.items())
-    ]
+    known, right = tuple(terms), {fold(word) for word in words}
+    near = set().union(*(_near(known, word) for word in right))
+    return [term for term in known if term in near and fold(term) not in right]
+
+
+@lru_cache(maxsize=256)
+def _near(terms: tuple[str, ...], word: str) -> frozenset[str]:
+    """Those of some terms that may be slips in spelling a word: asked for each paper anew."""
+    few = budget(word)
+    return frozenset(term for term in terms if slips(fold(term), word, few) <= few)
