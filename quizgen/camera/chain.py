@@ -8,6 +8,7 @@ from msgspec.structs import replace
 
 from quizgen.camera.effect import Effect, same_error, same_stack
 from quizgen.camera.facts import LARGEST, NO_ERROR, Error, Facts
+from quizgen.camera.margins import views
 from quizgen.camera.scene import SceneError
 from quizgen.camera.view import View
 
@@ -23,11 +24,29 @@ _ROUNDING = 5e-7
 
 
 class Chain:
-    """The present effects of one view with their facts; predicts the error of any choice."""
+    """The present effects of one view with their facts; predicts the error of any choice.
 
-    def __init__(self, present: tuple[Effect, ...], view: View, facts: Facts) -> None:
+    Parameters
+    ----------
+    present : tuple of Effect
+    view : View
+        The frame.
+    facts : Facts
+        Of the drawn layers, with their margin.
+    seen : tuple of View, optional
+        What each effect works on, if that is known.
+    """
+
+    def __init__(
+        self,
+        present: tuple[Effect, ...],
+        view: View,
+        facts: Facts,
+        seen: tuple[View, ...] | None = None,
+    ) -> None:
         self.present, self.view, self.facts = present, view, facts
-        self.before = _facts_along(present, view, facts)
+        self.views = views(present, view) if seen is None else seen
+        self.before = _facts_along(present, self.views, facts)
         self._rounding = [_rounding(before) for before in self.before]
         self._made: dict[tuple[int, str], Error] = {}
         self._known: dict[frozenset[tuple[int, str]], float] = {}
@@ -36,12 +55,12 @@ class Chain:
         """Error of a choice other than exact, worked out when first asked for."""
         key = index, made
         if key not in self._made:
-            effect, facts = self.present[index], self.before[index]
+            effect, facts, view = self.present[index], self.before[index], self.views[index]
             if made == SKIP:
                 self._made[key] = self._lost(index)
             else:
                 rung = next(rung for rung in effect.rungs if rung.name == made)
-                self._made[key] = rung.error(facts, self.view).plus(self._rounding[index])
+                self._made[key] = rung.error(facts, view).plus(self._rounding[index])
         return self._made[key]
 
     def error(self, choice: dict[int, str]) -> Error:
@@ -62,7 +81,7 @@ class Chain:
     def _lost(self, index: int) -> Error:
         """Loss of skipping, with rounding; a limit of the sensor never met costs nothing."""
         effect = self.present[index]
-        lost = effect.skipped(self.before[index], self.view)
+        lost = effect.skipped(self.before[index], self.views[index])
         if lost == NO_ERROR and effect.stage == "sensor":
             return lost
         return lost.plus(self._rounding[index])
@@ -70,10 +89,10 @@ class Chain:
     def _carried(self, effect: Effect, index: int, error: Error) -> Error:
         if error == NO_ERROR or error.total == math.inf:
             return error
-        if error.beyond and not effect.keeps_clipped(self.view):
+        if error.beyond and not effect.keeps_clipped(self.views[index]):
             error = error.everywhere()
         if effect.carried is not same_error:
-            error = effect.carried(error, self.before[index], self.view)
+            error = effect.carried(error, self.before[index], self.views[index])
         return error.plus(self._rounding[index])
 
     def dn(self, choice: dict[int, str]) -> float:
@@ -93,9 +112,9 @@ def _rounding(facts: Facts) -> Error:
     return Error(_ROUNDING * max(facts.size, facts.top))
 
 
-def _facts_along(present: tuple[Effect, ...], view: View, facts: Facts) -> list[Facts]:
+def _facts_along(present: tuple[Effect, ...], seen: tuple[View, ...], facts: Facts) -> list[Facts]:
     before = []
-    for effect in present:
+    for effect, view in zip(present, seen, strict=True):
         if effect.stage not in ("scene", "optics"):
             facts = facts.flat()
         before.append(facts)

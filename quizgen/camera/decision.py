@@ -103,22 +103,22 @@ class Decision(msgspec.Struct, frozen=True, dict=True):
 
 
 def cost_table(
-    present: tuple[Effect, ...], view: View, *, opencv_used: bool
+    present: tuple[Effect, ...], seen: tuple[View, ...], *, opencv_used: bool
 ) -> list[dict[str, float]]:
     """By effect and way, ms."""
 
-    def one(effect: Effect) -> dict[str, float]:
+    def one(effect: Effect, view: View) -> dict[str, float]:
         rungs = (EXACT, *(rung.name for rung in effect.rungs))
         return {**{rung: effect.cost(view, rung, opencv_used) for rung in rungs}, SKIP: 0.0}
 
-    return [one(effect) for effect in present]
+    return [one(effect, view) for effect, view in zip(present, seen, strict=True)]
 
 
 def _report(made: Decision) -> Plan:
     chain, choice, absent = made.chain, made.choice, made.absent
     if not choice:
         return Plan((), (), absent, 0.0, 0.0, made.budget)
-    times = cost_table(chain.present, chain.view, opencv_used=opencv() is not None)
+    times = cost_table(chain.present, chain.views, opencv_used=opencv() is not None)
     steps, skipped = [], []
     bounds = _alone(chain, choice, made.units)
     for unit, alone in zip(made.units, bounds, strict=True):
@@ -143,7 +143,8 @@ def _alone(chain: Chain, choice: dict[int, str], units: tuple[Unit, ...]) -> lis
         kept = tuple(sorted({*ran, *unit.members}))
         if kept not in without:
             present = tuple(chain.present[index] for index in kept)
-            without[kept] = Chain(present, chain.view, chain.facts)
+            seen = tuple(chain.views[index] for index in kept)
+            without[kept] = Chain(present, chain.view, chain.facts, seen)
         members = {kept.index(index): SKIP for index in unit.members}
         bounds.append(min(without[kept].dn(members), GREY_LEVELS))
     return bounds

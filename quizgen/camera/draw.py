@@ -139,6 +139,19 @@ def _extent(thing: Thing) -> tuple[float, float]:
     return far, far
 
 
+def leaves_frame(sheet: Sheet, view: View) -> bool:
+    """Whether anything but an even surface stands outside the frame."""
+    middle = (view.scene.width - 1) / 2.0, (view.scene.height - 1) / 2.0
+    return any(_leaves(thing, middle) for thing in sheet.things)
+
+
+def _leaves(thing: Thing, middle: tuple[float, float]) -> bool:
+    if thing.shape == "full" and thing.texture == "plain":
+        return False
+    (across, down), (x, y) = _extent(thing), (abs(thing.x.value), abs(thing.y.value))
+    return x + across > middle[0] or y + down > middle[1]
+
+
 def _within(middle: float, far: float, length: int) -> tuple[int, int]:
     """First and last (exclusive) pixel of a line that may lie so far from a place."""
     if math.isinf(far):
@@ -244,7 +257,7 @@ def _background(view: View, sheet: Sheet) -> Layer:
     if scene.image is not None:
         image = scene.image.astype(view.precision, copy=bool(sheet.things))
         return Layer(image, depth=scene.depth)
-    flat = np.empty((scene.height, scene.width, 3), view.precision)
+    flat = np.empty((view.height, view.width, 3), view.precision)
     flat[0] = scene.background
     flat[1:] = flat[0]
     return Layer(flat, depth=math.inf if sheet.depth is None else sheet.depth, motion=sheet.motion)

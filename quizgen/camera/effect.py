@@ -22,6 +22,7 @@ After = Callable[[Facts, View], Facts]
 Cost = Callable[[View, str, bool], float]
 Check = Callable[[View], None]
 Has = Callable[[View], bool]
+Outside = Callable[[View], tuple[float, float]]
 
 
 def _anything(facts: Facts, view: View) -> Error:
@@ -50,6 +51,11 @@ def same_facts(facts: Facts, view: View) -> Facts:
 def no_bound(facts: Facts, view: View) -> Error:
     """Nothing to lose."""
     return NO_ERROR
+
+
+def nothing_outside(view: View) -> tuple[float, float]:
+    """Every pixel comes from inside the picture."""
+    return 0.0, 0.0
 
 
 def same_stack(stack: Stack, view: View, rung: str) -> Stack:
@@ -144,6 +150,8 @@ class Effect(msgspec.Struct, frozen=True, kw_only=True):
         Effects with the same pair run together or not at all.
     random : bool
         Whether it draws random numbers.
+    outside : callable
+        How far outside a view the light of its pixels can come from, across and down, px.
     check : callable
         Raises `SceneError` if it cannot be computed for a camera before a picture of this size.
     prepare : callable, optional
@@ -168,6 +176,7 @@ class Effect(msgspec.Struct, frozen=True, kw_only=True):
     rungs: tuple[Rung, ...] = ()
     pair: str = ""
     random: bool = False
+    outside: Outside = nothing_outside
     check: Check = _possible
     prepare: Callable[[Scene, View], Scene] | None = None
     reason: str = ""

@@ -248,6 +248,7 @@ def sample(image: Image, x: Image, y: Image) -> Image:
         found = cv2.remap(image, x, y, cv2.INTER_LINEAR, **flags)
         return np.asarray(found.reshape(*x.shape, image.shape[2]))
     result = np.empty((*x.shape, image.shape[2]), image.dtype)
+    image = np.ascontiguousarray(image)
 
     def band(start: int, stop: int) -> None:
         result[start:stop] = _sample_rows(image, x[start:stop], y[start:stop])
@@ -269,7 +270,7 @@ def _sample_rows(image: Image, x: Image, y: Image) -> Image:
     upper, lower = (row * width * channels for row in (top, bottom))
     left, right = left * channels, right * channels
     corners = upper + left, upper + right, lower + left, lower + right
-    flat = np.ascontiguousarray(image).reshape(-1)
+    flat = image.reshape(-1)
     found = np.empty((*x.shape, channels), image.dtype)
     for channel in range(channels):  # far faster than NumPy's loops over three values
         plane = flat[channel:]

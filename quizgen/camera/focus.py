@@ -18,7 +18,7 @@ from quizgen.camera.draw import Layer, Sheet, sheets
 from quizgen.camera.facts import Error, Facts, LayerFacts
 from quizgen.camera.filters import convolve
 from quizgen.camera.kernels import Kernel, change, disc
-from quizgen.camera.layers import Field, blurred, within
+from quizgen.camera.layers import Field, blurred, farthest, within
 from quizgen.camera.scene import Image
 from quizgen.camera.view import View
 
@@ -82,6 +82,17 @@ def _blurred_by_depth(sharp: Image, diameters: NDArray[np.floating], rung: str) 
         else:
             picture = colour + (1.0 - cover) * picture
     return picture
+
+
+def outside(view: View, shifts: tuple[float, ...]) -> tuple[float, float]:
+    """Discs bring light from as far as their radius."""
+
+    def reach(sheet: Sheet) -> tuple[float, float]:
+        circle = view.blur_diameter(math.inf if sheet.depth is None else sheet.depth)
+        radius = max(abs(circle + shift) / 2.0 for shift in shifts)
+        return radius + bool(radius), radius + bool(radius)
+
+    return farthest(view, reach)
 
 
 def disc_of(sheet: Sheet, view: View, shift: float = 0.0) -> Kernel:

@@ -124,6 +124,11 @@ def _bessel_j1(x: Kernel) -> Kernel:
     return np.asarray(sum(np.cos(angle - x * math.sin(angle)) for angle in angles) / 96)
 
 
+def airy_radius(scale: float) -> float:
+    """Radius of the fifth dark ring, px, of a `scale` as of `airy`."""
+    return DARK_RINGS[1] * scale / math.pi
+
+
 @lru_cache(maxsize=64)
 def airy(scale: float) -> Kernel:
     """Blur by diffraction at a round aperture: (2 J1(x)/x)^2 with x = pi r/scale.
@@ -140,7 +145,7 @@ def airy(scale: float) -> Kernel:
     numpy.ndarray
         Odd-sized square kernel, sums to 1, symmetric in both axes.
     """
-    radius = DARK_RINGS[1] * scale / math.pi
+    radius = airy_radius(scale)
     _bounded(2.0 * radius)
     if radius < 1e-6:
         return np.ones((1, 1))

@@ -14,7 +14,7 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from quizgen.camera.body import VELOCITY
-from quizgen.camera.draw import Box, Layer, Motion, Sheet, content, sheets
+from quizgen.camera.draw import Box, Layer, Motion, Sheet, content, leaves_frame, sheets
 from quizgen.camera.facts import Error, Facts, LayerFacts
 from quizgen.camera.filters import convolve, sample
 from quizgen.camera.kernels import Kernel
@@ -100,6 +100,13 @@ def each(facts: Facts, view: View) -> Iterator[tuple[LayerFacts, Sheet, float]]:
     """Facts and sheet of every layer, and the most that a layer's error can show."""
     for layer, sheet in zip(facts.layers, sheets(view), strict=True):
         yield layer, sheet, facts.span * (1.0 if sheet.opaque else 1.5)
+
+
+def farthest(view: View, reach: Callable[[Sheet], tuple[float, float]]) -> tuple[float, float]:
+    """How far outside (across, down) any sheet is looked at; what is even there needs no margin."""
+    reaches = [reach(sheet) for sheet in sheets(view) if leaves_frame(sheet, view)]
+    across, down = zip((0.0, 0.0), *reaches, strict=True)
+    return max(across), max(down)
 
 
 def within(amount: float, facts: Facts) -> Error:

@@ -24,6 +24,7 @@ from quizgen.camera.draw import Stack, draw
 from quizgen.camera.effect import Effect, same_error
 from quizgen.camera.filters import opencv
 from quizgen.camera.look import coarse, glimpsed, measured
+from quizgen.camera.margins import views
 from quizgen.camera.scene import Scene, SceneError
 from quizgen.camera.view import View
 from quizgen.outside import located
@@ -64,9 +65,14 @@ class Prepared:
         return view
 
     @cached_property
+    def views(self) -> tuple[View, ...]:
+        """What each present effect works on, with its margin outside the frame."""
+        return views(self.present, self.view)
+
+    @cached_property
     def stack(self) -> Stack:
-        """The drawn layers."""
-        view, started = self.view, perf_counter()
+        """The drawn layers, with the margin that the first effect needs."""
+        view, started = (*self.views, self.view)[0], perf_counter()
         drawn = draw(view)
         self.drawn_ms = (perf_counter() - started) * 1e3
         return drawn
@@ -174,19 +180,19 @@ def _best(
     prepared: Prepared, present: tuple[Effect, ...], units: tuple[Unit, ...], budget: float
 ) -> tuple[Chain, dict[int, str]]:
     """Decide from colours alone; look at the pixels only where that can still save time."""
-    view = prepared.view
-    costs = cost_table(present, view, opencv_used=False)
-    chain = Chain(present, view, coarse(view))
+    view, seen = prepared.view, prepared.views
+    costs = cost_table(present, seen, opencv_used=False)
+    chain = Chain(present, view, coarse(view), seen)
     choice = _spend(chain, units, costs, budget)
     if all(unit.fixed or choice[unit.members[0]] == SKIP for unit in units):
         return chain, choice
-    hopeful = Chain(present, view, glimpsed(prepared.stack, view))
+    hopeful = Chain(present, view, glimpsed(prepared.stack, view), seen)
     if not _opened(units, (chain, hopeful), choice, budget):
         return chain, choice
     gain = _total(costs, choice) - _total(costs, _spend(hopeful, units, costs, budget))
     if gain <= FACTS_PER_MEGAPIXEL * view.megapixels:
         return chain, choice
-    chain = Chain(present, view, measured(prepared.stack, view))
+    chain = Chain(present, view, measured(prepared.stack, view), seen)
     return chain, _spend(chain, units, costs, budget)
 
 
@@ -271,10 +277,10 @@ def everything(scene: Scene | Prepared, camera: Camera | None = None, timed: boo
     prepared = scene if isinstance(scene, Prepared) else Prepared(scene, camera or Camera())
     present, absent = prepared.present, _absent(prepared)
     with located(prepared.given.scene.file):
-        used, view = opencv() is not None, prepared.view
+        used, seen = opencv() is not None, prepared.views
     steps = tuple(
         Step(one.name, EXACT, "everything", math.nan, one.cost(view, EXACT, used) if timed else 0.0)
-        for one in present
+        for one, view in zip(present, seen, strict=True)
     )
     return Plan(steps, (), absent, 0.0, sum(step.predicted_ms for step in steps), 0.0)
 

@@ -21,8 +21,10 @@ from quizgen.camera.draw import Layer, Sheet, Stack, composite, lay_over, sheets
 from quizgen.camera.effect import Effect, LayerByLayer, PointByPoint
 from quizgen.camera.facts import EXCEEDED
 from quizgen.camera.filters import warm_up
+from quizgen.camera.margins import cropped
 from quizgen.camera.plan import Prepared, decided, everything
 from quizgen.camera.scene import Image, Scene
+from quizgen.camera.view import View
 from quizgen.outside import located
 
 
@@ -101,24 +103,30 @@ class _Run:
     """One run of a plan: the layers, whether the picture may be written over, and the times."""
 
     def __init__(self, prepared: Prepared, told: Callable[[str], None], *, last: bool) -> None:
-        self.view, self.told = prepared.view, told
+        self.frame, self.told = prepared.view, told
+        names = (effect.name for effect in prepared.present)
+        self.views = dict(zip(names, prepared.views, strict=True))
         self.times = dict(prepared.prepared_ms)
         self.stack = list(prepared.stack)
         self.drawn_ms = prepared.drawn_ms
-        self.kept = [self.view.scene.image, *(() if last else (x.colour for x in self.stack))]
+        self.kept = [self.frame.scene.image, *(() if last else (x.colour for x in self.stack))]
         if last:
             del prepared.stack
 
     def photo(self, what: Plan | Decision) -> Photo:
+        done = 0
         for kind, group in groupby(what.steps, key=_kind):
             steps = tuple(group)
+            done += len(steps)
             if kind is LayerByLayer:
-                self._layer_by_layer(steps)
+                then = (self._view(step) for step in what.steps[done:])
+                self._layer_by_layer(steps, next(then, self.frame))
             elif kind is PointByPoint:
                 self._in_one_pass(steps)
             else:
                 for step in steps:
                     self._one(step)
+        self._crop(self.frame)
         times = {step.effect: self.times.get(step.effect, 0.0) for step in what.steps}
         return Photo(composite(tuple(self.stack)), what, times, self.drawn_ms)
 
@@ -126,23 +134,34 @@ class _Run:
         spent = (perf_counter() - started) * 1e3
         self.times[step.effect] = self.times.get(step.effect, 0.0) + spent
 
+    def _view(self, step: Chosen) -> View:
+        """What an effect works on; one that the camera does not have looks at nothing outside."""
+        return self.views.get(step.effect, self.frame)
+
+    def _crop(self, view: View) -> None:
+        self.stack = [cropped(layer, view) for layer in self.stack]
+
     def _one(self, step: Chosen) -> None:
         self.told(step.effect)
-        started = perf_counter()
-        self.stack = list(_effect(step).run(tuple(self.stack), self.view, step.rung))
+        started, view = perf_counter(), self._view(step)
+        self._crop(view)
+        self.stack = list(_effect(step).run(tuple(self.stack), view, step.rung))
         self._count(step, started)
 
-    def _layer_by_layer(self, steps: tuple[Chosen, ...]) -> None:
-        """Finish each layer and lay it over those behind, so that few are there at a time."""
+    def _layer_by_layer(self, steps: tuple[Chosen, ...], then: View) -> None:
+        """Finish each layer and lay it over those behind, so that few are there at a time.
+
+        Each effect gets no more than it and the later ones need, the last leaves what comes then.
+        """
         self.told(_names(steps))
         picture: Image | None = None
         while self.stack:
             layer = self.stack.pop(0)
             for step in () if layer.even else steps:
-                started = perf_counter()
-                (layer,) = _effect(step).run((layer,), self.view, step.rung)
+                started, view = perf_counter(), self._view(step)
+                (layer,) = _effect(step).run((cropped(layer, view),), view, step.rung)
                 self._count(step, started)
-            picture = self._over(layer, picture)
+            picture = self._over(cropped(layer, then), picture)
         self.stack = [Layer(picture)] if picture is not None else []
 
     def _over(self, layer: Layer, behind: Image | None) -> Image:
@@ -151,15 +170,18 @@ class _Run:
         return lay_over(layer, behind if self._ours(behind) else behind.copy())
 
     def _ours(self, picture: Image) -> bool:
-        return all(picture is not other for other in self.kept)
+        others = (other for other in self.kept if other is not None)
+        return not any(np.may_share_memory(picture, other) for other in others)
 
     def _in_one_pass(self, steps: tuple[Chosen, ...]) -> None:
         """Effects that look at one pixel only, while a piece of the picture is at hand."""
         self.told(_names(steps))
-        started, picture = perf_counter(), composite(tuple(self.stack))
+        started, view = perf_counter(), self._view(steps[-1])
+        self._crop(view)
+        picture = composite(tuple(self.stack))
         self.stack = []
         runs = [(_effect(step).run, step.rung) for step in steps]
-        works = [run.work(self.view, rung) for run, rung in runs if isinstance(run, PointByPoint)]
+        works = [run.work(view, rung) for run, rung in runs if isinstance(run, PointByPoint)]
         result, clock = in_turn(picture, works, own=self._ours(picture))
         spent = (perf_counter() - started) * 1e3
         shares = clock / clock.sum()  # several cores have shared the time
@@ -212,11 +234,12 @@ def photographs(scene: Scene, *cameras: Camera) -> tuple[Photo, ...]:
 
     Cameras that see the same layers share them, so that they are drawn once.
     """
-    drawn: dict[tuple[Sheet, ...], Stack] = {}
+    drawn: dict[tuple[tuple[Sheet, ...], tuple[int, int]], Stack] = {}
     photos = []
     for camera in cameras:
         prepared = Prepared(scene, camera)
-        seen = sheets(prepared.view)
+        view = (*prepared.views, prepared.view)[0]
+        seen = sheets(view), view.margin
         prepared.stack = drawn.get(seen) or prepared.stack
         drawn[seen] = prepared.stack
         photos.append(run(prepared, everything(prepared, timed=False)))

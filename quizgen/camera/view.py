@@ -27,20 +27,23 @@ class View(msgspec.Struct, frozen=True):
     ----------
     scene : Scene
     camera : Settings
+    margin : (int, int)
+        Columns and rows seen beyond the frame on each side, see `quizgen.camera.margins`.
     """
 
     scene: Scene
     camera: Settings
+    margin: tuple[int, int] = (0, 0)
 
     @property
     def width(self) -> int:
         """Columns."""
-        return self.scene.width
+        return self.scene.width + 2 * self.margin[0]
 
     @property
     def height(self) -> int:
         """Rows."""
-        return self.scene.height
+        return self.scene.height + 2 * self.margin[1]
 
     @property
     def precision(self) -> Precision:
@@ -83,6 +86,11 @@ class View(msgspec.Struct, frozen=True):
     def corner(self) -> float:
         """Distance from the principal point to the farthest pixel centre, px."""
         return math.hypot(*self.centre)
+
+    @property
+    def frame_corner(self) -> float:
+        """The same without the margin, px."""
+        return math.hypot((self.scene.width - 1) / 2.0, (self.scene.height - 1) / 2.0)
 
     @property
     def has_depth_map(self) -> bool:

@@ -7,6 +7,7 @@ from quizgen.camera import Camera, Length, Scene, Thing, View, layers
 from quizgen.camera.draw import Layer, composite, draw
 from quizgen.camera.effects import by_name
 from quizgen.camera.kernels import disc
+from quizgen.camera.margins import cropped
 from quizgen.camera.plan import Prepared, everything
 from quizgen.camera.simulate import run
 
@@ -34,9 +35,9 @@ def scene(*more):
 def one_after_another(prepared):
     """Every effect on the whole stack."""
     stack = prepared.stack
-    for step in everything(prepared).steps:
-        stack = by_name(step.effect).run(stack, prepared.view, "")
-    return composite(stack)
+    for effect, view in zip(prepared.present, prepared.views, strict=True):
+        stack = effect.run(tuple(cropped(layer, view) for layer in stack), view, "")
+    return composite(tuple(cropped(layer, prepared.view) for layer in stack))
 
 
 def test_a_layer_at_a_time_is_the_whole_stack_at_once():
@@ -71,10 +72,11 @@ def test_a_wall_that_moves_does_not_hide_what_comes_after():
 @pytest.mark.parametrize("effect", ["motion blur", "rolling shutter", "defocus"])
 def test_tiles_and_bands_leave_no_seams(effect, monkeypatch):
     prepared = Prepared(scene(), CAMERA)
-    parts = by_name(effect).run(prepared.stack, prepared.view, "")
+    view = prepared.views[0]
+    parts = by_name(effect).run(prepared.stack, view, "")
     monkeypatch.setattr(layers, "_TILE", 1024)
     monkeypatch.setattr(layers, "_BAND", 1024)
-    whole = by_name(effect).run(prepared.stack, prepared.view, "")
+    whole = by_name(effect).run(prepared.stack, view, "")
     assert np.abs(composite(parts) - composite(whole)).max() < 1e-5
 
 

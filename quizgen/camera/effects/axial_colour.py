@@ -107,6 +107,7 @@ EFFECT = Effect(
     run=LayerByLayer(work),
     cost=at_least_a_call(cost),
     skipped=skipped,
+    outside=lambda view: focus.outside(view, tuple(shifts(view).values())),
     after=after,
     rungs=(_fewer_slices("half"), _fewer_slices("quarter")),
 )

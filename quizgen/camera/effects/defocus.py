@@ -55,6 +55,7 @@ EFFECT = Effect(
     run=LayerByLayer(work),
     cost=at_least_a_call(focus.cost),
     skipped=skipped,
+    outside=lambda view: focus.outside(view, (0.0,)),
     after=lambda facts, view: focus.after(facts, view, (0.0,)),
     rungs=(_fewer_slices("half"), _fewer_slices("quarter")),
 )

@@ -7,8 +7,8 @@ from quizgen.camera.costs import at_least_a_call, convolution
 from quizgen.camera.draw import Layer, sheets
 from quizgen.camera.effect import Effect, LayerByLayer
 from quizgen.camera.facts import Error, Facts
-from quizgen.camera.kernels import Kernel, airy, change
-from quizgen.camera.layers import blurred, each, within
+from quizgen.camera.kernels import Kernel, airy, airy_radius, change
+from quizgen.camera.layers import blurred, each, farthest, within
 from quizgen.camera.settings import Rule, Setting, Settings, between
 from quizgen.camera.values import quantity
 from quizgen.camera.view import View
@@ -55,6 +55,12 @@ def skipped(facts: Facts, view: View) -> Error:
     return within(sum(parts), facts)
 
 
+def outside(view: View) -> tuple[float, float]:
+    """As far as the last ring."""
+    radius = airy_radius(scale(view)) + 1.0
+    return farthest(view, lambda _: (radius, radius))
+
+
 def after(facts: Facts, view: View) -> Facts:
     """Averages do not steepen."""
     return facts.stepped(1.0, 1.0)
@@ -74,5 +80,6 @@ EFFECT = Effect(
     run=LayerByLayer(work),
     cost=at_least_a_call(cost),
     skipped=skipped,
+    outside=outside,
     after=after,
 )

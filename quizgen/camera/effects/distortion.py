@@ -15,7 +15,15 @@ from quizgen.camera.draw import Box, Layer, sheets
 from quizgen.camera.effect import Effect, LayerByLayer, Rung
 from quizgen.camera.facts import Error, Facts
 from quizgen.camera.filters import sample, sample_nearest
-from quizgen.camera.layers import Field, mixed_axes, resampled, rounding, shifted, within
+from quizgen.camera.layers import (
+    Field,
+    farthest,
+    mixed_axes,
+    resampled,
+    rounding,
+    shifted,
+    within,
+)
 from quizgen.camera.scene import Image, Precision, SceneError
 from quizgen.camera.settings import Setting
 from quizgen.camera.values import number
@@ -98,15 +106,19 @@ def _hermite(q: Field, table: tuple[Field, Field, float]) -> Field:
 
 
 @lru_cache(maxsize=2)
-def quadrant(width: int, height: int, focal: float, k1: float, k2: float) -> Field:
-    """Undistorted over distorted radius in the upper left quadrant, middle lines included."""
+def quadrant(width: int, height: int, focal: float, k1: float, k2: float, corner: float) -> Field:
+    """Undistorted over distorted radius in the upper left quadrant, middle lines included.
+
+    Beyond the corner of the frame, where the picture may fold, it stays what it is there.
+    """
     right = np.abs(np.arange((width + 1) // 2) - (width - 1) / 2)
     lower = np.abs(np.arange((height + 1) // 2) - (height - 1) / 2)
-    table = _inverse_table(math.hypot(right[0], lower[0]) / focal, k1, k2)
+    table = _inverse_table(corner / focal, k1, k2)
     factor = np.empty((lower.size, right.size))
     for start in range(0, lower.size, _ROWS):
         part = slice(start, start + _ROWS)
-        factor[part] = _hermite((right[None, :] ** 2 + lower[part, None] ** 2) / focal**2, table)
+        squared = right[None, :] ** 2 + lower[part, None] ** 2
+        factor[part] = _hermite(np.minimum(squared, corner**2) / focal**2, table)
     return factor
 
 
@@ -116,7 +128,8 @@ _ROWS = 64
 
 def source(view: View, rows: slice = slice(None)) -> tuple[Image, Image]:
     """Where the pixels of some rows come from; small maps are kept, large ones made when needed."""
-    lens = view.width, view.height, view.focal, view.camera[K1], view.camera[K2], view.precision
+    camera, sides = view.camera, (view.width, view.height)
+    lens = *sides, view.focal, camera[K1], camera[K2], view.frame_corner, view.precision
     if view.width * view.height > _KEPT:
         return _rows(lens, range(view.height)[rows])
     x, y = _kept(lens)
@@ -127,7 +140,7 @@ _BAND = 240
 """Rows that are read at once."""
 _KEPT = 1_000_000
 """Pixels of the largest map that is kept as a whole: 8 MB."""
-_Lens = tuple[int, int, float, float, float, Precision]
+_Lens = tuple[int, int, float, float, float, float, Precision]
 
 
 @lru_cache(maxsize=4)
@@ -140,9 +153,9 @@ def _rows(lens: _Lens, rows: range) -> tuple[Image, Image]:
     width, height = lens[:2]
     across, down = np.arange(width) - (width - 1) / 2, np.arange(height) - (height - 1) / 2
     line = np.asarray(rows)
-    left = quadrant(*lens[:5])[np.minimum(line, height - 1 - line)]
+    left = quadrant(*lens[:6])[np.minimum(line, height - 1 - line)]
     factor = np.concatenate([left, left[:, width // 2 - 1 :: -1]], axis=1)
-    x, y = (np.empty(factor.shape, lens[5]) for _ in range(2))
+    x, y = (np.empty(factor.shape, lens[6]) for _ in range(2))
     np.add(factor * across, (width - 1) / 2, out=x, casting="same_kind")
     np.add(factor * down[line, None], (height - 1) / 2, out=y, casting="same_kind")
     return x, y
@@ -173,7 +186,7 @@ def _with_depth(layer: Layer, view: View) -> Layer:
 
 
 def _top_radius(view: View) -> float:
-    return undistorted_radius(view.corner / view.focal, view.camera[K1], view.camera[K2])
+    return undistorted_radius(view.frame_corner / view.focal, view.camera[K1], view.camera[K2])
 
 
 def check(view: View) -> None:
@@ -182,16 +195,34 @@ def check(view: View) -> None:
 
 
 def largest_displacement(view: View) -> float:
-    """Bound on how far distortion moves any point of the picture, px: |k1| r^3 + |k2| r^5."""
+    """Bound on how far distortion moves any point of the picture, px: |k1| r^3 + |k2| r^5.
+
+    In a margin beyond the corner it grows as the radius does.
+    """
     k1, k2, top = view.camera[K1], view.camera[K2], _top_radius(view)
-    return view.focal * top**3 * (abs(k1) + abs(k2) * top**2)
+    distance = view.focal * top**3 * (abs(k1) + abs(k2) * top**2)
+    return distance * (view.corner / view.frame_corner if any(view.margin) else 1.0)
+
+
+def outside(view: View) -> tuple[float, float]:
+    """A barrel shows what stands beside the frame: every distance from the centre grows."""
+    beside = max(
+        0.0, 1.0 / float(stretch(_turning(view), view.camera[K1], view.camera[K2]).min()) - 1
+    )
+    x, y = view.centre
+    return farthest(view, lambda _: (x * beside, y * beside))
+
+
+def _turning(view: View) -> Field:
+    """Radii between which the factor and its slope only grow or only sink."""
+    k1, k2, top = view.camera[K1], view.camera[K2], _top_radius(view)
+    turning = [-k1 / (2 * k2), -3 * k1 / (10 * k2)] if k2 else []
+    return np.array([0.0, top] + [math.sqrt(q) for q in turning if 0 < q < top * top])
 
 
 def magnification(view: View) -> float:
     """Largest distance on the source per pixel of output (extremes of two quadratics in r^2)."""
-    k1, k2, top = view.camera[K1], view.camera[K2], _top_radius(view)
-    turning = [-k1 / (2 * k2), -3 * k1 / (10 * k2)] if k2 else []
-    radii = np.array([0.0, top] + [math.sqrt(q) for q in turning if 0 < q < top * top])
+    k1, k2, radii = view.camera[K1], view.camera[K2], _turning(view)
     return 1.0 / float(np.minimum(slope(radii, k1, k2), stretch(radii, k1, k2)).min())
 
 
@@ -228,6 +259,7 @@ EFFECT = Effect(
     decides=("distortion", "geometry", "artefacts"),
     settings=(K1, K2),
     present=lambda view: view.camera[K1] != 0.0 or view.camera[K2] != 0.0,
+    outside=outside,
     check=check,
     run=LayerByLayer(work),
     cost=at_least_a_call(cost),

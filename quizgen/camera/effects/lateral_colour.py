@@ -10,7 +10,7 @@ from quizgen.camera.draw import Box, Layer, sheets
 from quizgen.camera.effect import Effect, LayerByLayer
 from quizgen.camera.facts import Error, Facts
 from quizgen.camera.filters import sample_grid
-from quizgen.camera.layers import resampled, rounding, shifted
+from quizgen.camera.layers import farthest, resampled, rounding, shifted
 from quizgen.camera.scene import Image, SceneError
 from quizgen.camera.settings import Setting
 from quizgen.camera.values import quantity
@@ -29,13 +29,13 @@ def check(view: View) -> None:
     if _share(view) > MOST:
         raise SceneError(
             f"lateral_colour of {_shift(view):g} px is more than half of the "
-            f"{view.corner:.4g} px to the corner of the picture"
+            f"{view.frame_corner:.4g} px to the corner of the picture"
         )
 
 
 def _scales(view: View) -> tuple[float, float, float]:
     """Magnification of red, green, blue."""
-    share = view.camera[LATERAL_COLOUR] / view.corner
+    share = view.camera[LATERAL_COLOUR] / view.frame_corner
     return 1.0 + share, 1.0, 1.0 - share
 
 
@@ -47,7 +47,7 @@ def work(layer: Layer, view: View, rung: str = "") -> Layer:
 
     if layer.cover is not None:  # a cover for each colour
         layer = replace(layer, cover=np.broadcast_to(layer.cover, layer.colour.shape))
-    return resampled(layer, split, _shift(view) / (1.0 - _share(view)))
+    return resampled(layer, split, _farthest(view))
 
 
 def _scaled(image: Image, view: View, channel: int, box: Box) -> Image:
@@ -66,12 +66,25 @@ def _shift(view: View) -> float:
 
 
 def _share(view: View) -> float:
-    return _shift(view) / view.corner
+    return _shift(view) / view.frame_corner
+
+
+def _farthest(view: View) -> float:
+    """How far a colour is moved at the corner of the picture, px."""
+    share = _share(view)
+    return share / (1.0 - share) * view.corner
+
+
+def outside(view: View) -> tuple[float, float]:
+    """The reduced colour comes from beside the frame."""
+    share, (x, y) = _share(view), view.centre
+    beside = share / (1.0 - share)
+    return farthest(view, lambda _: (x * beside, y * beside))
 
 
 def skipped(facts: Facts, view: View) -> Error:
     """Shift at the corner times the steepest slope."""
-    return shifted(facts, _shift(view) / (1.0 - _share(view)), view)
+    return shifted(facts, _farthest(view), view)
 
 
 def after(facts: Facts, view: View) -> Facts:
@@ -91,6 +104,7 @@ EFFECT = Effect(
     decides=("lateral colour", "artefacts"),
     settings=(LATERAL_COLOUR,),
     present=lambda view: view.camera[LATERAL_COLOUR] != 0.0,
+    outside=outside,
     check=check,
     run=LayerByLayer(work),
     cost=at_least_a_call(cost),

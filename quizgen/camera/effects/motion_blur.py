@@ -8,7 +8,7 @@ import numpy as np
 
 from quizgen.camera.body import SHUTTER
 from quizgen.camera.costs import at_least_a_call, convolution, sampling
-from quizgen.camera.draw import Layer, Motion, sheets
+from quizgen.camera.draw import Layer, Motion, Sheet, sheets
 from quizgen.camera.effect import Effect, LayerByLayer, Rung
 from quizgen.camera.facts import Error, Facts
 from quizgen.camera.kernels import Kernel, change, line
@@ -17,6 +17,7 @@ from quizgen.camera.layers import (
     blurred,
     chord,
     each,
+    farthest,
     mixed_axes,
     path,
     rim,
@@ -58,6 +59,19 @@ def skipped(facts: Facts, view: View) -> Error:
     return within(total, facts)
 
 
+def outside(view: View) -> tuple[float, float]:
+    """Half the path to either side, and as far as things turn."""
+    shutter = view.camera[SHUTTER]
+
+    def reach(sheet: Sheet) -> tuple[float, float]:
+        moves = path(sheet.motion, view, shutter)
+        across, down = (abs(part) / 2.0 + bool(part) for part in moves)
+        turn = chord(sheet.motion, view, shutter / 2.0)
+        return across + turn, down + turn
+
+    return farthest(view, reach)
+
+
 def half(facts: Facts, view: View) -> Error:
     """Both sets of positions lie within half a sample of the continuous path."""
     total, shutter = 0.0, view.camera[SHUTTER]
@@ -93,6 +107,7 @@ EFFECT = Effect(
     run=LayerByLayer(work),
     cost=at_least_a_call(cost),
     skipped=skipped,
+    outside=outside,
     after=after,
     rungs=(Rung("half", half),),
 )

@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from quizgen.camera.body import VELOCITY
 from quizgen.camera.costs import at_least_a_call, sampling
-from quizgen.camera.draw import Layer, sheets
+from quizgen.camera.draw import Layer, Sheet, sheets
 from quizgen.camera.effect import Effect, LayerByLayer
 from quizgen.camera.facts import Error, Facts, LayerFacts
 from quizgen.camera.filters import sample
@@ -18,6 +18,7 @@ from quizgen.camera.layers import (
     anything_moves,
     chord,
     each,
+    farthest,
     path,
     resampled,
     rim,
@@ -76,6 +77,18 @@ def skipped(facts: Facts, view: View) -> Error:
     return within(total, facts)
 
 
+def outside(view: View) -> tuple[float, float]:
+    """As far as things move until the first or last row is read."""
+    time = float(row_times(view)[-1])
+
+    def reach(sheet: Sheet) -> tuple[float, float]:
+        across, down = (abs(part) for part in path(sheet.motion, view, time))
+        turn = chord(sheet.motion, view, time)
+        return across + turn, down + turn
+
+    return farthest(view, reach)
+
+
 def after(facts: Facts, view: View) -> Facts:
     """A shear: one row down also means a row time's movement."""
     layers, time = [], view.camera[ROW_TIME]
@@ -104,6 +117,7 @@ EFFECT = Effect(
     run=LayerByLayer(work),
     cost=at_least_a_call(cost),
     skipped=skipped,
+    outside=outside,
     after=after,
     needs="something that moves",
 )

@@ -1,0 +1,60 @@
+"""How far outside the frame a scene must be known, so that its edge shows what is beside it.
+
+Lens, blur and movement bring light into the frame from outside. A scene is drawn wider by as much
+as the effects of its camera look outside; each effect works on what later ones still need, and what
+is left is the frame. Nothing is known outside an image: there the edge is repeated.
+"""
+
+from __future__ import annotations
+
+import math
+
+from msgspec.structs import replace
+
+from quizgen.camera.draw import Layer
+from quizgen.camera.effect import Effect
+from quizgen.camera.view import View
+
+WIDEST = 4
+"""A margin is at most this part of the frame's side, as a barrel needs that just does not fold."""
+
+
+def views(present: tuple[Effect, ...], frame: View) -> tuple[View, ...]:
+    """What each effect works on: the frame, and what it and the later effects need around it.
+
+    Parameters
+    ----------
+    present : tuple of Effect
+        In physical order.
+    frame : View
+        All lengths in px.
+    """
+    found = [frame] * len(present)
+    if frame.scene.image is not None:
+        return tuple(found)
+    view = frame
+    for index in range(len(present) - 1, -1, -1):
+        view = found[index] = _with_margin(view, present[index].outside(view))
+    return tuple(found)
+
+
+def _with_margin(view: View, reach: tuple[float, float]) -> View:
+    sides = view.scene.width, view.scene.height
+    wanted = (had + far for had, far in zip(view.margin, reach, strict=True))
+    across, down = (
+        math.ceil(min(far, side // WIDEST)) for far, side in zip(wanted, sides, strict=True)
+    )
+    return view if (across, down) == view.margin else replace(view, margin=(across, down))
+
+
+def cropped(layer: Layer, view: View) -> Layer:
+    """The middle of a layer that was drawn or computed with a wider margin: nothing is copied."""
+    height, width = layer.colour.shape[:2]
+    down, across = (height - view.height) // 2, (width - view.width) // 2
+    if not down and not across:
+        return layer
+    part = slice(down, down + view.height), slice(across, across + view.width)
+    cover, (x, y) = layer.cover, layer.motion.pivot
+    motion = replace(layer.motion, pivot=(x - across, y - down))
+    seen = None if cover is None else cover[part]
+    return replace(layer, colour=layer.colour[part], cover=seen, motion=motion)
