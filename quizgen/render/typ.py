@@ -7,7 +7,7 @@ import os
 import unicodedata
 from collections.abc import Iterable, Mapping
 from datetime import UTC, datetime
-from functools import cache, singledispatch
+from functools import cache, lru_cache, singledispatch
 from typing import Any, Final
 
 from quizgen import typeset
@@ -39,7 +39,9 @@ def inline(part: prose.Inline | tuple[prose.Inline, ...], lang: str) -> str:
 
 
 @inline.register(tuple)
+@lru_cache(maxsize=1 << 13)
 def _inlines(parts: tuple[prose.Inline, ...], lang: str) -> str:
+    """A sentence: most stand in the exam and its solutions, or in the next paper too."""
     return "".join(_together(group, lang) for group in tied(parts))
 
 
@@ -78,6 +80,7 @@ def passage(body: str) -> str:
     return f"#passage({string(body)});" if body else ""
 
 
+@lru_cache(maxsize=1 << 12)
 def equation(maths: Maths, lang: str, *, block: bool) -> str:
     """A formula with its spoken alternative."""
     spoken = string(typeset.spoken(maths.node, lang))
