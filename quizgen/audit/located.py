@@ -88,6 +88,7 @@ ADVICE = {
     "SystemExit": "leave out what ends the program",
     r"\w+(?:Error|Exception): ": "mend the line; what is imported there must not fail",
     r"step .*: no formula for": "use +, -, *, /, powers and functions that students can type",
+    "not done after": "let every loop end, or give it more time with --limit",
     "share the name": "rename the folder of one of them",
     r"topic .* has no template": "write one, or delete the line",
     "there is no template.toml": "write it, or mend the name of the file",

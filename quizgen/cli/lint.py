@@ -30,10 +30,12 @@ TEACH_HEAD = ("template", "part", "level", "finding")
 NOTHING = ("0", "", "", "", "1", "")
 """Cells of a template that could not be examined."""
 
-A_DRAW, A_PAPER = 0.004, 0.1
-"""Seconds that one takes to be examined, about."""
+A_TEMPLATE, A_DRAW, A_PAPER = 0.02, 0.0003, 0.1
+"""Seconds that one takes to be examined, about: what is done once, and what with each draw."""
 FEW = 20
 """Draws that are examined while an author waits."""
+ENOUGH, ENOUGH_A_DRAW = 20.0, 0.05
+"""Seconds after which a template is given up: many times what the slowest ones take."""
 
 
 class Options(BankOptions):
@@ -44,6 +46,7 @@ class Options(BankOptions):
     only: tuple[str, ...]
     teach: bool
     papers: int | None
+    limit: int | None
     debug: bool
     json: bool
     jobs: int | None
@@ -63,6 +66,12 @@ class Options(BankOptions):
     "--papers",
     type=Whole(1, 10**5),
     help="Make so many papers of each blueprint, and name questions that tell another's answer.",
+)
+@click.option(
+    "--limit",
+    type=Whole(1, 10**6),
+    help=f"Seconds of CPU after which a template is given up. "
+    f"[default: {ENOUGH:g}, and {ENOUGH_A_DRAW:g} for each draw]",
 )
 @click.option("--json", is_flag=True, help="Print problems as JSON, one a line, for editors.")
 @click.option("--debug", is_flag=True, help="Show where in Python an error came from.")
@@ -113,10 +122,11 @@ def _proved(
     bank: Bank, names: tuple[str, ...], options: Options
 ) -> tuple[list[tuple[str, ...]], list[Problem]]:
     """Rows of the table of templates, and all problems."""
-    from quizgen.audit.located import bank_problems, told_problems
+    from quizgen.audit.located import told_problems
 
-    rows, broken, heard = [], list(bank_problems(bank)), list["Heard"]()
-    examine = partial(_examined, bank, seeds=options["seeds"], debug=options["debug"])
+    limit, seeds, debug = _limit(options), options["seeds"], options["debug"]
+    rows, broken, heard = [], _of_bank(bank, limit), list["Heard"]()
+    examine = partial(_examined, bank, seeds=seeds, limit=limit, debug=debug)
     with (
         Progress("lint", len(names)) as progress,
         workers(_count(options, names)) as (executor, ahead),
@@ -130,9 +140,23 @@ def _proved(
     return rows, broken
 
 
+def _of_bank(bank: Bank, limit: float) -> list[Problem]:
+    """What is wrong with the files that belong to no template."""
+    from quizgen.audit.limit import TooLong, limited
+    from quizgen.audit.located import bank_problems, located
+
+    found: list[Problem] = []
+    try:
+        with limited(limit):
+            found += bank_problems(bank)
+    except TooLong as error:
+        found.append(located(bank, "", _said(bank, error)))
+    return found
+
+
 def problems_of(bank: Bank, name: str) -> list[str]:
     """What is wrong with a template, over a few draws, as an author sees it while writing."""
-    return [str(problem) for problem in _examined(bank, name, FEW)[1]]
+    return [str(problem) for problem in _examined(bank, name, FEW, ENOUGH)[1]]
 
 
 def _taught(bank: Bank, names: tuple[str, ...], options: Options) -> int:
@@ -142,7 +166,7 @@ def _taught(bank: Bank, names: tuple[str, ...], options: Options) -> int:
         Progress("lint", len(names)) as progress,
         workers(_count(options, names)) as (executor, ahead),
     ):
-        findings = partial(_findings, bank, options["seeds"])
+        findings = partial(_findings, bank, options["seeds"], _limit(options))
         for found in in_order(executor, findings, progress.over(names), ahead):
             rows += found
     if rows:
@@ -152,14 +176,16 @@ def _taught(bank: Bank, names: tuple[str, ...], options: Options) -> int:
     return int(bool(errors))
 
 
-def _findings(bank: Bank, seeds: int, name: str) -> list[tuple[str, ...]]:
+def _findings(bank: Bank, seeds: int, limit: float, name: str) -> list[tuple[str, ...]]:
     """Rows of a template's table: what stands between it and teaching."""
+    from quizgen.audit.limit import TooLong, limited
     from quizgen.audit.teach import examine
 
     try:
-        found = examine(bank.template(name), seeds)
-    except QuizgenError as error:
-        return [(name, "", "error", str(error))]
+        with limited(limit):
+            found = examine(bank.template(name), seeds)
+    except (QuizgenError, TooLong) as error:
+        return [(name, "", "error", _said(bank, error))]
     return [(one.template, one.label, one.level, one.what) for one in found]
 
 
@@ -200,29 +226,25 @@ def _tells(bank: Bank, blueprint: Blueprint, seed: int) -> list[str]:
 
 def _count(options: Options, names: tuple[str, ...]) -> int:
     """How many processes examine templates."""
-    return paying(options["jobs"], len(names) * options["seeds"] * A_DRAW)
+    return paying(options["jobs"], len(names) * (A_TEMPLATE + options["seeds"] * A_DRAW))
+
+
+def _limit(options: Options) -> float:
+    """Seconds after which a template is given up."""
+    return options["limit"] or ENOUGH + options["seeds"] * ENOUGH_A_DRAW
 
 
 def _examined(
-    bank: Bank, name: str, seeds: int, *, debug: bool = False
+    bank: Bank, name: str, seeds: int, limit: float, *, debug: bool = False
 ) -> tuple[tuple[str, ...], list[Problem], list[Heard]]:
     """Cells of a template's row, its problems, and what it says and asks."""
-    from quizgen.audit.lint import lint_template
+    from quizgen.audit.limit import TooLong, limited
     from quizgen.audit.located import located
-    from quizgen.bank.formulas import missing_formulas, unnamed_formulas
 
-    try:
-        with redirect_stdout(sys.stderr):  # an author's Python may print, and not into our JSON
-            report = lint_template(bank.template(name), seeds, bank.languages)
-        report.problems += [
-            f"solver: formula {formula!r}, which templates/cards/formulas.toml lacks"
-            for formula in missing_formulas(bank, name)
-        ]
-        report.problems += [
-            f"solver: step {step!r} has the form of {', '.join(forms)} and names no formula"
-            for step, forms in unnamed_formulas(bank, name).items()
-        ]
-    except Exception as error:
+    try:  # an author's Python may print, and not into our JSON
+        with limited(limit), redirect_stdout(sys.stderr):
+            report = _report(bank, name, seeds)
+    except (Exception, TooLong) as error:
         if interrupted():
             raise KeyboardInterrupt from error
         if debug:
@@ -232,15 +254,40 @@ def _examined(
     return _cells(report), problems, report.heard
 
 
-def _said(bank: Bank, error: Exception) -> str:
+def _report(bank: Bank, name: str, seeds: int) -> Report:
+    """What was found for a template and for the formulas of its solver."""
+    from quizgen.audit.lint import lint_template
+    from quizgen.bank.formulas import missing_formulas, unnamed_formulas
+
+    report = lint_template(bank.template(name), seeds, bank.languages)
+    report.problems += [
+        f"solver: formula {formula!r}, which templates/cards/formulas.toml lacks"
+        for formula in missing_formulas(bank, name)
+    ]
+    report.problems += [
+        f"solver: step {step!r} has the form of {', '.join(forms)} and names no formula"
+        for step, forms in unnamed_formulas(bank, name).items()
+    ]
+    return report
+
+
+def _said(bank: Bank, error: BaseException) -> str:
     """What stopped the examination: the place in the bank, else in quizgen, and the last line."""
+    from quizgen.audit.limit import TooLong
+
     if isinstance(error, QuizgenError):
         return str(error)
-    frames = list(traceback.walk_tb(error.__traceback__))
-    own = [one for one in frames if one[0].f_code.co_filename.startswith(str(bank.root.resolve()))]
-    frame, line = (own or frames)[-1]
-    what = f"{type(error).__name__}: {error}"
-    return f"{what} (in {frame.f_code.co_filename}:{line}; --debug shows the way there)"
+    root = bank.root.resolve()
+    frames = [
+        (Path(frame.f_code.co_filename), line)
+        for frame, line in traceback.walk_tb(error.__traceback__)
+    ]
+    own = [(file, line) for file, line in frames if file.resolve().is_relative_to(root)]
+    if isinstance(error, TooLong):  # in whatever of quizgen it was just then
+        place = [f"{bank.root / one.resolve().relative_to(root)}:{line}: " for one, line in own]
+        return f"{''.join(place[-1:])}{error}"
+    file, line = (own or frames)[-1]
+    return f"{type(error).__name__}: {error} (in {file}:{line}; --debug shows the way there)"
 
 
 def _cells(report: Report) -> tuple[str, ...]:

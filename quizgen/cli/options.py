@@ -52,8 +52,8 @@ class Tongue(click.types.StringParamType):
 
 
 MOST_JOBS = 256
-WORTH = 4.0
-"""Seconds of work that are worth another process: it takes one or two to begin."""
+WORTH = 2.0
+"""Seconds of work that are worth another process: it takes up to one to begin."""
 LEVEL_HELP = "As in an exam, step by step, turned round, or by the seed."
 LANGUAGE_HELP = (
     f"{', '.join(languages())}, or another that the bank has. "

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import shutil
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -77,6 +78,41 @@ def test_debug_shows_the_way_to_an_error(bank):
     done = lint(bank, "--only", "names", "--debug")
     assert "Traceback" in done.stderr
     assert "MODEL = nothing" in done.stderr
+    without = lint(bank, "--only", "names").stderr
+    assert "Traceback" not in without
+    assert without.splitlines() == [done.stderr.splitlines()[-1]]
+    assert BROKEN["names"][1] in without
+
+
+ENDLESS = {
+    "solver": "while True:\n    pass\n",
+    "caught": "while True:\n    try:\n        x = 1 / 0\n    except Exception:\n        pass\n",
+}
+"""Solvers that never end; the other one catches all that goes wrong."""
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="there is no clock to stop them")
+@pytest.mark.parametrize("jobs", ["1", "2"])
+def test_what_never_ends_is_given_up_and_stops_no_other(bank, tmp_path, jobs):
+    root = tmp_path / "bank"
+    shutil.copytree(bank / "templates" / "x" / "good", root / "templates" / "x" / "good")
+    (root / "solvers").mkdir()
+    for name, text in ENDLESS.items():
+        shutil.copytree(bank / "templates" / "x" / "model", root / "templates" / "x" / name)
+        (root / "templates" / "x" / name / "template.toml").write_text(RULES.format(name=name))
+        (root / "solvers" / f"{name}.py").write_text(text)
+    done = lint(root, "--jobs", jobs, "--limit", "1")
+    assert [line.split()[:2] for line in done.stdout.splitlines()[1:]] == [
+        ["caught", "0"], ["good", "3"], ["solver", "0"],
+    ]  # fmt: skip
+    problems = done.stderr.splitlines()
+    assert len(problems) == len(ENDLESS)
+    for name, line in zip(ENDLESS, sorted(problems, reverse=True), strict=True):
+        assert re.fullmatch(
+            rf"{re.escape(str(root))}/solvers/{name}\.py:[1-5]: not done after 1 s; "
+            "let every loop end, or give it more time with --limit",
+            line,
+        )
 
 
 def test_a_sound_template_is_one_row_and_no_problem(bank):
