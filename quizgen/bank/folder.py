@@ -24,6 +24,7 @@ from quizgen.bank.about import (
     read_about,
     read_struct,
 )
+from quizgen.bank.names import check_name, folders_of
 from quizgen.bank.pages import read_text
 from quizgen.bank.prose import Text
 from quizgen.bank.quantities import Quantities, read_quantities
@@ -35,7 +36,7 @@ from quizgen.kept import digest_of
 from quizgen.locale import chosen, languages, take_up
 from quizgen.locale.brought import TAG
 from quizgen.maths.chain import Chain
-from quizgen.outside import NAMES, is_name, located, named, read_bytes
+from quizgen.outside import NAMES, is_name, located, read_bytes
 
 SOLVERS, FIGURES = "solvers", "templates/figures"
 """Where the Python of a bank stands."""
@@ -197,18 +198,12 @@ class Bank:
 
     @cached_property
     def paths(self) -> dict[str, Path]:
-        """Template name to its folder, in alphabetical order."""
-        found = sorted(
-            path for path in self.folder.glob("**/template.toml")
-            if path.parent not in {self.folder / name for name in _BESIDE}
-        )  # fmt: skip
-        named_so: dict[str, Path] = {}
-        for folder in (path.parent for path in found):
-            name = named(folder.name, f"{self.root}: template", BankError)
-            if other := named_so.get(name):
-                raise BankError(f"{folder}: two templates share the name {name!r}: also {other}")
-            named_so[name] = folder
-        return named_so
+        """Template name to its folder, in alphabetical order; of one name the first stands here."""
+        return {name: folders[0] for name, folders in self._folders.items()}
+
+    @cached_property
+    def _folders(self) -> dict[str, list[Path]]:
+        return folders_of(self.folder, _BESIDE)
 
     def afresh(self) -> Bank:
         """The same bank, its files and solvers read again."""
@@ -279,6 +274,7 @@ class Bank:
         """Checked ``template.toml`` of a template, without loading solver or prose."""
         if name not in self._rules:
             path = self.folder_of(name) / "template.toml"
+            check_name(self._folders[name])
             rules = read_rules(path)
             if rules.topic not in (self.about.topics or {rules.topic}):
                 allowed = ", ".join(self.about.topics)

@@ -15,6 +15,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 from author_mistakes import CARD, CARDS, PAGE, ROWS, page, sound, spoilt, write
 from checks import AUDIT, Saying, said_by, sayings
 
+from quizgen.bank.folder import Bank
 from quizgen.cli.lint import lint
 from quizgen.errors import BankError
 
@@ -98,13 +99,17 @@ def test_what_a_solver_prints_is_no_json(tmp_path, empty_cache):
     assert (done.exit_code, done.stdout, done.stderr) == (0, "", "hello\n")
 
 
-def test_templates_of_one_name_are_both_named(tmp_path):
+def test_templates_of_one_name_stop_no_other_and_make_no_paper(tmp_path):
     files = sound()
     twin = {f"templates/other/push/{name}": files[f"templates/forces/push/{name}"]
             for name in ("template.toml", "en.md")}  # fmt: skip
     root = write(tmp_path, {**files, **twin})
-    with pytest.raises(BankError, match=r"other/push: .*'push': also .*forces/push"):
-        run(root)
+    done = run(root)
+    rows = {line.split()[0]: line.split()[1] for line in done.stdout.splitlines()[1:]}
+    assert rows == {name: "0" if name == "push" else "20" for name in rows}
+    assert len(rows) == len([name for name in files if name.endswith("template.toml")])
+    with pytest.raises(BankError, match=r"forces/push.*'push': also .*other/push"):
+        Bank(root, trusted=True).template("push")
 
 
 def test_a_bank_without_a_question_says_so(tmp_path):

@@ -1,0 +1,42 @@
+"""What templates of a bank are called: as their folders are, and each name once."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from pathlib import Path
+
+from quizgen.errors import BankError
+from quizgen.outside import named
+
+
+def folders_of(templates: Path, beside: Collection[str]) -> dict[str, list[Path]]:
+    """Name to all folders that are called so, although one alone may be.
+
+    Parameters
+    ----------
+    templates : pathlib.Path
+    beside : collection of str
+        Folders in it that hold something else.
+    """
+    found: dict[str, list[Path]] = {}
+    others = {templates / name for name in beside}
+    for folder in sorted(path.parent for path in templates.glob("**/template.toml")):
+        if folder not in others:
+            found.setdefault(folder.name, []).append(folder)
+    return found
+
+
+def check_name(folders: Sequence[Path]) -> None:
+    """Refuse a template that cannot be called by its name; the others stay what they are.
+
+    Raises
+    ------
+    BankError
+        If it is no name, or another folder has it, too.
+    """
+    folder, *others = folders
+    file = folder / "template.toml"
+    named(folder.name, f"{file}: folder", BankError)
+    if others:
+        also = ", ".join(map(str, others))
+        raise BankError(f"{file}: two templates share the name {folder.name!r}: also {also}")
