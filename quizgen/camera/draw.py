@@ -124,7 +124,10 @@ def _place(thing: Thing, view: View) -> tuple[float, float]:
 
 
 _BAND = 1 << 16
-"""Pixels drawn at once, about, so that what lies in between stays small."""
+"""Pixels laid over each other at once, about, so that what lies in between stays small."""
+
+_TILE = 64, 1024
+"""Rows and columns drawn at once: few enough for the cache, and most are covered or not at all."""
 
 
 def _extent(thing: Thing) -> tuple[float, float]:
@@ -162,43 +165,73 @@ def _within(middle: float, far: float, length: int) -> tuple[int, int]:
     )
 
 
-def _parts(thing: Thing, view: View) -> Iterator[tuple[slice, slice]]:
-    """Bands of the picture that a thing can cover."""
+def _box(thing: Thing, view: View) -> Box:
+    """The part of the picture that a thing can cover."""
     (column, row), (across, down) = _place(thing, view), _extent(thing)
-    left, right = _within(column, across, view.width)
-    top, bottom = _within(row, down, view.height)
-    rows = max(1, _BAND // max(1, right - left))
-    for start in range(top, bottom, rows) if left < right else ():
-        yield slice(start, min(start + rows, bottom)), slice(left, right)
+    rows, columns = _within(row, down, view.height), _within(column, across, view.width)
+    return slice(*rows), slice(*columns)
 
 
-def _own_axes(thing: Thing, view: View, part: tuple[slice, slice]) -> tuple[Plane, Plane]:
+def _tiles(view: View) -> Iterator[Box]:
+    """The picture in pieces, so that each is drawn while it is in the cache."""
+    height, width = _TILE
+    for top in range(0, view.height, height):
+        for left in range(0, view.width, width):
+            yield (
+                slice(top, min(top + height, view.height)),
+                slice(left, min(left + width, view.width)),
+            )
+
+
+def _both(one: Box, other: Box) -> Box | None:
+    """What two boxes share."""
+    rows, columns = (
+        slice(max(a.start, b.start), min(a.stop, b.stop)) for a, b in zip(one, other, strict=True)
+    )
+    return (rows, columns) if rows.start < rows.stop and columns.start < columns.stop else None
+
+
+def _own_axes(thing: Thing, view: View, part: Box) -> tuple[Plane, Plane]:
     """Places from a thing's centre along its own axes: a row and a column, or planes if turned."""
     column, row = _place(thing, view)
-    x = (np.arange(part[1].start, part[1].stop) - column)[None, :]
-    y = (np.arange(part[0].start, part[0].stop) - row)[:, None]
+    x = np.arange(part[1].start, part[1].stop, dtype=np.float64)[None, :] - column
+    y = np.arange(part[0].start, part[0].stop, dtype=np.float64)[:, None] - row
     if not thing.angle:
         return x, y
     cosine, sine = math.cos(thing.angle), math.sin(thing.angle)
     return cosine * x + sine * y, cosine * y - sine * x
 
 
-def _draw_part(thing: Thing, view: View, part: tuple[slice, slice]) -> tuple[Image, Image]:
+def _add(layer: Layer, thing: Thing, view: View, part: Box) -> None:
+    """Draw upon a part of a layer; memory nothing is written to is not taken from the system."""
     x, y = _own_axes(thing, view, part)
     distance = SHAPES[thing.shape](thing, x, y)
     cover = np.clip(0.5 - distance, 0.0, 1.0).astype(view.precision)[..., None]
+    if not cover.any():
+        return
+    if cover.min() < 1.0:
+        keep = 1.0 - cover
+        _blend(layer.colour[part], keep, _shown(thing, view, (x, y), cover[..., 0]))
+        if layer.cover is not None:
+            _blend(layer.cover[part], keep, cover)
+        return
+    layer.colour[part] = _shown(thing, view, (x, y), cover[:1, :, 0])  # nothing behind is kept
+    if layer.cover is not None:
+        layer.cover[part] = 1.0
+
+
+def _shown(thing: Thing, view: View, place: tuple[Plane, Plane], cover: Image) -> Image:
+    """A thing's colours times its cover over a part; of an even one a row may stand for all."""
     texture, colour = TEXTURES[thing.texture], np.asarray(thing.colour, view.precision)
-    image = np.empty((*cover.shape[:2], 3), view.precision)
-    if texture is None:
-        for channel in range(3):
-            np.multiply(cover[..., 0], colour[channel], out=image[..., channel])
-        return image, cover
-    share = texture(thing, x, y).astype(view.precision)
-    rest, other = 1.0 - share, np.asarray(thing.other, view.precision)
-    for channel in range(3):
-        mixed = rest * colour[channel] + share * other[channel]
-        np.multiply(cover[..., 0], mixed, out=image[..., channel])
-    return image, cover
+    planes = list(colour)
+    if texture is not None:
+        share = texture(thing, *place).astype(view.precision)
+        rest, other = 1.0 - share, np.asarray(thing.other, view.precision)
+        planes = [rest * one + share * two for one, two in zip(colour, other, strict=True)]
+    image = np.empty((*np.broadcast_shapes(cover.shape, planes[0].shape), 3), view.precision)
+    for channel, plane in enumerate(planes):  # far faster than NumPy's loops over three values
+        np.multiply(cover, plane, out=image[..., channel])
+    return image
 
 
 def reach(thing: Thing) -> float:
@@ -251,30 +284,6 @@ def sheets(view: View) -> tuple[Sheet, ...]:
     return tuple(found)
 
 
-def _background(view: View, sheet: Sheet) -> Layer:
-    """What stands behind everything; a picture that is not kept will be drawn upon."""
-    scene = view.scene
-    if scene.image is not None:
-        image = scene.image.astype(view.precision, copy=bool(sheet.things))
-        return Layer(image, depth=scene.depth)
-    flat = np.empty((view.height, view.width, 3), view.precision)
-    flat[0] = scene.background
-    flat[1:] = flat[0]
-    return Layer(flat, depth=math.inf if sheet.depth is None else sheet.depth, motion=sheet.motion)
-
-
-def _add(layer: Layer, thing: Thing, view: View) -> None:
-    """Draw upon a layer; memory that nothing is written to is not taken from the system."""
-    for part in _parts(thing, view):
-        colour, cover = _draw_part(thing, view, part)
-        if not cover.any():
-            continue
-        keep = 1.0 - cover
-        _blend(layer.colour[part], keep, colour)
-        if layer.cover is not None:
-            _blend(layer.cover[part], keep, cover)
-
-
 def draw(view: View) -> Stack:
     """Draw everything.
 
@@ -294,13 +303,28 @@ def draw(view: View) -> Stack:
 
 
 def _draw_sheet(sheet: Sheet, view: View) -> Layer:
-    layer = _background(view, sheet) if sheet.opaque else _empty(view, sheet)
-    for thing in sheet.things:
-        _add(layer, thing, view)
+    """One piece after the other, each with all that it shows."""
+    layer, boxes = _bare(sheet, view), [_box(thing, view) for thing in sheet.things]
+    line = np.empty((_TILE[1], 3), view.precision)
+    line[...] = view.scene.background
+    for tile in _tiles(view):
+        if sheet.opaque and view.scene.image is None:
+            layer.colour[tile] = line[: tile[1].stop - tile[1].start]
+        for thing, box in zip(sheet.things, boxes, strict=True):
+            part = _both(tile, box)
+            if part is not None:
+                _add(layer, thing, view, part)
     return layer
 
 
-def _empty(view: View, sheet: Sheet) -> Layer:
-    shape = (view.height, view.width)
-    nothing = np.zeros((*shape, 3), view.precision), np.zeros((*shape, 1), view.precision)
-    return Layer(*nothing, math.inf if sheet.depth is None else sheet.depth, sheet.motion)
+def _bare(sheet: Sheet, view: View) -> Layer:
+    """A layer on which nothing is drawn yet; a picture that is not kept will be drawn upon."""
+    scene, shape = view.scene, (view.height, view.width)
+    depth = math.inf if sheet.depth is None else sheet.depth
+    if not sheet.opaque:
+        colour, cover = (np.zeros((*shape, channels), view.precision) for channels in (3, 1))
+        return Layer(colour, cover, depth, sheet.motion)
+    if scene.image is not None:
+        image = scene.image.astype(view.precision, copy=bool(sheet.things))
+        return Layer(image, depth=scene.depth)
+    return Layer(np.empty((*shape, 3), view.precision), depth=depth, motion=sheet.motion)

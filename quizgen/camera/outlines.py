@@ -48,24 +48,26 @@ def _blades(thing: Thing, x: Plane, y: Plane) -> Plane:
 
 def _polygon(thing: Thing, x: Plane, y: Plane) -> Plane:
     """Distances beyond the soft edge are not computed: only near a side does its own one count."""
-    x, y = np.broadcast_arrays(x, y)
-    distance, inside = np.full(x.shape, np.inf), np.zeros(x.shape, bool)
+    shape = np.broadcast_shapes(x.shape, y.shape)
+    distance, inside = np.full(shape, np.inf), np.zeros(shape, bool)
     rows, columns = _ends(y, 1), _ends(x, 0)
     for (ax, ay), (bx, by) in zip(thing.points, (*thing.points[1:], thing.points[0]), strict=True):
         squared = (bx - ax) ** 2 + (by - ay) ** 2
-        if not squared:
-            continue  # a corner given twice, such as the first one to close the outline
         level = _near(rows, ay, by)
-        if not level.any():
-            continue
-        part = np.ix_(level, _near(columns, ax, bx))
-        across, down = x[part] - ax, y[part] - ay
-        along = np.clip((across * (bx - ax) + down * (by - ay)) / squared, 0.0, 1.0)
-        away = np.hypot(across - along * (bx - ax), down - along * (by - ay))
-        distance[part] = np.minimum(distance[part], away)
+        if not squared or level.start == level.stop:
+            continue  # a corner given twice, such as the first one to close the outline, or far off
+        here, there = (level, _near(columns, ax, bx)), _of(level, y)
+        across, down = x[_of(level, x)][:, here[1]] - ax, y[there] - ay
+        if down.shape[1] > 1:
+            down = down[:, here[1]]
+        if across.size:
+            along = np.clip((across * (bx - ax) + down * (by - ay)) / squared, 0.0, 1.0)
+            away = np.hypot(across - along * (bx - ax), down - along * (by - ay))
+            distance[here] = np.minimum(distance[here], away)
         if ay != by:
-            crossing = (ay > y[level]) != (by > y[level])
-            inside[level] ^= crossing & (x[level] < (bx - ax) * (y[level] - ay) / (by - ay) + ax)
+            crossing = (ay > y[there]) != (by > y[there])
+            before = (bx - ax) * (y[there] - ay) / (by - ay) + ax
+            inside[level] ^= crossing & (x[_of(level, x)] < before)
     return np.where(inside, -distance, distance)
 
 
@@ -74,10 +76,16 @@ def _ends(plane: Plane, axis: int) -> tuple[Plane, Plane]:
     return plane.min(axis=axis), plane.max(axis=axis)
 
 
-def _near(ends: tuple[Plane, Plane], start: float, stop: float) -> NDArray[np.bool_]:
-    """Rows or columns within a pixel of a side."""
+def _near(ends: tuple[Plane, Plane], start: float, stop: float) -> slice:
+    """Rows or columns from the first to the last that is within a pixel of a side."""
     low, high = ends
-    return np.asarray((high >= min(start, stop) - 1.0) & (low <= max(start, stop) + 1.0))
+    near = np.flatnonzero((high >= min(start, stop) - 1.0) & (low <= max(start, stop) + 1.0))
+    return slice(near[0], near[-1] + 1) if near.size else slice(0, 0)
+
+
+def _of(rows: slice, plane: Plane) -> slice:
+    """These rows of a plane, or the only one that stands for all."""
+    return rows if len(plane) > 1 else slice(None)
 
 
 def _full(thing: Thing, x: Plane, y: Plane) -> Plane:  # noqa: ARG001 - every shape takes the same
