@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from quizgen.arrays.aliases import Array
-from quizgen.arrays.double_double import Pair, pairs
+from quizgen.arrays.double_double import Pair, pair, pairs
 from quizgen.arrays.polynomial import horner
 
 LN2 = Pair(0.6931471805599453, 2.3190468138462996e-17)
@@ -34,13 +34,15 @@ def log_pair(x: Array) -> Pair:
     return LN2 * e.astype(np.float64) + 2 * (s + s * atanh_series(s * s))
 
 
-def ratio_excess(x: Array, y: Array) -> Pair:
+def ratio_excess(x: Array | Pair, y: Array) -> Pair:
     """Excess x ln(x/y) - (x - y) >= 0 for positive x and y, close ones too.
+
+    A pair is taken as such only where it is close to y.
 
     Source: Loader (2000), "Fast and accurate computation of binomial probabilities": with
     v = (x - y)/(x + y) it is v (x - y) + 2 x v (v**2/3 + v**4/5 + ...).
     """
-    x_pair, y_pair = pairs(x, y)
+    x_pair, y_pair = pair(x), pair(y)
     difference = x_pair - y_pair
     v = difference / (x_pair + y_pair)
     near = np.abs(v.high) < 0.17
@@ -48,5 +50,5 @@ def ratio_excess(x: Array, y: Array) -> Pair:
     close = safe * difference + 2 * (x_pair * (safe * atanh_series(safe * safe)))
     if near.all():
         return close
-    wide = x_pair * (log_pair(x) - log_pair(y)) - difference
+    wide = x_pair * (log_pair(x_pair.high) - log_pair(y)) - difference
     return Pair(np.where(near, close.high, wide.high), np.where(near, close.low, wide.low))

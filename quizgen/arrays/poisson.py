@@ -13,6 +13,7 @@ import numpy as np
 
 from quizgen.arrays.aliases import Array, Numbers, Result
 from quizgen.arrays.domain import NONNEGATIVE, Rule
+from quizgen.arrays.double_double import Pair, two_sum
 from quizgen.arrays.gaussian import mills
 from quizgen.arrays.kernel import Kernel
 from quizgen.arrays.logarithm import ratio_excess
@@ -104,26 +105,32 @@ def _sum_down(k: Array, lam: Array) -> Array:
     return total
 
 
-def _uniform(a: Array, x: Array) -> Array:
-    """Regularised upper incomplete gamma function of large a, from its smaller side.
+def _uniform_lower(k: Array, lam: Array) -> Array:
+    """P(X <= k), the upper incomplete gamma function of a = k + 1, from its smaller side.
 
-    The exponential of the excess stands in front of Mills' ratio, so that its exponent is never
-    squared from a rounded root.
+    From 2**53 on the next count is no double: it is kept as a pair. The exponential of the excess
+    stands in front of Mills' ratio, so that its exponent is never squared from a rounded root.
     """
-    excess = ratio_excess(a, x)
+    a, lost = two_sum(k, 1.0)
+    excess = ratio_excess(Pair(a, lost), lam)
     root = np.sqrt(2 * excess.high)
-    above = x > a
+    above = lam - a > lost
     eta = np.where(above, 1.0, -1.0) * root / np.sqrt(a)
-    rest = np.zeros_like(a)
-    for row in reversed(TEMME):
-        rest = rest / a + horner(row, eta)
-    rest = np.where(above, rest, -rest) / (np.sqrt(a) * _ROOT_TWO_PI)
+    rest = np.where(above, 1.0, -1.0) * _uniform_rest(a, eta)
     ratio, skew = mills(root)
     bell = np.exp(-np.minimum(excess.high, _CERTAIN))
     total = ratio + rest
     small = bell * total
     small -= small * (excess.low + skew * ratio / total)
     return np.where(above, small, 1 - small)
+
+
+def _uniform_rest(a: Array, eta: Array) -> Array:
+    """What stands beside Mills' ratio, above the mean."""
+    rest = np.zeros_like(a)
+    for row in reversed(TEMME):
+        rest = rest / a + horner(row, eta)
+    return rest / (np.sqrt(a) * _ROOT_TWO_PI)
 
 
 def _lower(k: Array, lam: Array) -> Array:
@@ -139,10 +146,6 @@ def _lower(k: Array, lam: Array) -> Array:
         if chosen.size:
             value[chosen] = way(k.take(chosen), lam.take(chosen))
     return value
-
-
-def _uniform_lower(k: Array, lam: Array) -> Array:
-    return _uniform(k + 1, lam)
 
 
 def _by_sum(k: Array, lam: Array) -> Array:

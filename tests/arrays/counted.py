@@ -188,21 +188,27 @@ def pmf_short_bound(_):
     return 7 * UNIT + SECOND
 
 
+def excess_error():
+    """How far an excess of at most 800 is off; beyond, nothing is left of a probability.
+
+    It is a pair. For close arguments its series is off by less than what the logarithm's is, of
+    which at most 2 v/3 stands beside 1 in the excess. For others the excess is at least 0.0528 of
+    the count, which so is below 15152, and two logarithms below 10 are off by their own bound.
+    """
+    v = arb("0.1716")
+    series = log_bound(v)
+    close = 800 * (3 * series / v + 64 * UNIT * UNIT)
+    return max(close, arb(800) / arb("0.0528") * 20 * series)
+
+
 def pmf_long_bound(_):
     """Bound for Poisson probabilities by the saddle point.
 
     Behind the exponential (2) stand the root, its constant, their product and the quotient (4).
     What Stirling's formula leaves is at most 1/11 and off by 4 units of that; its factor takes 2
-    more, a product of that size and a sum. An excess of at most 800 (beyond, nothing is left) is
-    a pair. For close arguments its series is off by less than what the logarithm's is, of which
-    at most 2 v/3 stands beside 1 in the excess. For others the excess is at least 0.0528 of the
-    count, which so is below 15152, and two logarithms below 10 are off by their own bound.
+    more, a product of that size and a sum.
     """
-    v = arb("0.1716")
-    series = log_bound(v)
-    close = 800 * (3 * series / v + 64 * UNIT * UNIT)
-    apart = arb(800) / arb("0.0528") * 20 * series
-    return 6 * UNIT + 7 * UNIT / 11 + UNIT + max(close, apart) + SECOND
+    return 6 * UNIT + 7 * UNIT / 11 + UNIT + excess_error() + SECOND
 
 
 def summed_bound(count):

@@ -22,8 +22,10 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import counted
+import uniform
 from enclosures import ORDER, UNIT, boxes, farthest, on_one
 from flint import arb, arb_series, ctx
+from mills import mills_error
 
 from quizgen.arrays import (
     depth_of_field,
@@ -48,15 +50,6 @@ HEAD = "  | kernel | relative error, in 2^-53 | boxes | rounds |\n  |---|---|---
 COMPENSATED = arb(2) ** -80
 
 
-def far_difference(k):
-    """Exact polynomial less (k + 3/4) Q(k) exp(k**2/2)."""
-    t, total = (k - 4) / (k + 4), arb_series([0])
-    for c in reversed(tables.MILLS):
-        total = total * t + c
-    tail = (k / arb(2).sqrt()).erfc() / 2
-    return total - (k + arb("0.75")) * tail * (k * k / 2).exp()
-
-
 def near_difference(k):
     """Exact polynomial less the probability beyond k."""
     square, total = k * k, arb_series([0])
@@ -67,10 +60,7 @@ def near_difference(k):
 
 def far_bound(box):
     """Relative error of the far tail: Mills' ratio, exponential, product, correction."""
-    ratio = on_one(lambda k: gaussian.mills(k)[0], box)
-    numerator = abs(ratio.value) * (box + arb("0.75"))
-    missed = abs(farthest(far_difference, box)) / numerator
-    return ratio.error / abs(ratio.value) + missed + 4 * UNIT + COMPENSATED
+    return mills_error(box)[1] + 4 * UNIT + COMPENSATED
 
 
 def near_bound(box):
@@ -156,11 +146,9 @@ def newton_bound(root):
     """
     k, error, hazard = start_error(gaussian._QUANTILE_FAR, gaussian._FAR_WAY, root)
     k += arb(0, error.upper())
-    ratio = on_one(lambda k: gaussian.mills(k)[0], k)
-    missed = abs(farthest(far_difference, k)) / (abs(ratio.value) * (k + arb("0.75")))
-    off = ratio.error / abs(ratio.value) + missed
-    start = error + (abs(farthest(far_difference_of_logarithms, root)) + 2 * missed) / hazard
-    log = abs(ratio.value.log()) + off
+    ratio, off = mills_error(k)
+    start = error + (abs(farthest(far_difference_of_logarithms, root)) + 2 * off) / hazard
+    log = abs(ratio.log()) + off
     sums = log + (log + k * k / 2) + arb(2) ** -30
     miss = 2 * UNIT * root * root + off + 2 * UNIT * log + UNIT * sums + COMPENSATED
     return (miss / hazard + start * start + start * arb(2) ** -40) / k + UNIT
@@ -195,6 +183,9 @@ ROOT = (quintic, distortion._equation, distortion._inverse, double_double)
 BARREL = (quintic, double_double)
 PROBABILITY = (poisson._density, poisson._stirling_error, poisson._pmf_short, *LOGARITHM, tables)
 SUMS = (poisson._by_sum, poisson._sum_up, poisson._sum_down, *PROBABILITY)
+UNIFORM = (
+    poisson._uniform_lower, poisson._uniform_rest, gaussian.mills, *LOGARITHM, tables,
+)  # fmt: skip
 FOLD = (quintic.Quintic.inside, quintic.Quintic.fold, distortion._fold, double_double)
 PIECES = {
     "gaussian.far_tail": Piece(far_bound, 0.6999, 37.5, 4000, TAIL),
@@ -219,6 +210,9 @@ PIECES = {
     "poisson.pmf by factorials": Piece(counted.pmf_short_bound, 0.0, 1.0, 1, PROBABILITY),
     "poisson.pmf by the saddle point": Piece(counted.pmf_long_bound, 0.0, 1.0, 1, PROBABILITY),
     "poisson.lower by sums": Piece(counted.summed_bound, 0.0, 60.0, 60, SUMS, counted.most_terms()),
+    "poisson.lower by Temme's expansion (root of twice the excess)": Piece(
+        uniform.lower_bound, 0.0, 37.6, 4000, UNIFORM
+    ),
     "inverse_radius, k2 (log2 of slope)": Piece(
         counted.quintic_inverse_bound, -40.0, 0.0, 40, ROOT, 2 * quintic._STEPS
     ),

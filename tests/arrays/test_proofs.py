@@ -8,6 +8,7 @@ import flint
 import numpy as np
 import prove
 import pytest
+import uniform
 from flint import arb
 
 ROWS = {line.split("\t")[0]: line.split("\t")[1:] for line in prove.PROOFS.read_text().splitlines()}
@@ -85,3 +86,31 @@ def test_no_root_takes_more_rounds_than_recorded(monkeypatch):
             *(np.array([v]) for v in (x * (1 + k1 * x**2 + k2 * x**4), k1, k2))
         )
         assert len(asked) <= most // 2
+
+
+@pytest.mark.parametrize("a", [61, 62, 100])
+@pytest.mark.parametrize("ratio", [flint.fmpq(r, 20) for r in (11, 15, 19, 21, 25, 29)])
+def test_what_the_expansion_leaves_out_is_below_its_bound(a, ratio):
+    """By the incomplete gamma function of Arb."""
+    left_out = uniform.at_border(a, ratio)
+    assert left_out < uniform.truncation() < prove.UNIT / 8
+
+
+def test_a_wrong_coefficient_of_the_expansion_is_seen(monkeypatch):
+    (first, *rest), *others = prove.tables.TEMME
+    wrong = ((first * (1 + 2**-44), *rest), *others)
+    monkeypatch.setattr(prove.tables, "TEMME", wrong)
+    assert uniform.missing() / prove.UNIT > 100
+
+
+@pytest.mark.parametrize("exponent", [9, 20, 40, 52, 53, 54, 55])
+@pytest.mark.parametrize("deviations", [-8, -1, -0.01, 0, 0.3, 2, 30])
+def test_lower_tails_of_any_count_keep_to_the_bound(exponent, deviations):
+    """Next to the mean; from 2**53 on the next count is no double."""
+    count = 2**exponent
+    mean = float(count + 1 + deviations * count**0.5)
+    exact = arb(mean).gamma_upper(arb(count) + 1, 1)
+    off = abs(arb(float(prove.poisson.lower(float(count), mean))) / exact - 1)
+    assert off / prove.UNIT < float(
+        ROWS["poisson.lower by Temme's expansion (root of twice the excess)"][0]
+    )
