@@ -20,12 +20,10 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-MOVE, LINE, CURVE, CLOSE = 1, 2, 3, 79
-"""Codes of the points of a path, as fonts have them; a curve has its control point first."""
-_CONTROL: Final = 4
-"""The control point of a curve, told from its end."""
-_RELATIVE: Final = {1: "m", 2: "l", 3: " ", 4: "q"}
-_FORMS: Final = {1: "M %s %s", 2: "L %s %s", 3: "%s %s", 4: "Q %s %s"}
+MOVE, LINE, CURVE, CLOSE = 1, 2, 4, 79
+"""Codes of the points of a path; a curve, which only letters have, is two controls and its end."""
+_RELATIVE: Final = {MOVE: "m", LINE: "l", CURVE: "c"}
+_FORMS: Final = {MOVE: "M %s %s", LINE: "L %s %s"}
 BLACK: Final = "#000000"
 
 Point = Sequence[float]
@@ -185,17 +183,17 @@ def _letter(character: str, size: float, *, italic: bool) -> str:
     Each contour closes at its start, from which the next one goes on.
     """
     found = glyph(character, italic=italic)
-    told, start, at, control = [], (0, 0), (0, 0), False
+    told, start, at, ahead = [], (0, 0), (0, 0), 0
     for (x, y), code in zip(found.points, found.codes, strict=True):
-        control = code == CURVE and not control
         if code == CLOSE:
             told.append("z")
             at = start
             continue
         to = round(100 * x * size), -round(100 * y * size)
         way = f"{_HUNDREDTHS[to[0] - at[0]]} {_HUNDREDTHS[to[1] - at[1]]}"
-        told.append(f"{_RELATIVE[_CONTROL if control else code]}{way}")
-        at = at if control else to
+        told.append(f"{' ' if ahead else _RELATIVE[code]}{way}")
+        ahead = (ahead or 3) - 1 if code == CURVE else 0
+        at = at if ahead else to
         start = to if code == MOVE else start
     return "".join(told)
 
@@ -227,15 +225,14 @@ def _form(codes: bytes, closed: bool) -> tuple[str, list[int]]:
 
     An outline that closes goes back to its start first; of a fill the start says nothing.
     """
-    letters, order, start, control = [], [], 0, False
+    letters, order, start = [], [], 0
     for place, code in enumerate(codes):
-        control = code == CURVE and not control
         if code == MOVE:
             start = place
         if code == CLOSE:
             letters.append("L %s %s z" if closed else "z")
             order += [start] if closed else []
         else:
-            letters.append(_FORMS[_CONTROL if control else code])
+            letters.append(_FORMS[code])
             order.append(place)
     return " ".join(letters), order

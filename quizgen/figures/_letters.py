@@ -2,7 +2,7 @@
 
 Outlines were taken once from the STIX fonts and lie packed beside this module, made by
 ``tools/pack_letters.py`` under the licence of ``letters-licence.txt``: a label costs a few
-additions and is the same whatever is installed.
+additions and is the same whatever is installed. Curves are cubic, as PDF has them.
 
 The markup is tiny: ``p'_y = 6 {mm}``. A letter outside braces is italic, ``'`` is a prime,
 ``_`` lowers the next character (or a group in braces), braces set upright.

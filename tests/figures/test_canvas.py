@@ -72,7 +72,7 @@ def test_polygons_and_polylines_are_those_of_matplotlib(style):
 def corners(data):
     """The commands of a path, and where they lead; where a letter starts is no corner."""
     at, start, letters, places = np.zeros(2), np.zeros(2), "", []
-    for letter, numbers in re.findall(r"([MLQZmlqz])([^MLQZlqz]*?)(?=[a-zA-Z]|$)", data):
+    for letter, numbers in re.findall(r"([MLCZmlcz])([^MLCZlcz]*?)(?=[a-zA-Z]|$)", data):
         ways = np.array(re.findall(r"-?[\d.]+", numbers), float).reshape(-1, 2)
         ends = ways + at if letter.islower() else ways
         if letter == "m":  # goes on from the M before it
