@@ -18,6 +18,8 @@ from quizgen.camera.scene import SceneError
 Kernel = NDArray[np.float64]
 
 SAMPLES = 64
+_ROWS = 64
+"""Rows worked on at once, so that what lies in between stays small."""
 LARGEST_BLUR = 800.0
 """Pixels of the widest blur: a kernel needs memory by its square."""
 
@@ -51,8 +53,13 @@ def _disc_area_below(x: Kernel, y: Kernel) -> Kernel:
 def _disc_cells(count: int) -> Kernel:
     """Exact area of a unit disc inside each cell of a count x count grid on [-1, 1]^2."""
     edges = np.linspace(-1.0, 1.0, count + 1)
-    below = _disc_area_below(*np.meshgrid(edges, edges))
-    return np.maximum(np.diff(np.diff(below, axis=0), axis=1), 0.0)
+    cells = np.empty((count, count))
+    for start in range(0, count, _ROWS):
+        rows = edges[start : start + _ROWS + 1]
+        below = _disc_area_below(*np.meshgrid(edges, rows))
+        area = np.diff(np.diff(below, axis=0), axis=1)
+        np.maximum(area, 0.0, out=cells[start : start + _ROWS])
+    return cells
 
 
 def _tents(positions: Kernel) -> Kernel:

@@ -89,24 +89,28 @@ def _parts(
     colour: Image, cover: Image | None, every: int, axis: int
 ) -> Iterator[tuple[Image, Image | None]]:
     """Bands across the axis, or lines along it thinned out to every n-th."""
-    if every > 1:
-        yield _thinned(colour, every, axis), None if cover is None else _thinned(cover, every, axis)
-        return
-    for start in range(0, colour.shape[1 - axis], _ROWS):
-        band = slice(start, start + _ROWS)
+    lines = colour.shape[1 - axis]
+    if every > 1 and axis == 0 and lines >= every * _BESIDE:
+        lines -= lines % (every * _BESIDE)
+    wide = _ROWS * every
+    for start in range(0, lines, wide):
+        band = slice(start, min(start + wide, lines))
         part = (band, slice(None)) if axis == 1 else (slice(None), band)
-        yield colour[part], None if cover is None else cover[part]
+        yield (
+            _thinned(colour[part], every, axis),
+            None if cover is None else _thinned(cover[part], every, axis),
+        )
 
 
 def _thinned(values: Image, every: int, axis: int) -> Image:
     """Every n-th row; of columns some beside each other, which are read together."""
     height, width, channels = values.shape
-    if axis == 1:
-        return values[::every]
     apart = every * _BESIDE
+    if every == 1 or axis == 1:
+        return values[::every]
     if width < apart:
         return values[:, ::every]
-    groups = values[:, : width // apart * apart].reshape(height, -1, apart, channels)
+    groups = values.reshape(height, -1, apart, channels)
     return groups[:, :, :_BESIDE].reshape(height, -1, channels)
 
 

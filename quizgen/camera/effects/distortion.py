@@ -136,7 +136,7 @@ def source(view: View, rows: slice = slice(None)) -> tuple[Image, Image]:
     return x[rows], y[rows]
 
 
-_BAND = 240
+_BAND = 64
 """Rows that are read at once."""
 _KEPT = 1_000_000
 """Pixels of the largest map that is kept as a whole: 8 MB."""
