@@ -13,7 +13,7 @@ from quizgen.cli.terminal import columns, wrapped
 from quizgen.figures import Figure
 from quizgen.files import write_all
 from quizgen.locale import FIRST
-from quizgen.marking.messages import practice_words
+from quizgen.marking.messages import practice_words, read_back
 from quizgen.outside import visible
 from quizgen.practice.session import Session, Turn
 from quizgen.practice.shelf import Shelf
@@ -200,7 +200,8 @@ class Conversation:
                 self._solution(task)
                 task.mark_yourself(right=self._judged(task))
                 return
-        self._say("read", read_as=verdict.read_as)
+        lang = self.session.state.wish.lang
+        self._say("read", read_as=read_back(task.kind, verdict.read_as, lang))
         said = f"{self.words[verdict.verdict]} {verdict.message}".strip()
         say(said, fg=COLOURS[verdict.verdict])
         if feedback.then is Next.AGAIN:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from quizgen.locale import FIRST
 from quizgen.outside import visible
 
 if TYPE_CHECKING:
@@ -45,7 +46,7 @@ def check(
         click.echo(f"quizgen: {visible(' '.join(line.split()))}", err=True)
     there = [one for one in found if one.attempt.responses]
     if there:
-        _print(there, flags)
+        _print(there, lang or FIRST, flags)
     return (1 if there else 2) if lost else 0
 
 
@@ -59,7 +60,7 @@ def _untold(found: Sequence[Marked]) -> Iterator[str]:
             yield f"{one.attempt.where}: {who}: question {number} is not in the keys; not marked"
 
 
-def _print(found: Sequence[Marked], flags: Mapping[str, object]) -> None:
+def _print(found: Sequence[Marked], lang: str, flags: Mapping[str, object]) -> None:
     from quizgen.responses.report import as_csv, as_json, lines
 
     if flags["as_json"]:
@@ -67,5 +68,5 @@ def _print(found: Sequence[Marked], flags: Mapping[str, object]) -> None:
     elif flags["as_csv"]:
         click.echo(as_csv(found), nl=False)
     else:
-        for line in lines(found):
+        for line in lines(found, lang):
             click.echo(line)

@@ -54,6 +54,15 @@ def say(lang: str, note: str, fields: Mapping[str, object]) -> str:
     return sentence.format_map(shown)
 
 
+AS_TYPED = frozenset({"code", "gap", "text"})
+"""Kinds whose answers are words, or what a program prints: their points are no decimal signs."""
+
+
+def read_back(kind: str, read_as: str, lang: str) -> str:
+    """What was read of an answer of a kind, with the decimal sign of a language."""
+    return read_as if kind in AS_TYPED else numbers_in(lang, read_as)
+
+
 _NAMES = frozenset({"names", "detail"})
 """Fields that name quantities."""
 

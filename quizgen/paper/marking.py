@@ -36,6 +36,7 @@ class PartResult(msgspec.Struct, frozen=True):
     points: Fraction
     verdict: Verdict
     marks: Fraction | None
+    kind: str = ""
 
     @property
     def blank(self) -> bool:
@@ -220,7 +221,8 @@ def _result(question: KeyQuestion, part: KeyPart, typed: str, verdict: Verdict) 
     marks: Fraction | None = in_quarters(verdict.credit * worth)
     if verdict.self_marked:
         marks = None
-    return PartResult(part.id, question.number, question.template, typed, worth, verdict, marks)
+    number, template, kind = question.number, question.template, part.spec["kind"]
+    return PartResult(part.id, number, template, typed, worth, verdict, marks, kind)
 
 
 def in_quarters(marks: Fraction) -> Fraction:

@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from quizgen.locale import numbers_in
 from quizgen.marking.echo import safe
-from quizgen.marking.messages import words
+from quizgen.marking.messages import read_back, words
 from quizgen.outside import csv_text
 from quizgen.paper.marking import PaperResult, PartResult
 
@@ -51,7 +51,7 @@ def _row(part: PartResult, lang: str) -> list[str]:
     shown = words(lang).get(part.status, part.status)
     marks = numbers_in(lang, f"{points_text(part.marks)} / {points_text(part.points)}")
     remark = "" if part.blank else part.verdict.message
-    read_as = part.verdict.read_as or safe(part.typed)
+    read_as = read_back(part.kind, part.verdict.read_as, lang) or safe(part.typed)
     return [part.id, shown, marks, read_as, remark]
 
 

@@ -78,6 +78,11 @@ class Task(Generic[P, S]):
         Of the whole question: it carries errors forward to the parts that follow.
     """
 
+    @property
+    def kind(self) -> str:
+        """Kind of the answer, such as ``number``."""
+        return str(self._keyed.spec["kind"])
+
     def __init__(
         self,
         topic: str,

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from statistics import correlation, fmean
 
+from quizgen.locale import numbers_in
 from quizgen.outside import csv_text, visible
 from quizgen.paper.marking import PartResult
 from quizgen.paper.report import note, points_text, width
@@ -134,24 +135,25 @@ def as_json(one: Marked) -> dict[str, object]:
     }
 
 
-def lines(marked: Sequence[Marked]) -> Iterator[str]:
-    """A table of attempts and one of questions."""
-    yield from _table([("name", "id", "marks", "asked back", "to decide"), *map(_row, marked)])
+def lines(marked: Sequence[Marked], lang: str) -> Iterator[str]:
+    """A table of attempts and one of questions, their numbers as in a language."""
+    found = [_row(one, lang) for one in marked]
+    yield from _table([("name", "id", "marks", "asked back", "to decide"), *found])
     yield ""
-    found = [_question(one) for one in statistics(marked)]
+    found = [_question(one, lang) for one in statistics(marked)]
     yield from _table([("question", "asked", "marks", "r", "most often"), *found])
 
 
-def _row(one: Marked) -> tuple[str, ...]:
+def _row(one: Marked, lang: str) -> tuple[str, ...]:
     result = one.result
     again = f" ({one.number})" if one.number > 1 else ""
-    marks = f"{points_text(result.marks)} / {points_text(result.points)}"
+    marks = numbers_in(lang, f"{points_text(result.marks)} / {points_text(result.points)}")
     name = visible(one.attempt.name) + again
     return (name, visible(one.attempt.who[0]), marks, str(result.asked_back), str(result.to_decide))
 
 
-def _question(one: Statistics) -> tuple[str, ...]:
-    apart = "" if one.apart is None else f"{one.apart:.2f}"
+def _question(one: Statistics, lang: str) -> tuple[str, ...]:
+    apart = "" if one.apart is None else numbers_in(lang, f"{one.apart:.2f}")
     notes = ", ".join(f"{count} {name}" for name, count in one.notes)
     return (visible(one.number), str(one.count), f"{one.share:.0%}", apart, notes)
 

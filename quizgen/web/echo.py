@@ -10,6 +10,7 @@ from markupsafe import Markup, escape
 
 from quizgen import typeset
 from quizgen.errors import FormulaError
+from quizgen.locale import numbers_in
 from quizgen.marking.mark import mark
 from quizgen.maths.notation import ReadError, parse
 from quizgen.maths.notation.people import number
@@ -30,18 +31,18 @@ _FRACTION = re.compile(r"[-−]?(\d{1,15})/(\d{1,15})")
 _HALF = re.compile(r"[-−+*/^(.,=:;·×]\s*$")
 
 
-def read_back(field: MadeField, key: KeyQuestion, values: Sequence[str]) -> Markup:
-    """How an answer is read, typeset; empty if it is not complete yet, or of another kind."""
+def read_back(field: MadeField, key: KeyQuestion, values: Sequence[str], lang: str) -> Markup:
+    """How an answer is read, typeset as in a language; empty if it is incomplete, or not read."""
     part = next(part for part in key.parts if part.id == field.id)
     typed = joined(field.control, values, field.marks)
     if part.spec["kind"] not in READ or not typed or any(map(_HALF.search, values)):
         return Markup()
     verdict = mark(part.in_order(), typed)
     boxes = bool(field.control.boxes)
-    return _typeset(verdict.read_as, boxes=boxes) if verdict.graded else Markup()
+    return _typeset(verdict.read_as, lang, boxes=boxes) if verdict.graded else Markup()
 
 
-def _typeset(text: str, *, boxes: bool = False) -> Markup:
+def _typeset(text: str, lang: str, *, boxes: bool = False) -> Markup:
     """Several values one by one, with what stands around and between them.
 
     From boxes they come without the brackets that nobody typed, and each with its unit.
@@ -51,20 +52,22 @@ def _typeset(text: str, *, boxes: bool = False) -> Markup:
     if boxes:
         unit = after.lstrip(")}]")
         before, inner, after = "", inner.replace("; ", f"{unit}; ") + unit, ""
-    pieces = [escape(p) if _BETWEEN.fullmatch(p) else _piece(p) for p in _BETWEEN.split(inner)]
+    pieces = [
+        escape(p) if _BETWEEN.fullmatch(p) else _piece(p, lang) for p in _BETWEEN.split(inner)
+    ]
     return escape(before) + Markup().join(pieces) + escape(after)
 
 
-def _piece(text: str) -> Markup:
+def _piece(text: str, lang: str) -> Markup:
     """A formula, or a value and its unit; a fraction with what it is about."""
     value = _VALUE.fullmatch(text)
     if value and _is_unit(value[2]):
-        return _piece(value[1]) + ("" if value[2] == "deg" else " ") + shown(value[2])
+        return _piece(value[1], lang) + ("" if value[2] == "deg" else " ") + shown(value[2])
     try:
-        maths = Markup(typeset.mathml(typeset.layout(parse(text)), "en"))
+        maths = Markup(typeset.mathml(typeset.layout(parse(text)), lang))
     except (FormulaError, ReadError):
-        return escape(text)
-    return maths + _about(text)
+        return escape(numbers_in(lang, text))
+    return maths + numbers_in(lang, _about(text))
 
 
 def _about(text: str) -> str:

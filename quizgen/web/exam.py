@@ -261,8 +261,9 @@ async def echo(request: Request) -> Response:
     paper = await _paper(request, await _sitting(request))
     part, place = _part(paper, request.path_params["part"])
     values = every(form, FIELDS + part.field.id)
-    read = read_back(part.field, paper.items[place].key, values)
-    return HTMLResponse(said(lang_of(request), "practice.read", value=read) if read else "")
+    lang = lang_of(request)
+    read = read_back(part.field, paper.items[place].key, values, lang)
+    return HTMLResponse(said(lang, "practice.read", value=read) if read else "")
 
 
 async def judge(request: Request) -> Response:

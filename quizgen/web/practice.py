@@ -162,8 +162,9 @@ async def echo(request: Request) -> Response:
     field = next((part.field for part in made.parts if part.field.id == name), None)
     if field is None:
         raise HTTPException(404)
-    read = read_back(field, made.key, every(form, "a"))
-    return HTMLResponse(said(lang_of(request), "practice.read", value=read) if read else "")
+    lang = lang_of(request)
+    read = read_back(field, made.key, every(form, "a"), lang)
+    return HTMLResponse(said(lang, "practice.read", value=read) if read else "")
 
 
 async def variant(request: Request) -> Response:

@@ -12,8 +12,10 @@ from click.testing import CliRunner
 from quizgen.cli.check import check
 from quizgen.paper.blueprint import load_blueprint
 from quizgen.paper.form import form_bytes
-from quizgen.paper.key import key_bytes
+from quizgen.paper.key import FORMAT, Key, KeyPart, KeyQuestion, key_bytes
+from quizgen.paper.marking import mark_paper
 from quizgen.paper.paper import build
+from quizgen.paper.report import rows
 
 
 @pytest.fixture
@@ -119,3 +121,23 @@ def test_a_page_of_another_paper_beside_the_key_is_told(folder):
     done = marked(folder, "answers.toml")
     assert done.exit_code != 0
     assert "another paper" in str(done.exception)
+
+
+READ = {
+    "number": ({"value": "5/2"}, "2.50", "2,50"),
+    "quantity": ({"value": "5/2", "unit": "mm"}, "2.5mm", "2,5 mm"),
+    "code": ({"output": "2.5"}, "2.5", "2.5"),
+    "gap": ({"accept": ["f/2.8"]}, "f/2.8", "f/2.8"),
+}
+"""Kind to the rest of its spec, what is typed, and how a German page reads it back."""
+
+
+@pytest.mark.parametrize("kind", READ)
+def test_what_was_read_has_the_decimal_sign_of_the_language(kind):
+    more, typed, shown = READ[kind]
+    part = KeyPart("1", "1", {"kind": kind, **more})
+    key = Key(FORMAT, [KeyQuestion("1", [part])])
+    result = mark_paper(key, {"1": typed}, "de")
+    ((_, cells),) = rows(result, "de")
+    assert cells[3] == shown
+    assert result.parts[0].verdict.read_as == shown.replace(",", ".")

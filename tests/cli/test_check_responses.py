@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import re
 from pathlib import Path
 
 from inside import run
@@ -78,3 +79,9 @@ def test_from_an_export_to_marks(tmp_path):
     (tmp_path / "r.csv").write_text("\n".join(rows), encoding="utf-8")
     done = run("check", "u.xml.keys.jsonl", "r.csv", "--json", cwd=tmp_path)
     assert [one["marks"] for one in json.loads(done.stdout)] == [2, 2]
+
+
+def test_the_table_has_the_decimal_sign_of_the_language_chosen(tmp_path):
+    table = run("check", KEYS, GOOD, "--lang", "de", cwd=tmp_path).stdout
+    assert "14,25 / 31" in table
+    assert not re.search(r"\d\.\d", table)

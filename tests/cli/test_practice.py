@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import time
 from functools import cache
+from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
@@ -298,3 +299,16 @@ def test_topics_are_found_in_capitals_and_by_their_title(topic):
 def test_every_sentence_exists_in_every_language():
     first, *others = (practice_words(lang) for lang in languages())
     assert all(first.keys() == other.keys() for other in others)
+
+
+def test_a_german_answer_is_read_back_with_a_comma(shelf):
+    bank = Path(__file__).parents[2] / "examples" / "filtering"
+    done = CliRunner().invoke(
+        practice.practice,
+        ["--bank", str(bank), "--trust", "--lang", "de", "--count", "3", "--seed", "s"],
+        input="0.5\n" * 60,
+    )
+    word = practice_words("de")["read"].split("{")[0]
+    read = [line.partition(word)[2] for line in done.output.splitlines() if word in line]
+    assert [text for text in read if text.startswith("0,5")]
+    assert not [text for text in read if "0.5" in text]

@@ -34,7 +34,7 @@ def plain(page: str) -> str:
     ],
 )
 def test_values_are_typeset_with_their_units(read, shown):
-    page = str(_typeset(read))
+    page = str(_typeset(read, "en"))
     if shown is not None:
         assert plain(page) == shown
 
@@ -49,4 +49,17 @@ def test_values_are_typeset_with_their_units(read, shown):
     ],
 )
 def test_values_of_boxes_are_read_back_one_by_one(read, shown):
-    assert plain(str(_typeset(read, boxes=True))) == shown
+    assert plain(str(_typeset(read, "en", boxes=True))) == shown
+
+
+@pytest.mark.parametrize(
+    ("read", "shown"),
+    [
+        ("20/3 mm", "[20|3] ≈ 6,667 mm"),
+        ("6.667 mm", "6,667 mm"),
+        ("(2/5; 0.5)", "([2|5] = 0,4; 0,5)"),
+        ("0.5*x", "0,5⁢x"),
+    ],
+)
+def test_a_german_page_reads_back_with_a_comma(read, shown):
+    assert plain(str(_typeset(read, "de"))) == shown
