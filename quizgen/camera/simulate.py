@@ -21,7 +21,7 @@ from quizgen.camera.draw import Layer, Sheet, Stack, composite, lay_over, sheets
 from quizgen.camera.effect import Effect, LayerByLayer, PointByPoint
 from quizgen.camera.facts import EXCEEDED
 from quizgen.camera.filters import warm_up
-from quizgen.camera.margins import cropped
+from quizgen.camera.margins import cropped, moved_together
 from quizgen.camera.plan import Prepared, decided, everything
 from quizgen.camera.scene import Image, Scene
 from quizgen.camera.view import View
@@ -161,10 +161,13 @@ class _Run:
                 started, view = perf_counter(), self._view(step)
                 (layer,) = _effect(step).run((cropped(layer, view),), view, step.rung)
                 self._count(step, started)
-            picture = self._over(cropped(layer, then), picture)
+            picture = self._over(layer, picture, then)
         self.stack = [Layer(picture)] if picture is not None else []
 
-    def _over(self, layer: Layer, behind: Image | None) -> Image:
+    def _over(self, layer: Layer, behind: Image | None, view: View) -> Image:
+        if behind is None and self._ours(layer.colour):
+            return moved_together(layer.colour, view)
+        layer = cropped(layer, view)
         if behind is None:
             return layer.colour
         return lay_over(layer, behind if self._ours(behind) else behind.copy())

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from quizgen.camera import Camera, Length, Scene, Thing
+from quizgen.camera import Camera, Length, Scene, Thing, View
+from quizgen.camera.margins import moved_together
 from quizgen.camera.plan import Prepared, everything
 from quizgen.camera.simulate import run, simulate_everything
 
@@ -125,3 +126,21 @@ def test_what_is_left_out_leaves_the_frame():
     bare = run(prepared, everything(Prepared(prepared.given.scene, CAMERA)))
     assert whole.values.shape == bare.values.shape == (HEIGHT, WIDTH, 3)
     assert np.array_equal(bare.values, taken(CAMERA, wall()))
+
+
+def test_rows_moved_together_are_the_middle():
+    """In the memory of the wider picture, so no row may be written over before it is read."""
+    view = View(Scene(7, 5), CAMERA)
+    for beside in (1, 3, 9):
+        wide = np.random.default_rng(beside).random((5 + 2 * beside, 7 + 2 * beside, 3))
+        middle = wide[beside:-beside, beside:-beside].copy()
+        moved = moved_together(wide, view)
+        assert np.array_equal(moved, middle)
+        assert np.shares_memory(moved, wide)
+
+
+def test_what_was_drawn_is_not_written_over():
+    """Layers that are photographed twice keep what they show."""
+    prepared = Prepared(Scene(WIDTH, HEIGHT, (wall(depth=5.0),)), CAMERAS["shear"])
+    first, again = (run(prepared, everything(prepared)).values for _ in range(2))
+    assert np.array_equal(first, again)
