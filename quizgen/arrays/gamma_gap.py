@@ -18,11 +18,12 @@ import numpy as np
 from quizgen.arrays.aliases import Array, Counts
 from quizgen.arrays.double_double import SPLITTER, Pair, split, two_difference, two_sum
 from quizgen.arrays.kernel import lowest
-from quizgen.arrays.logarithm import log_pair
+from quizgen.arrays.logarithm import LN2, log_pair
 from quizgen.arrays.polynomial import horner
 from quizgen.arrays.power import halves, raised
 
 _TOE = 2.0**-900
+_SLOW = 0.1
 _REACH = 2.0**400
 """Squares of values from its inverse to it neither overflow nor underflow."""
 
@@ -129,6 +130,23 @@ class Gap:
         self.smooth_start, self.smooth = Pair(*halves(first)), [float(c) for c in rest]
 
     def __call__(self, a: Array, b: Array) -> Array:
+        """The gap; for a small exponent even a value counts that is nothing beside the other."""
+        found = self.scaled(a, b)
+        if self.fraction < _SLOW:
+            least, most = np.minimum(a, b), np.maximum(a, b)
+            where = np.flatnonzero((least > 0) & (least < most * _TOE))
+            if where.size:
+                found[where] = self.far(least.take(where), most.take(where))
+        return found
+
+    def far(self, least: Array, most: Array) -> Array:
+        """Where the ratio of the values is below all that d can be told from 1."""
+        e = self.exponent[0]
+        ratio = np.log(np.ldexp(least, 600)) - np.log(most) - 599 * LN2.high
+        shape: Array = np.expm1(e * ratio) + math.expm1(e * LN2.high)
+        return shape * -0.5 * raised(0.5 * most, self.exponent)
+
+    def scaled(self, a: Array, b: Array) -> Array:
         """Keep sums and products away from overflow and underflow by a power of two."""
         top = np.maximum(a, b)
         if top.max() <= _REACH and lowest(top) >= 1 / _REACH:

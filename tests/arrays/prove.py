@@ -22,6 +22,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import counted
+import gaps
 import uniform
 from enclosures import ORDER, UNIT, boxes, farthest, on_one
 from flint import arb, arb_series, ctx
@@ -32,6 +33,7 @@ from quizgen.arrays import (
     distortion,
     double_double,
     gamma,
+    gamma_gap,
     gaussian,
     hsv,
     logarithm,
@@ -186,6 +188,7 @@ SUMS = (poisson._by_sum, poisson._sum_up, poisson._sum_down, *PROBABILITY)
 UNIFORM = (
     poisson._uniform_lower, poisson._uniform_rest, gaussian.mills, *LOGARITHM, tables,
 )  # fmt: skip
+GAP = (gamma_gap, power, *LOGARITHM)
 FOLD = (quintic.Quintic.inside, quintic.Quintic.fold, distortion._fold, double_double)
 PIECES = {
     "gaussian.far_tail": Piece(far_bound, 0.6999, 37.5, 4000, TAIL),
@@ -193,6 +196,11 @@ PIECES = {
     "gaussian.quantile next to 1/2": Piece(middle_bound, 0.0, 0.42501, 400, QUANTILE),
     "gaussian.quantile to exp(-25)": Piece(tail_bound, 1.609, 5.0001, 2000, QUANTILE),
     "gaussian.quantile below exp(-25)": Piece(newton_bound, 4.9999, 27.285, 4000, QUANTILE),
+    "gamma.gap, relative difference to 0.85": Piece(
+        gaps.narrow_bound, 0.0, 2 * gamma_gap._CENTRE, 60, GAP
+    ),
+    "gamma.gap, to 1 (by exponent)": Piece(gaps.wide_bound, 0.0, 1.0, 100, GAP),
+    "gamma.gap, a ratio below 2^-900": Piece(gaps.far_bound, 0.0, 1.0, 1, GAP),
     "power.raised": Piece(counted.raised_bound, 0.0, 1.0, 1, (power,)),
     "hsv.to_rgb": Piece(counted.hsv_bound, 0.0, 1.0, 1, HSV),
     "gamma.srgb_decode, dim": Piece(counted.dim_bound, 0.0, 0.0405, 1, DECODE),

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import random
+from fractions import Fraction
 
 import flint
+import gaps
+import mpmath as mp
 import numpy as np
 import prove
 import pytest
@@ -114,3 +117,45 @@ def test_lower_tails_of_any_count_keep_to_the_bound(exponent, deviations):
     assert off / prove.UNIT < float(
         ROWS["poisson.lower by Temme's expansion (root of twice the excess)"][0]
     )
+
+
+def gap_over_q(e, q):
+    d = mp.sqrt(q)
+    return (1 - ((1 + d) ** e + (1 - d) ** e) / 2) / q
+
+
+@pytest.mark.parametrize("e", [0.01, 0.3, 0.9])
+@pytest.mark.parametrize("q", [0.1, 0.7])
+def test_the_gap_is_the_integral_that_its_bound_is_made_of(e, q):
+    with mp.workdps(25):
+        found = mp.quad(
+            lambda root: 2 * (root - 1) ** e / (root * (root * root - q)),
+            [1, 1.5, 2, 4, 100, mp.inf],
+        )
+        assert mp.almosteq(mp.sin(mp.pi * e) / (2 * mp.pi) * found, gap_over_q(e, q), 1e-8)
+
+
+@pytest.mark.parametrize("exponent", ["1/100", "1/4", "5/11", "9/10"])
+def test_the_polynomial_of_the_gap_is_within_its_bound(exponent):
+    e = Fraction(exponent)
+    over_q, _ = prove.gamma_gap._direct(e)
+    parts = prove.gamma_gap._interpolate(over_q, 0.0, 2 * gaps.CENTRE, gaps.CENTRE, gaps.COUNT)
+    with mp.workdps(60):
+        for place in range(60):
+            w = mp.mpf(2 * gaps.CENTRE) * (place + mp.mpf(1) / 3) / 60
+            found = mp.polyval(
+                [mp.mpf(c.numerator) / c.denominator for c in reversed(parts)], w - gaps.CENTRE
+            )
+            exact = gap_over_q(mp.mpf(e.numerator) / e.denominator, w / (1 + gaps.BEND * w))
+            ends = 2 * gaps.CENTRE * place / 60, 2 * gaps.CENTRE * (place + 1) / 60
+            assert abs(found / exact - 1) < gaps.interpolation(ends)
+
+
+@pytest.mark.parametrize("gamma", [1.4, 9.9, 10.1, 50, 100, 1e4])
+def test_gaps_of_values_that_are_nothing_beside_the_other_keep_to_their_bound(gamma):
+    for small in (5e-324, 7.4e-323, 3e-310, 1e-280, 1e-200, 1e-30):
+        with mp.workdps(60):
+            a, b, e = mp.mpf(small), mp.mpf(0.75), 1 / mp.mpf(str(gamma))
+            exact = ((a + b) / 2) ** e - (a**e + b**e) / 2
+            off = abs(mp.mpf(float(prove.gamma.gap(small, 0.75, gamma))) / exact - 1)
+        assert off < 10 * 2**-53
