@@ -13,7 +13,7 @@ import msgspec
 from quizgen.cards.content import words
 from quizgen.cards.note import field_name, field_names
 from quizgen.cards.versions import BASE, STEP
-from quizgen.locale import FIRST, language, line_heights
+from quizgen.locale import FIRST, language, styles
 from quizgen.shapes import converted
 
 NAMES = {"basic": "Quizgen", "term": "Quizgen term", "cloze": "Quizgen formula"}
@@ -53,7 +53,7 @@ def identity(name: str) -> int:
 
 def style() -> str:
     """The style sheet of every note type."""
-    return _file("card.css") + line_heights('.qg [lang="{}"]')
+    return _file("card.css") + styles('.qg [lang="{}"]', ".qg")
 
 
 def _each(name: str, columns: Columns) -> str:

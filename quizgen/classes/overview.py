@@ -23,7 +23,7 @@ from quizgen.classes.rulings import read_rulings
 from quizgen.classes.scale import Scale, read_scale
 from quizgen.errors import ClassError
 from quizgen.files import PRIVATE, write_all
-from quizgen.locale import FIRST, line_heights, numbers_in, table
+from quizgen.locale import FIRST, numbers_in, styles, table
 from quizgen.marking.options import Options
 from quizgen.paper.key import Key
 from quizgen.paper.marking import Marker
@@ -57,7 +57,7 @@ def analyse(folder: ClassFolder, lang: str = FIRST) -> tuple[Analysis, Path]:
             words=table(lang, "classes")["analysis"],
             bangla_fonts=bangla_faces([lang], folder.settings.name),
             found=found,
-            style=Markup(line_heights(":lang({})")) + style(),
+            style=Markup(styles(":lang({})")) + style(),
             svg=_plots(found, scale, lang),
             mean=statistics.fmean(found.totals),
             spread=statistics.stdev(found.totals) if found.students > 1 else 0.0,

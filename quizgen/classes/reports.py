@@ -12,7 +12,7 @@ from markupsafe import Markup
 
 from quizgen.classes.grades import Graded
 from quizgen.classes.mark import DROPPED, Marks, PartMark, item_of
-from quizgen.locale import FIRST, amount, known, line_heights, numbers_in, table
+from quizgen.locale import FIRST, amount, known, numbers_in, styles, table
 from quizgen.marking.mark import show
 from quizgen.marking.options import Options
 from quizgen.outside import visible
@@ -246,7 +246,7 @@ def report_html(report: Report) -> bytes:
         .render(
             report=report,
             words=report.words,
-            style=Markup(line_heights(":lang({})")) + style(),
+            style=Markup(styles(":lang({})")) + style(),
             bangla_fonts=bangla_faces([report.lang], str(report)),
         )
     )

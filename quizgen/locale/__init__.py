@@ -150,7 +150,8 @@ def language(lang: str) -> Language:
     if file is None and lang not in _HEARD:
         raise QuizgenError(f"no language {lang!r} (there are {', '.join(languages())})")
     try:
-        return converted({"name": lang, "english": lang} | _read(file), Language)
+        usual = {"name": lang, "english": lang, "script": brought.script_of(lang)}
+        return converted(usual | _read(file), Language)
     except msgspec.ValidationError as error:
         what, _, key = str(error).partition(" - at `$.")
         raise QuizgenError(f"{file}: {key.rstrip('`')}{': ' if key else ''}{what}") from error
@@ -168,19 +169,45 @@ def numbers_in(lang: str, text: str) -> str:
     return text if sign == "." else _POINT.sub(sign, text)
 
 
+def from_right(lang: str) -> bool:
+    """Whether a language is written from right to left."""
+    return language(lang).script in brought.RIGHT_TO_LEFT
+
+
 def in_script(script: str) -> tuple[str, ...]:
     """Languages that are written in a script, such as ``Beng``: those that need its fonts."""
     return tuple(lang for lang in languages() if language(lang).script == script)
 
 
-def line_heights(rule: str) -> str:
-    """The style of those languages whose lines have a height of their own.
+def styles(rule: str, within: str = "") -> str:
+    """The style of languages that need one: for the height of lines, and for their direction.
 
     Parameters
     ----------
     rule : str
-        A selector with ``{}`` for the language.
+        A selector with ``{}`` for the language, whose lines have a height of their own.
+    within : str
+        A selector of what alone is styled.
     """
+    return _line_heights(rule) + _directions(within)
+
+
+def _directions(within: str) -> str:
+    """Languages from right to left, and what is none in them; nothing if there are no such."""
+    found = [f'{within} [lang="{lang}"]'.strip() for lang in languages() if from_right(lang)]
+    if not found:
+        return ""
+    return (
+        f"{within} [lang] {{ direction: ltr; unicode-bidi: isolate; }}\n".lstrip()
+        + "".join(
+            f"{one} {{ direction: rtl; }}\n{one} dd {{ margin: 0 .35rem; }}\n" for one in found
+        )
+        + f"{within} :is(math, code, pre, svg) ".lstrip()
+        + "{ direction: ltr; unicode-bidi: isolate; }\n"
+    )
+
+
+def _line_heights(rule: str) -> str:
     heights = {lang: language(lang).line_height for lang in languages()}
     return "".join(
         f"{rule.format(lang)} {{ line-height: {height:g}; }}\n"

@@ -18,6 +18,17 @@ from quizgen.outside import parse_toml, read_text
 TAG = r"[a-z]{2,3}(?:-[A-Z][a-z]{3})?(?:-(?:[A-Z]{2}|[0-9]{3}))?"
 """A language as BCP 47 names it: ``fr``, ``pt-BR``, ``sr-Latn``."""
 
+RIGHT_TO_LEFT = frozenset({"Adlm", "Arab", "Hebr", "Mand", "Nkoo", "Rohg", "Samr", "Syrc", "Thaa"})
+"""Scripts that are written from right to left, by ISO 15924."""
+_USUAL = {
+    **dict.fromkeys(("ar", "ckb", "fa", "ps", "sd", "ug", "ur"), "Arab"),
+    **dict.fromkeys(("he", "yi"), "Hebr"),
+    "dv": "Thaa",
+    "nqo": "Nkoo",
+    "syr": "Syrc",
+}
+"""Language to its script, where that is written from right to left."""
+
 Words = dict[str, Any]
 
 
@@ -30,6 +41,18 @@ def is_tag(text: str) -> bool:
     (True, True, False, False)
     """
     return re.fullmatch(TAG, text) is not None
+
+
+def script_of(tag: str) -> str:
+    """The script of a language: as its tag says, else the usual one.
+
+    Examples
+    --------
+    >>> script_of("he"), script_of("az-Arab-IR"), script_of("ur-Latn"), script_of("fr")
+    ('Hebr', 'Arab', 'Latn', 'Latn')
+    """
+    first, *rest = tag.split("-")
+    return next((one for one in rest if len(one) == 4), _USUAL.get(first, "Latn"))
 
 
 def as_tag(text: str) -> str:

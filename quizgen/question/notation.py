@@ -7,6 +7,7 @@ written. Programs, keys and what is typed back stay as they are.
 
 from __future__ import annotations
 
+import re
 from typing import Any, TypeVar
 
 import msgspec
@@ -14,13 +15,17 @@ from msgspec.structs import replace
 
 from quizgen.bank.prose import Code, CodeBlock, Formula, Slot, Words
 from quizgen.figures import Drawing
-from quizgen.locale import language, numbers_in
+from quizgen.locale import from_right, language, numbers_in
 from quizgen.question.contract import Control
 from quizgen.question.shown import Maths
 
 Said = TypeVar("Said")
 LEFT = (Code, CodeBlock, Control, Drawing, Formula, Slot)
 """What has no numbers for a learner, or its own way to write them."""
+_LEFT_TO_RIGHT = "\u200e"
+"""What stands behind it is written so, as far as it can be either way: signs, digits, blanks."""
+_WITH_UNIT = re.compile(r"(?<![\w.,])[−+-]?\d[\d.,\u202f]*[ \u00a0](?=[A-Za-zµ°Ω%])")
+"""A number before a unit, which would else stand to the right of it among other letters."""
 
 
 def in_notation(lang: str, said: Said) -> Said:
@@ -32,12 +37,14 @@ def in_notation(lang: str, said: Said) -> Said:
     said : prose, or a structure that holds some
         Whatever else it holds stays as it is.
     """
-    return said if language(lang).decimal == "." else _written(lang, said)
+    as_it_is = language(lang).decimal == "." and not from_right(lang)
+    return said if as_it_is else _written(lang, said)
 
 
 def _written(lang: str, said: Any) -> Any:
     if isinstance(said, Words):
-        return Words(numbers_in(lang, said.text))
+        text = numbers_in(lang, said.text)
+        return Words(_WITH_UNIT.sub(rf"{_LEFT_TO_RIGHT}\g<0>", text) if from_right(lang) else text)
     if isinstance(said, Maths):
         return replace(said, lang=lang)
     if isinstance(said, tuple):

@@ -8,7 +8,7 @@ from pathlib import Path
 import jinja2
 from markupsafe import Markup
 
-from quizgen.locale import amount, language, line_heights, marks, word
+from quizgen.locale import amount, language, marks, styles, word
 from quizgen.paper.paper import Paper
 from quizgen.question.markup import OURS, Manner, blocks, display, inline
 from quizgen.render import fonts
@@ -39,7 +39,7 @@ def _layouts(way: Manner = OURS) -> jinja2.Environment:
 @cache
 def _style() -> str:
     page = (_HERE / "pages" / "paper.css").read_text(encoding="utf-8")
-    return line_heights(":lang({})") + page
+    return styles(":lang({})") + page
 
 
 def _board(name: str) -> Markup:

@@ -12,7 +12,7 @@ from markupsafe import Markup
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 
-from quizgen.locale import amount, known, language, line_heights, marks, table, word
+from quizgen.locale import amount, known, language, marks, styles, table, word
 from quizgen.practice.schedule import day_of
 from quizgen.render.layouts import environment
 from quizgen.web.door import form_token
@@ -31,8 +31,8 @@ def _layouts() -> jinja2.Environment:
 
 @cache
 def language_style() -> str:
-    """The style of languages whose lines have a height of their own."""
-    return line_heights(":lang({})")
+    """The style of languages that need one."""
+    return styles(":lang({})")
 
 
 def said(lang: str, key: str, **values: object) -> str:

@@ -210,3 +210,20 @@ def test_what_names_no_language_is_taken_up_by_nothing(lang):
 def test_a_browser_is_answered_in_the_nearest_language(asked, spoken):
     scope = {"query_string": b"", "headers": [(b"accept-language", asked.encode())]}
     assert _visitor(scope, ("fr", "pt-BR")).settings["lang"] == spoken
+
+
+def test_a_language_from_right_to_left_is_written_so(tmp_path):
+    """Its formulas and the words of other languages are not."""
+    assert brought.script_of("he") == "Hebr"
+    assert "rtl" not in locale.styles(":lang({})")
+    quizgen(tmp_path, "new", "bank", "masa", "--lang", "he")
+    asked = ("exam", "--bank", "masa", "--trust", "--topic", "example")
+    quizgen(tmp_path, *asked, "--format", "html", "--out", "p", "--seed", "5")
+    for name in ("exam", "solutions"):
+        page = (tmp_path / "p" / f"{name}.html").read_text("utf-8")
+        assert '<html lang="he"' in page
+        assert '[lang="he"] { direction: rtl; }' in page
+        assert ":is(math, code, pre, svg) { direction: ltr;" in page
+        assert re.search(
+            r"\u200e\d+\u00a0m\b", page
+        )  # the mark keeps a unit to the right of its number
