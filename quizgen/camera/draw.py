@@ -96,11 +96,11 @@ def lay_over(layer: Layer, picture: Image) -> Image:
     height = max(1, _BAND // max(1, columns.stop - columns.start))
     for start in range(rows.start, rows.stop, height):
         part = slice(start, min(start + height, rows.stop)), columns
-        _blend(picture[part], 1.0 - cover[part], layer.colour[part])
+        blend(picture[part], 1.0 - cover[part], layer.colour[part])
     return picture
 
 
-def _blend(behind: Image, keep: Image, image: Image) -> None:
+def blend(behind: Image, keep: Image, image: Image) -> None:
     """Keep a share of what is behind, one for all channels or one for each, and add an image."""
     if keep.shape == behind.shape:
         behind *= keep
@@ -211,9 +211,9 @@ def _add(layer: Layer, thing: Thing, view: View, part: Box) -> None:
         return
     if cover.min() < 1.0:
         keep = 1.0 - cover
-        _blend(layer.colour[part], keep, _shown(thing, view, (x, y), cover[..., 0]))
+        blend(layer.colour[part], keep, _shown(thing, view, (x, y), cover[..., 0]))
         if layer.cover is not None:
-            _blend(layer.cover[part], keep, cover)
+            blend(layer.cover[part], keep, cover)
         return
     layer.colour[part] = _shown(thing, view, (x, y), cover[:1, :, 0])  # nothing behind is kept
     if layer.cover is not None:

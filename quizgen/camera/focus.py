@@ -14,11 +14,11 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from quizgen.camera.costs import convolution
-from quizgen.camera.draw import Layer, Sheet, sheets
+from quizgen.camera.draw import Layer, Sheet, blend, content, sheets
 from quizgen.camera.facts import Error, Facts, LayerFacts
 from quizgen.camera.filters import convolve
 from quizgen.camera.kernels import Kernel, change, disc
-from quizgen.camera.layers import Field, blurred, farthest, within
+from quizgen.camera.layers import Field, blurred, farthest, wider, within
 from quizgen.camera.scene import Image
 from quizgen.camera.view import View
 
@@ -68,19 +68,21 @@ def _blurred_by_depth(sharp: Image, diameters: NDArray[np.floating], rung: str) 
     """
     middles = slices((float(diameters.min()), float(diameters.max())), rung)
     step = middles[1] - middles[0] if len(middles) > 1 else math.inf
-    index = np.clip(np.rint((diameters - middles[0]) / step).astype(int), 0, len(middles) - 1)
+    index = np.clip(np.rint((diameters - middles[0]) / step), 0, len(middles) - 1).astype(np.uint8)
     picture = sharp
     for number in range(len(middles) - 1, -1, -1):
-        mask = (index == number)[..., None].astype(sharp.dtype)
-        if not mask.any():
+        there = (index == number)[..., None]
+        if not there.any():
             continue
         kernel = disc(float(middles[number]))
-        colour, cover = convolve(sharp * mask, kernel), convolve(mask, kernel)
+        part = wider(content(there), kernel.shape[0] // 2, sharp.shape)
+        mask = there[part].astype(sharp.dtype)
+        colour, cover = convolve(sharp[part] * mask, kernel), convolve(mask, kernel)
         if picture is sharp:
-            seen = cover > 1e-3
-            picture = np.where(seen, colour / np.where(seen, cover, 1.0), picture)
+            picture, seen = sharp.copy(), cover > 1e-3
+            np.copyto(picture[part], colour / np.where(seen, cover, 1.0), where=seen)
         else:
-            picture = colour + (1.0 - cover) * picture
+            blend(picture[part], 1.0 - cover, colour)
     return picture
 
 

@@ -83,10 +83,11 @@ def _reached(layer: Layer, reach: float) -> Box:
     shape = layer.colour.shape
     if layer.cover is None:
         return slice(0, shape[0]), slice(0, shape[1])
-    return _wider(content(layer.cover), math.ceil(min(reach, sum(shape))) + 1, shape)
+    return wider(content(layer.cover), math.ceil(min(reach, sum(shape))) + 1, shape)
 
 
-def _wider(box: Box, far: int, shape: tuple[int, ...]) -> Box:
+def wider(box: Box, far: int, shape: tuple[int, ...]) -> Box:
+    """A box, unless it is empty, with so much more on each side as there is."""
     if not box[0].stop:
         return box
     rows, columns = (

@@ -266,22 +266,35 @@ def _scene(file: _File, things: tuple[Thing, ...], precision: Precision | None) 
         shape = (values.get("height"), values.get("width"))
         if nearness.shape[:2] != shape:
             raise file.fail("scene", 0, "depth_map", "a depth map needs an image of its size")
-        values["depth"] = _depths(nearness, near, far).astype(kind)
+        values["depth"] = _depths(nearness, near, far, kind)
     return Scene(things=things, file=file.path, **values)
 
 
-def _depths(nearness: png.Codes, near: float, far: float) -> Image:
-    """White is near, black is far, linear in 1/z."""
-    share = nearness[..., 0] / float(np.iinfo(nearness.dtype).max)
+_ROWS = 64
+
+
+def _depths(nearness: png.Codes, near: float, far: float, precision: Precision) -> Image:
+    """White is near, black is far, linear in 1/z; looked up for every code."""
+    top = int(np.iinfo(nearness.dtype).max)
+    share = np.arange(top + 1) / top
     inverse = share / near + (1.0 - share) / far
-    return np.asarray(1.0 / np.maximum(inverse, 1e-9))
+    table = np.asarray(1.0 / np.maximum(inverse, 1e-9), precision)
+    return _looked_up(table, nearness[..., 0])
 
 
 def _linear(codes: png.Codes, precision: Precision) -> Image:
     """Radiance of every code, looked up."""
     top = int(np.iinfo(codes.dtype).max)
     table = np.asarray(srgb_decode(np.arange(top + 1) / top), precision)
-    return np.asarray(table[codes])
+    return _looked_up(table, codes)
+
+
+def _looked_up(table: Image, codes: png.Codes) -> Image:
+    """A value for every code; some rows at once, as codes become larger numbers for it."""
+    found = np.empty(codes.shape, table.dtype)
+    for start in range(0, len(codes), _ROWS):
+        found[start : start + _ROWS] = table[codes[start : start + _ROWS]]
+    return found
 
 
 def _picture(file: _File, key: str, name: str) -> png.Codes:
