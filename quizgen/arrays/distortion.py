@@ -13,7 +13,7 @@ from quizgen.arrays.aliases import Array, Counts, Flags, Numbers, Result
 from quizgen.arrays.domain import NONNEGATIVE, REAL, Rule
 from quizgen.arrays.kernel import Kernel, lowest
 from quizgen.arrays.quintic import Quintic, cubic, room
-from quizgen.arrays.rational import binary, exactly, over_power
+from quizgen.arrays.rational import ONE, binary, exactly, over_power
 
 _UNSURE = 2.0**-40
 _REACH = 2.0**60
@@ -49,7 +49,8 @@ def _distort_exact(x: fmpq, y: fmpq, k1: fmpq, k2: fmpq) -> tuple[float, float]:
     R = (X << s - a) ** 2 + (Y << s - b) ** 2
     t = max(c, d + 2 * s)
     bend = (K1 << t - c) + (K2 * R << t - d - 2 * s)
-    scale, below = (1 << 2 * s + t) + R * bend, 2 * s + t
+    below = max(2 * s + t, 0)
+    scale = (ONE << below) + (R * bend << below - 2 * s - t)
     return over_power(X * scale, a + below), over_power(Y * scale, b + below)
 
 

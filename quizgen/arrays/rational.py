@@ -10,6 +10,8 @@ from flint import fmpq, fmpz
 
 from quizgen.arrays.aliases import Array
 
+ONE = fmpz(1)
+_BITS = 53
 _DIGITS = 15
 """No two decimals of so many digits share a double (Matula, Comm. ACM 11 (1968) 47)."""
 
@@ -25,8 +27,9 @@ def nearest(value: fmpq | float) -> float:
 
 
 def binary(value: fmpq) -> tuple[fmpz, int]:
-    """A double's fraction as a whole number over a power of two."""
-    return value.p, value.q.bit_length() - 1
+    """A double's fraction as a whole number of at most 53 bits over a power of two."""
+    spare = value.p.bit_length() - _BITS
+    return (value.p >> spare, -spare) if spare > 0 else (value.p, value.q.bit_length() - 1)
 
 
 def over_power(number: fmpz, power: int) -> float:
@@ -36,17 +39,23 @@ def over_power(number: fmpz, power: int) -> float:
         tail = int(number != (number >> spare) << spare)
         number, power = (number >> spare) << 1 | tail, power - spare + 1
     try:
-        return math.ldexp(int(number), -power) if power < 0 else int(number) / (1 << power)
+        if number.bit_length() - power > _NORMAL:  # rounded once
+            return math.ldexp(int(number), -power)
+        return int(number) / (1 << min(power, _NOTHING))
     except OverflowError:
         return math.inf if number > 0 else -math.inf
 
 
 _KEPT = 128
+_NORMAL, _NOTHING = -1020, 1300
+"""Exponents of doubles that are not subnormal, and that make nothing of so many bits."""
 
 
 def fraction(value: float) -> fmpq:
     """The fraction that a double is."""
-    return fmpq(*float(value).as_integer_ratio())
+    part, exponent = math.frexp(value)
+    whole, exponent = fmpz(int(math.ldexp(part, _BITS))), exponent - _BITS
+    return fmpq(whole << exponent) if exponent >= 0 else fmpq(whole, ONE << -exponent)
 
 
 def decimal(value: float) -> fmpq:
