@@ -107,7 +107,12 @@ def test_margins_are_not_wider_than_a_quarter():
 
 @pytest.mark.parametrize(
     "thing",
-    [Thing("disc", px(20), radius=px(30)), Thing("full"), Thing("box", px(-40), width=px(30))],
+    [
+        Thing("disc", px(20), radius=px(30)),
+        Thing("disc", px(20), radius=px(30), width=px(90), height=px(90)),
+        Thing("full"),
+        Thing("box", px(-40), width=px(30)),
+    ],
 )
 def test_what_is_even_outside_needs_no_margin(thing):
     assert views(CAMERAS["barrel"], thing)[0].margin == (0, 0)
