@@ -127,7 +127,10 @@ _BAND = 1 << 16
 """Pixels laid over each other at once, about, so that what lies in between stays small."""
 
 _TILE = 64, 1024
-"""Rows and columns drawn at once: few enough for the cache, and most are covered or not at all."""
+"""Rows and columns drawn at once: few enough for the cache, and most are covered or not at all.
+
+Of a narrow picture as many pixels, in more rows.
+"""
 
 
 def _extent(thing: Thing) -> tuple[float, float]:
@@ -177,6 +180,7 @@ def _box(thing: Thing, view: View) -> Box:
 def _tiles(view: View) -> Iterator[Box]:
     """The picture in pieces, so that each is drawn while it is in the cache."""
     height, width = _TILE
+    height = max(height, height * width // view.width)
     for top in range(0, view.height, height):
         for left in range(0, view.width, width):
             yield (

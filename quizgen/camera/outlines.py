@@ -116,7 +116,8 @@ SIZES = {
 
 
 def _checker(thing: Thing, x: Plane, y: Plane) -> Plane:
-    return (np.floor(x / thing.cell.value) + np.floor(y / thing.cell.value)) % 2
+    across, down = (np.floor(place / thing.cell.value) % 2 for place in (x, y))
+    return np.abs(across - down)
 
 
 def _stripes(thing: Thing, x: Plane, y: Plane) -> Plane:  # noqa: ARG001
