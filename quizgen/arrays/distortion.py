@@ -28,11 +28,17 @@ def _distort(x: Array, y: Array, k1: Array, k2: Array) -> tuple[Array, ...]:
     In units of 2**-53 times x, the change is off by at most 5 |change| + 3 |k2| r**4, also where
     its terms cancel; adding it to x and y costs one more.
     """
-    r2 = x * x + y * y
-    change = (k2 * r2 + k1) * r2
-    moved = x + x * change, y + y * change
+    r2, square = x * x, y * y
+    r2 = np.add(r2, square, out=r2 if r2.size >= square.size else square)
+    change = k2 * r2
+    change = change + k1 if k1.size > change.size else np.add(change, k1, out=change)
+    change *= r2
+    moved = x * change, y * change
+    for place, found in zip((x, y), moved, strict=True):
+        np.add(found, place, out=found)
     least, most, top = change.min(), change.max(), r2.max()
-    if 5 * max(most, -least) + 3 * np.abs(k2).max() * top * top <= _ALLOWED * (1 + least):
+    bend = max(k2.max(), -k2.min())
+    if 5 * max(most, -least) + 3 * bend * top * top <= _ALLOWED * (1 + least):
         return moved
     off = 5 * np.abs(change) + 3 * np.abs(k2) * r2 * r2
     doubtful = ~(off <= _ALLOWED * (1 + change))

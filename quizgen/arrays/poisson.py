@@ -27,6 +27,7 @@ _CERTAIN = 800.0
 
 _SERIES = (1 / 12, -1 / 360, 1 / 1260, -1 / 1680, 1 / 1188, -691 / 360360, 1 / 156)
 _TABLE = np.array(STIRLING)
+_NEXT_IS_NO_DOUBLE = 2.0**53
 _UNIFORM_FROM = 60.0
 _NEGLIGIBLE = 2.0**-60
 _UNIFORM_TO = 0.5
@@ -83,13 +84,17 @@ def _pmf_long(k: Array, lam: Array) -> Array:
 
 def _sum_up(k: Array, lam: Array) -> Array:
     """P(X >= k)/P(X = k) for k > lam, from the smallest term back to the first."""
-    term, steps = np.ones_like(k), 0
+    term, count, steps = np.ones_like(k), k.copy(), 0
     while term.max() > _NEGLIGIBLE:
         steps += 1
-        term *= lam / (k + steps)
+        count += 1
+        term *= lam / count
     total = np.ones_like(k)
-    for j in range(steps, 0, -1):
-        total = 1 + total * lam / (k + j)
+    for _ in range(steps):
+        total *= lam
+        total /= count
+        total += 1
+        count -= 1
     return total
 
 
@@ -101,18 +106,22 @@ def _sum_down(k: Array, lam: Array) -> Array:
         steps += 1
     total = np.ones_like(k)
     for j in range(steps, 0, -1):
-        total = 1 + total * np.maximum(k - j + 1, 0.0) / lam
+        total *= np.maximum(k - j + 1, 0.0)
+        total /= lam
+        total += 1
     return total
 
 
 def _uniform_lower(k: Array, lam: Array) -> Array:
     """P(X <= k), the upper incomplete gamma function of a = k + 1, from its smaller side.
 
-    From 2**53 on the next count is no double: it is kept as a pair. The exponential of the excess
+    A next count that is no double is kept as a pair. The exponential of the excess
     stands in front of Mills' ratio, so that its exponent is never squared from a rounded root.
     """
-    a, lost = two_sum(k, 1.0)
-    excess = ratio_excess(Pair(a, lost), lam)
+    a, lost = k + 1, 0.0
+    if k.max() >= _NEXT_IS_NO_DOUBLE:
+        a, lost = two_sum(k, 1.0)
+    excess = ratio_excess(Pair(a, lost) if np.ndim(lost) else a, lam)
     root = np.sqrt(2 * excess.high)
     above = lam - a > lost
     eta = np.where(above, 1.0, -1.0) * root / np.sqrt(a)
