@@ -56,6 +56,17 @@ def test_nothing_is_drawn_outside_of_where_it_is_looked_for(monkeypatch, shape, 
             assert np.array_equal(near, drawn(thing, height=150))
 
 
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("angle", [0.0, 0.4])
+def test_tiles_leave_no_seams(monkeypatch, shape, angle):
+    """In one piece and in small ones that a thing covers in part, entirely or not: the same bits."""
+    thing = Thing(shape, **SHAPES[shape], angle=angle, texture="rings", colour=(0.3, 0.2, 0.1))
+    upon = Thing("box", Length(3.0), width=Length(12.0), height=Length(14.0), depth=3.0)
+    whole = drawn(thing, upon)
+    monkeypatch.setattr(drawing, "_TILE", (4, 7))
+    assert np.array_equal(drawn(thing, upon), whole)
+
+
 def test_drawing_upon_a_photograph_leaves_it_alone():
     image = np.full((30, 40, 3), 0.5, np.float32)
     view = View(Scene(40, 30, (Thing("disc", radius=Length(5.0)),), image=image), Camera())
