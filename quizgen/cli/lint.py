@@ -115,7 +115,29 @@ def _linted(bank: Bank, names: tuple[str, ...], options: Options) -> int:
         print_table(HEAD, rows)
         for problem in broken:
             click.echo(visible(str(problem)), err=True)
+        _advise(bank)
     return int(bool(broken))
+
+
+def _advise(bank: Bank) -> None:
+    """Say where to begin with words of a language; without them they are English, no problem."""
+    from quizgen.bank.folder import LOCALE
+    from quizgen.locale import unspoken
+
+    try:
+        langs = unspoken(bank.languages)
+    except QuizgenError:  # it is told of by itself
+        return
+    for lang in langs:
+        file = bank.folder / LOCALE / lang / "interface.toml"
+        click.echo(
+            visible(
+                f"advice: what quizgen says around questions in {lang!r} is English; "
+                f"begin with {file} "
+                f"(quizgen new language {lang} --bank {bank.root} --all writes it)"
+            ),
+            err=True,
+        )
 
 
 def _proved(

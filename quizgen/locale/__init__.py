@@ -269,6 +269,11 @@ def table(lang: str, name: str = "interface") -> dict[str, Any]:
     return brought.over(table(FIRST, name), _read(file))
 
 
+def unspoken(langs: Iterable[str]) -> list[str]:
+    """Languages in which neither quizgen nor a bank says anything around a question."""
+    return [lang for lang in langs if _file(lang, "interface") is None]
+
+
 def sentences() -> list[Path]:
     """The files that a language may have besides ``language.toml``, in English."""
     return sorted(path for path in (SHIPPED / FIRST).glob("*.toml") if path.stem != "language")

@@ -227,3 +227,14 @@ def test_a_language_from_right_to_left_is_written_so(tmp_path):
         assert re.search(
             r"\u200e\d+\u00a0m\b", page
         )  # the mark keeps a unit to the right of its number
+
+
+def test_lint_advises_once_which_words_to_begin_with(tmp_path):
+    quizgen(tmp_path, "new", "bank", "viajes", "--lang", "pt-BR")
+    lint = ("lint", "--bank", "viajes", "--trust", "--seeds", "3")
+    said = quizgen(tmp_path, *lint)
+    file = Path("viajes/templates/locale/pt-BR/interface.toml")
+    assert said.count("advice: ") == said.count(str(file)) == 1
+    quizgen(tmp_path, "new", "language", "pt-BR", "--bank", "viajes", "--all")
+    assert (tmp_path / file).is_file()
+    assert "advice: " not in quizgen(tmp_path, *lint)
