@@ -73,10 +73,7 @@ def language(lang: str, root: Path, words: bool) -> None:
 def _kinds(function: Callable[P, T]) -> Callable[P, T]:
     """Add a flag for each kind of question."""
     for kind, text in reversed(KINDS.items()):
-        default = kind == next(iter(KINDS))
-        function = click.option(f"--{kind}", "kind", flag_value=kind, default=default, help=text)(
-            function
-        )
+        function = click.option(f"--{kind}", "kind", flag_value=kind, help=text)(function)
     return function
 
 
@@ -84,7 +81,7 @@ def _kinds(function: Callable[P, T]) -> Callable[P, T]:
 @click.argument("place", metavar="TOPIC/NAME")
 @_kinds
 @bank_to_write
-def template(place: str, kind: str, root: Path) -> None:
+def template(place: str, kind: str | None, root: Path) -> None:
     """Write a question TOPIC/NAME into a bank: rules, words and, if it computes, a solver."""
     from quizgen.bank.folder import Bank
 
@@ -99,7 +96,7 @@ def template(place: str, kind: str, root: Path) -> None:
         )
     if name in own.paths:
         raise BankError(f"{own.paths[name]}: there is a template {name!r} already")
-    _write(root, new_template(topic, name, kind, own.languages or ("en",)))
+    _write(root, new_template(topic, name, kind or next(iter(KINDS)), own.languages or ("en",)))
     _next(root, name)
 
 

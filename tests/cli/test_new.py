@@ -43,6 +43,22 @@ def test_what_is_written_can_be_printed_and_carded(root, tmp_path):
     assert run("cards", "--format", "tsv", *shared).exit_code == 0
 
 
+def test_without_a_kind_something_is_computed(root, tmp_path):
+    assert run("new", "bank", tmp_path / "other").exit_code == 0
+    made = run("new", "template", "example/some-solver", "--bank", tmp_path / "other")
+    assert made.exit_code == 0, made.output
+    written = [
+        sorted(
+            path.read_text("utf-8")
+            for path in bank.rglob("example/some-solver/*")
+            if path.is_file()
+        )
+        for bank in (root, tmp_path / "other")
+    ]
+    assert written[0]
+    assert written[0] == written[1]
+
+
 def test_nothing_is_overwritten(root, capsys):
     before = {path: path.read_bytes() for path in root.rglob("*.*")}
     for again in (["bank", str(root)], ["template", "example/some-gap", "--bank", str(root)]):
