@@ -18,6 +18,7 @@ from quizgen.camera.scene import SceneError
 from quizgen.cards import build
 from quizgen.cards.mistakes import from_marks
 from quizgen.cards.tables import as_csv, tsv
+from quizgen.cli.main import main
 from quizgen.errors import BankError, BlueprintError, CodeError, KeyFileError
 from quizgen.outside import (
     DEEPEST,
@@ -174,9 +175,19 @@ def test_a_topic_that_the_bank_does_not_list_is_an_error(tmp_path):
 @pytest.mark.parametrize(
     "name", ['x" onerror="alert(1)', "a b", "a\nb", "\x1b[31m", "é", "a" * 101]
 )
-def test_a_template_has_a_plain_name(tmp_path, name):
+def test_a_template_has_a_plain_name(tmp_path, name, capsys):
+    bank = a_bank(tmp_path, name=name)
     with pytest.raises(BankError, match="is no name"):
-        list(a_bank(tmp_path, name=name).paths)
+        bank.template(name)
+    a_bank(tmp_path)
+    for command in (["templates"], ["exam", "--out", str(tmp_path / "out")], ["lint"]):
+        with pytest.raises(SystemExit) as stopped:
+            main([*command, "--bank", str(tmp_path)])
+        assert stopped.value.code
+        said = "".join(capsys.readouterr())
+        assert "is no name" in said
+        assert visible(said) == said  # a terminal obeys none of it
+    assert not (tmp_path / "out").exists()
 
 
 @pytest.mark.parametrize("name", [".", "..", "...", "", "a/b", "a\x00"])
