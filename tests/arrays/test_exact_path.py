@@ -19,6 +19,7 @@ from quizgen.errors import FormulaError, MathError
 from quizgen.maths import exact
 from quizgen.maths.notation import parse
 from quizgen.maths.numbers import rational, to_float
+from quizgen.maths.precision import working_precision
 from quizgen.maths.systems import evaluate
 
 LAST_NM = FIRST_NM + STEP_NM * (len(V) - 1)
@@ -58,6 +59,12 @@ ROOTS = {
 CHAINS = {"poisson.pmf", "poisson.lower"}
 """A chain of steps, a term from the one before, as far as anybody would follow it."""
 LONGEST_CHAIN = 20_000
+STIRLING = "exp(k*ln(m/k) - (m - k) - 1/(12*k) + 1/(360*k^3){next})/sqrt(2*pi*k)"
+BOUNDS = (STIRLING.format(next=" - 1/(1260*k^5)"), STIRLING.format(next=""))
+"""For any count: one term more or less of Stirling's series is below or above a factorial."""
+STIRLING_FROM = 1000
+LAST = Fraction(1, 10**38)
+"""What the rows leave of a value, relative to it."""
 DECIMALS = {"projection.pixel", "gamma.srgb_decode"}
 """Numbers mean the decimals they print as."""
 KNEE = 0.04045
@@ -133,6 +140,21 @@ def test_hard_counts_are_answered_as_far_as_a_chain_goes(name):
             value = to_float(along(int(args[0]), rational(Fraction(args[1])))[name])
             assert ulps(value, truth) <= tolerance, args
     assert tried >= 9
+
+
+def test_hard_probabilities_of_many_are_between_two_bounds():
+    """Up to the largest count of all rows: no chain is too long to have a value."""
+    rows = [row for row in rows_of("poisson.pmf") if row[0][0] >= STIRLING_FROM]
+    for args, truth, tolerance in rows:
+        given = given_of("poisson.pmf", args)
+        below, above = (evaluate(parse(bound), given) for bound in BOUNDS)
+        read = Fraction(mp.nstr(truth, 40))
+        with working_precision():
+            assert not below > rational(read * (1 + LAST)), args
+            assert not above < rational(read * (1 - LAST)), args
+        assert max(ulps(in_doubles(bound), truth) for bound in (below, above)) <= tolerance, args
+    assert max(args[0] for args, _, _ in rows) >= 1e15
+    assert {args for args, _, _ in rows_of("poisson.lower") if args[0] > LONGEST_CHAIN} == set()
 
 
 def is_beyond(args):
