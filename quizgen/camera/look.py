@@ -56,8 +56,8 @@ def _with_margin(part: slice) -> slice:
     return slice(max(part.start - 2, 0), max(part.stop + 2, 3))
 
 
-def glimpsed(stack: Stack, view: View, every: int = 16) -> Facts:
-    """Facts of every 16th row and column only: never above the true ones, so a hint, no bound."""
+def glimpsed(stack: Stack, view: View, every: int) -> Facts:
+    """Facts of every n-th row and column only: never above the true ones, so a hint, no bound."""
     low, high = view.scene.range
     middle = (low + high) / 2
     return Facts(low, high, tuple(_measure(layer, middle, high - low, every) for layer in stack))

@@ -32,6 +32,9 @@ from quizgen.outside import located
 BUDGETS = {"same": 0.5, "visible": 2.0, "sketch": 8.0}
 """Named budgets in 8-bit grey levels."""
 
+GLIMPSES = 64, 16
+"""How far apart lines are that are looked at: most pictures show at once what they are."""
+
 
 class Prepared:
     """A scene in pixels, drawn when first needed.
@@ -186,9 +189,10 @@ def _best(
     choice = _spend(chain, units, costs, budget)
     if all(unit.fixed or choice[unit.members[0]] == SKIP for unit in units):
         return chain, choice
-    hopeful = Chain(present, view, glimpsed(prepared.stack, view), seen)
-    if not _opened(units, (chain, hopeful), choice, budget):
-        return chain, choice
+    for apart in GLIMPSES:
+        hopeful = Chain(present, view, glimpsed(prepared.stack, view, apart), seen)
+        if not _opened(units, (chain, hopeful), choice, budget):
+            return chain, choice
     gain = _total(costs, choice) - _total(costs, _spend(hopeful, units, costs, budget))
     if gain <= FACTS_PER_MEGAPIXEL * view.megapixels:
         return chain, choice
