@@ -12,7 +12,7 @@ from quizgen.cli.terminal import Progress
 @click.command()
 @click.argument("family", required=False, metavar="[FAMILY]")
 @click.option("--out", default="tradeoff", metavar="DIR", help="Folder to write to.")
-@click.option("--quick", is_flag=True, help="Fewer inputs: a fraction of the time.")
+@click.option("--quick", is_flag=True, help="Fewer inputs and no SymPy: a fraction of the time.")
 @click.option(
     "--count",
     type=click.IntRange(1),

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from fractions import Fraction
 from typing import Any
 
 import numpy as np
+from flint import fmpq
 
 from quizgen.arrays.aliases import Array
 from quizgen.arrays.double_double import Pair
@@ -26,14 +26,25 @@ AGREEMENT = 1e-25
 
 def as_meant(value: float, *, decimal: bool) -> Value:
     """A double as an exact rational: as it is, or as the decimal it prints as."""
-    return rational(repr(float(value)) if decimal else Fraction(float(value)))
+    return rational(repr(float(value))) if decimal else fmpq(*float(value).as_integer_ratio())
 
 
-def rungs(family: Family) -> list[Rung]:
-    """Every rung that works for a family, cheapest number system first."""
+SLOW_TO_LOAD = "sympy"
+
+
+def rungs(family: Family, *, slow: bool = True) -> list[Rung]:
+    """Every rung that works for a family, cheapest number system first.
+
+    Parameters
+    ----------
+    family : Family
+    slow : bool
+        Also SymPy, which takes longer to load than all the rest to run on a few inputs.
+    """
     formula = family.formula
     if formula is None:
-        return [*RUNGS[family.name](family), _stable(family)]
+        found = [*RUNGS[family.name](family), _stable(family)]
+        return [rung for rung in found if slow or rung.key != SLOW_TO_LOAD]
     found = [_array(family, formula, 32), _array(family, formula, 64), _stable(family)]
     if fits_pairs(formula):
         found.append(_pairs(family, formula))
@@ -41,7 +52,8 @@ def rungs(family: Family) -> list[Rung]:
         found.append(_exact(family, formula))
     if not family.whole_turn:
         found.append(_balls(family, formula))
-    return [*found, _multiprecision(family, formula), _symbolic(family, formula)]
+    found.append(_multiprecision(family, formula))
+    return [*found, _symbolic(family, formula)] if slow else found
 
 
 def _array(family: Family, formula: Expr, bits: int) -> Rung:
@@ -175,5 +187,6 @@ def _as_mpf(value: Value) -> Value:
     import mpmath as mp
 
     if hasattr(value, "rad"):
-        return mp.mpf(value.mid().str(70, radius=False))
+        mantissa, power = value.mid().man_exp()
+        return mp.mpf((int(mantissa), int(power)))
     return mp.mpf(int(value.p)) / int(value.q)

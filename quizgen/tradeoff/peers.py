@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 
 import numpy as np
 
@@ -88,12 +89,22 @@ _SOURCES: dict[str, tuple[Callable[[], dict[str, Peer]], ...]] = {
 }
 
 
-def peers(family: str) -> dict[str, Peer]:
-    """Name to function for every installed library that has this family."""
+_SLOW_TO_LOAD = {_poisson}
+
+
+def peers(family: str, *, slow: bool = True) -> dict[str, Peer]:
+    """Name to function for every installed library that has this family.
+
+    Parameters
+    ----------
+    family : str
+    slow : bool
+        Also libraries that take half a second to load.
+    """
     found: dict[str, Peer] = {}
     for source in _SOURCES.get(family, ()):
-        try:
-            found |= source()
-        except ImportError:
+        if source in _SLOW_TO_LOAD and not slow:
             continue
+        with suppress(ImportError):
+            found |= source()
     return found

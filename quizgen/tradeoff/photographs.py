@@ -9,7 +9,7 @@ from quizgen.camera.decision import Plan
 from quizgen.camera.plan import Prepared, everything, plan
 from quizgen.camera.reading import load
 from quizgen.camera.scene import PRECISIONS, Precision
-from quizgen.camera.simulate import difference_dn, run
+from quizgen.camera.simulate import Photo, difference_dn, run
 from quizgen.tradeoff.measure import Effort, spread
 from quizgen.tradeoff.work import Curve, Point
 
@@ -17,10 +17,6 @@ SCENES = ("landscape", "texture", "portrait", "night", "propeller", "flat", "fis
 """All examples, those first that a budget changes most."""
 BUDGETS = (0.1, 0.5, 2.0, 8.0, 32.0)
 """Grey levels of 255 by which a picture may differ from that of all effects."""
-
-
-_DOUBLES = 1
-"""Photographs in float64 of a plan at most: they take long."""
 
 
 def photographs(effort: Effort) -> Iterator[Curve]:
@@ -34,18 +30,23 @@ def photographs(effort: Effort) -> Iterator[Curve]:
 def _points(prepared: dict[Precision, Prepared], photos: int) -> Iterator[Point]:
     """Every plan in every precision; errors are against all effects in float64."""
     chosen = list(_plans(prepared["float32"]))
-    ways = [(kind, label, what) for kind in PRECISIONS for label, what in chosen]
-    whole, *_ = (run(prepared[kind], chosen[0][1]) for kind in reversed(PRECISIONS))  # warms up
-    spent: dict[tuple[str, str], list[float]] = {(kind, label): [] for kind, label, _ in ways}
-    for last in range(photos)[::-1]:
-        for kind, label, what in ways:  # in turn, so that what else is running hits all alike
-            if kind == "float64" and last >= _DOUBLES:
-                continue
+    run(prepared["float32"], chosen[0][1])  # warms up
+    whole: Photo | None = None
+    spent: dict[tuple[str, str], list[float]] = {}
+    off: dict[tuple[str, str], float] = {}
+    turns: list[Precision] = ["float64"]  # once: doubles take long
+    turns += ["float32"] * photos
+    for kind in turns:
+        for label, what in chosen:
             photo = run(prepared[kind], what)
-            spent[kind, label].append(photo.measured_ms * 1e-3)
-            if not last:
-                taken, off = spread(spent[kind, label]), difference_dn(photo, whole)
-                yield Point(label, taken, off, _note(what), kind)
+            whole = whole or photo
+            spent.setdefault((kind, label), []).append(photo.measured_ms * 1e-3)
+            if (kind, label) not in off:
+                off[kind, label] = difference_dn(photo, whole)
+    for kind in PRECISIONS:
+        for label, what in chosen:
+            taken = spread(spent[kind, label])
+            yield Point(label, taken, off[kind, label], _note(what), kind)
 
 
 def _plans(prepared: Prepared) -> Iterator[tuple[str, Plan]]:

@@ -14,6 +14,7 @@ from quizgen.bank.draw import Draw, draw
 from quizgen.bank.folder import Bank, builtin
 from quizgen.bank.plan import Plan
 from quizgen.marking.mark import mark, show
+from quizgen.marking.specs import AnySpec
 from quizgen.maths.numbers import to_float
 from quizgen.maths.precision import working_precision
 from quizgen.maths.values import Values
@@ -94,10 +95,11 @@ def measure_product(drawn: int, repeats: int, told: Callable[[str], None]) -> Pr
     bank = builtin()
     paper = [one for one in _paper(bank) if one.template.chain.steps]
     spent: dict[str, list[dict[str, float]]] = {system: [] for system in ARITHMETICS}
+    marked = {system: [_to_mark(drawn, system) for drawn in paper] for system in ARITHMETICS}
     for _ in range(repeats + 1):
         for system, runs in spent.items():
             told(system)
-            runs.append(_paper_seconds(paper, system))
+            runs.append(_paper_seconds(paper, system) | {"marking": _marking(marked[system])})
     rows = tuple(_row(system, runs[1:]) for system, runs in spent.items())
     counted = count_faults(bank, drawn, told) if drawn else recorded()
     return Product(len(paper), rows, counted)
@@ -118,12 +120,11 @@ def _paper(bank: Bank) -> list[Draw]:
 
 
 def _paper_seconds(paper: Iterable[Draw], system: str) -> dict[str, float]:
-    """Seconds of each phase, all questions of a paper together."""
+    """Seconds of each phase but marking, all questions of a paper together."""
     total = dict.fromkeys(PHASES, 0.0)
     for drawn in paper:
         for phase, seconds in _drawing(drawn, ARITHMETICS[system]).items():
             total[phase] += seconds
-        total["marking"] += _marking(drawn, system)
     return total
 
 
@@ -183,16 +184,21 @@ def _kept(plan: Plan, shown: Values, values: Values, clock: _Clock) -> None:
         clock.to("collisions")
 
 
-def _marking(drawn: Draw, system: str) -> float:
-    """Seconds to mark the exact answers of a question by the keys of an arithmetic."""
+def _to_mark(drawn: Draw, system: str) -> list[tuple[AnySpec, str]]:
+    """What an arithmetic marks by, and the exact answers; nothing if it has no key."""
     try:
         others = specs(solved(drawn, system))
     except FAILURES:
-        return 0.0
-    typed = [(spec, show(right)) for spec, right in zip(others, specs(drawn), strict=True)]
+        return []
+    return [(spec, show(right)) for spec, right in zip(others, specs(drawn), strict=True)]
+
+
+def _marking(answers: Iterable[list[tuple[AnySpec, str]]]) -> float:
+    """Seconds to mark all answers of a paper."""
     since = time.perf_counter()
-    for spec, text in typed:
-        mark(spec, text, decimal="point")
+    for question in answers:
+        for spec, text in question:
+            mark(spec, text, decimal="point")
     return time.perf_counter() - since
 
 

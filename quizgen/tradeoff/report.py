@@ -39,7 +39,7 @@ def silent(_name: str) -> None:
     """Progress that nobody watches."""
 
 
-SLOW = 2e-6
+SLOW = 3e-7
 """Seconds per value from which a library is timed on few values."""
 
 EXACT = {"exact", "arb"}
@@ -141,7 +141,8 @@ def _knob(knob: Knob, effort: Effort, progress: Progress) -> tuple[str, tuple[Cu
 def _family(family: Family, effort: Effort, progress: Progress) -> FamilyReport:
     progress(family.name)
     bench = Bench(family, effort)
-    others = tuple(_peer(bench, label, call) for label, call in peers(family.name).items())
+    there = peers(family.name, slow=effort.slow)
+    others = tuple(_peer(bench, label, call) for label, call in there.items())
     return FamilyReport(
         family.name, _formula(family), family.tolerance, tuple(bench.run()), others,
         bench.checks(), family.one_line, sweep(family, effort.places),

@@ -16,7 +16,7 @@ import numpy as np
 from quizgen.tradeoff.digits import digits
 from quizgen.tradeoff.families import Columns, Family
 from quizgen.tradeoff.ladder import rungs, truths
-from quizgen.tradeoff.rung import Column
+from quizgen.tradeoff.rung import Column, Rung
 
 WAYS = ("float32", "float64", "stable")
 """Rungs that are followed."""
@@ -114,7 +114,8 @@ def sweep(family: Family, count: int) -> Sweep:
     at = path.places(count)
     columns = [np.asarray(column, dtype=np.float64) for column in path.columns(at)]
     right = truths(family, list(zip(*(column.tolist() for column in columns), strict=True)))
-    found = [_values(family, way, columns) for way in WAYS]
+    there = {rung.key: rung for rung in rungs(family, slow=False)}
+    found = [_values(there[way], columns) for way in WAYS]
     places = tuple(
         Place(x, r, values, tuple(digits(v, r, family.whole_turn) for v in values))
         for x, r, *values_ in zip(at.tolist(), right, *found, strict=True)
@@ -124,9 +125,8 @@ def sweep(family: Family, count: int) -> Sweep:
     return Sweep(path.symbol, path.log, places, *needed)
 
 
-def _values(family: Family, way: str, columns: Sequence[Column]) -> list[float]:
+def _values(rung: Rung, columns: Sequence[Column]) -> list[float]:
     """What a way gives for each input: over whole arrays, or one by one if it takes numbers."""
-    rung = next(rung for rung in rungs(family) if rung.key == way)
     with warnings.catch_warnings(), np.errstate(all="ignore"):
         warnings.simplefilter("ignore")
         if rung.kind == "scalar":

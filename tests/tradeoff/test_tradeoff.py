@@ -6,6 +6,7 @@ import csv
 import json
 import math
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 
 import mpmath as mp
 import numpy as np
@@ -15,12 +16,13 @@ from click.testing import CliRunner
 from quizgen.cli.tradeoff import tradeoff
 from quizgen.locale import languages
 from quizgen.maths.systems import arrays, compile_expr, multiprecision, symbolic
-from quizgen.tradeoff import ladder
+from quizgen.tradeoff import ladder, measure
 from quizgen.tradeoff.data import words
 from quizgen.tradeoff.digits import digits
 from quizgen.tradeoff.families import BY_NAME, FAMILIES
 from quizgen.tradeoff.knobs import KNOBS, coverage
 from quizgen.tradeoff.measure import QUICK, Bench, bits_of, pareto, spread, steps
+from quizgen.tradeoff.peers import peers
 
 SAFE = {"hue"}
 """Families whose printed formula is safe in float64 (the page says so)."""
@@ -33,7 +35,8 @@ PROVEN = {"exact", "arb"}
 
 @pytest.fixture(scope="module")
 def measured():
-    return {family.name: {m.key: m for m in Bench(family, QUICK).run()} for family in FAMILIES}
+    effort = replace(QUICK, slow=True)
+    return {family.name: {m.key: m for m in Bench(family, effort).run()} for family in FAMILIES}
 
 
 @pytest.mark.parametrize("name", sorted(BY_NAME.keys() - DECIMAL))
@@ -69,6 +72,29 @@ def test_proven_rungs_are_correctly_rounded(measured, name):
     assert rungs
     for rung in rungs:
         assert rung.exam.max_steps == rung.hard.max_steps == 0
+
+
+@pytest.mark.parametrize("name", list(BY_NAME))
+def test_many_digits_are_right_to_the_last_double(measured, name):
+    for key in ("mpmath", "sympy"):
+        assert measured[name][key].exam.max_steps <= 1
+
+
+def test_a_quick_look_loads_nothing_slow():
+    for family in FAMILIES:
+        assert "sympy" not in {rung.key for rung in ladder.rungs(family, slow=False)}
+    assert peers("poisson").keys() - peers("poisson", slow=False).keys() == {
+        "SciPy stats.poisson.pmf"
+    }
+
+
+@pytest.mark.parametrize(("patience", "passes"), [(math.inf, 4), (-1, 1)])
+def test_inputs_are_timed_one_by_one_until_it_takes_long(monkeypatch, patience, passes):
+    monkeypatch.setattr(measure, "PATIENCE", patience)
+    tried = []
+    found, results = measure.timed_each(lambda one: tried.append(one) or -one, [1, 2, 3], 4)
+    assert (tried, results) == ([1, 2, 3] * passes, [-1, -2, -3])
+    assert found.low <= found.median <= found.high
 
 
 def test_ladder_of_a_question_costs_less_than_a_millisecond(measured):
