@@ -39,6 +39,7 @@ def amplifier(
         run=PointByPoint(lambda view, _: times(factor(view))),
         cost=measured((0.0786, 18)),
         skipped=lambda facts, view: facts.amplified(abs(factor(view) - 1.0)),
-        carried=lambda error, _, view: error.times(factor(view)),
+        carried=lambda error, _, view: error.amplified(factor(view), factor(view)),
+        knows_where=True,
         after=lambda facts, view: facts.scaled(factor(view)),
     )

@@ -60,7 +60,7 @@ class Chain:
                 self._made[key] = self._lost(index)
             else:
                 rung = next(rung for rung in effect.rungs if rung.name == made)
-                self._made[key] = rung.error(facts, view).plus(self._rounding[index])
+                self._made[key] = rung.error(facts, view).plus(Error(self._rounding[index]))
         return self._made[key]
 
     def error(self, choice: dict[int, str]) -> Error:
@@ -79,21 +79,20 @@ class Chain:
         return error
 
     def _lost(self, index: int) -> Error:
-        """Loss of skipping, with rounding; a limit of the sensor never met costs nothing."""
+        """Loss of skipping, with rounding; where a limit of the sensor is not met, none."""
         effect = self.present[index]
         lost = effect.skipped(self.before[index], self.views[index])
-        if lost == NO_ERROR and effect.stage == "sensor":
-            return lost
-        return lost.plus(self._rounding[index])
+        rounding = self._rounding[index]
+        return lost.rounded(rounding) if effect.stage == "sensor" else lost.plus(Error(rounding))
 
     def _carried(self, effect: Effect, index: int, error: Error) -> Error:
         if error == NO_ERROR or error.total == math.inf:
             return error
-        if error.beyond and not effect.keeps_clipped(self.views[index]):
+        if not effect.knows_where:
             error = error.everywhere()
         if effect.carried is not same_error:
             error = effect.carried(error, self.before[index], self.views[index])
-        return error.plus(self._rounding[index])
+        return error.rounded(self._rounding[index])
 
     def dn(self, choice: dict[int, str]) -> float:
         """The same in grey levels."""
@@ -108,8 +107,8 @@ class Chain:
         return any(self.off(index, made).clipped().total > far for index in indices)
 
 
-def _rounding(facts: Facts) -> Error:
-    return Error(_ROUNDING * max(facts.size, facts.top))
+def _rounding(facts: Facts) -> float:
+    return _ROUNDING * max(facts.size, facts.top)
 
 
 def _facts_along(present: tuple[Effect, ...], seen: tuple[View, ...], facts: Facts) -> list[Facts]:

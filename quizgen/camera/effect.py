@@ -30,10 +30,6 @@ def _anything(facts: Facts, view: View) -> Error:
     return Error(float("inf"))
 
 
-def _never(view: View) -> bool:
-    return False
-
-
 def _possible(view: View) -> None:
     """Nothing can be wrong with it."""
 
@@ -140,8 +136,9 @@ class Effect(msgspec.Struct, frozen=True, kw_only=True):
         that it is never skipped.
     carried : callable
         What becomes of an error that is already there.
-    keeps_clipped : callable
-        Whether values beyond 0 and 1 end there, once clipped, as they would if clipped before it.
+    knows_where : bool
+        Whether ``carried`` says what becomes of errors beyond 0 and 1 and of those in the light
+        alone; otherwise they count as if they were everywhere.
     after : callable
         Facts of the output.
     rungs : tuple of Rung
@@ -171,7 +168,7 @@ class Effect(msgspec.Struct, frozen=True, kw_only=True):
     cost: Cost
     skipped: Bound = _anything
     carried: Carry = same_error
-    keeps_clipped: Has = _never
+    knows_where: bool = False
     after: After = same_facts
     rungs: tuple[Rung, ...] = ()
     pair: str = ""

@@ -58,19 +58,25 @@ class Error(msgspec.Struct, frozen=True):
     beyond : float
         By how much more one picture may stand beyond 0 or 1: between the two pictures clipped to
         [0, 1], the other parts are bounds on their own.
+    bright : float
+        Bound on what comes on top where both pictures are at least as bright as ``level``.
+    level : float
+        Infinite where nothing comes on top.
 
-    None is ever negative; what cannot be computed is infinite.
+    No error is ever negative; what cannot be computed is infinite.
     """
 
     sure: float = 0.0
     sigma: float = 0.0
     odd: float = 0.0
     beyond: float = 0.0
+    bright: float = 0.0
+    level: float = math.inf
 
     def __post_init__(self) -> None:
-        if self.sure >= 0.0 and self.sigma >= 0.0 and self.beyond >= 0.0:
+        if self.sure >= 0.0 and self.sigma >= 0.0 and self.beyond >= 0.0 and self.bright >= 0.0:
             return
-        for part in ("sure", "sigma", "beyond"):
+        for part in ("sure", "sigma", "beyond", "bright"):
             value = getattr(self, part)
             known = math.inf if math.isnan(value) else max(0.0, value)
             msgspec.structs.force_setattr(self, part, known)
@@ -80,12 +86,12 @@ class Error(msgspec.Struct, frozen=True):
         """Difference exceeded by at most the share `EXCEEDED` of the values."""
         if self.odd > ODD + (0.0 if self.sigma else _NORMAL):
             return math.inf
-        return self.sure + self.beyond + DEVIATIONS * self.sigma
+        return self.sure + self.beyond + self.bright + DEVIATIONS * self.sigma
 
     @property
     def certain(self) -> float:
         """Difference that all but 6e-7 of the values keep, however they are mixed afterwards."""
-        return self.sure + self.beyond + CERTAIN * self.sigma
+        return self.sure + self.beyond + self.bright + CERTAIN * self.sigma
 
     def plus(self, other: Error) -> Error:
         """Both errors of different luck: random parts add in quadrature."""
@@ -96,21 +102,39 @@ class Error(msgspec.Struct, frozen=True):
         return self._with(other, self.sigma + other.sigma)
 
     def _with(self, other: Error, sigma: float) -> Error:
-        beyond = self.beyond + other.beyond
-        return Error(self.sure + other.sure, sigma, self.odd + other.odd, beyond)
+        beyond, bright = self.beyond + other.beyond, self.bright + other.bright
+        level = min(self.level, other.level)
+        return Error(self.sure + other.sure, sigma, self.odd + other.odd, beyond, bright, level)
 
     def times(self, factor: float) -> Error:
-        """Scaled by a factor >= 0."""
-        beyond = self.beyond * factor
-        return Error(self.sure * factor, self.sigma * factor, self.odd, beyond)
+        """Scaled by a factor >= 0, wherever it is."""
+        error = self.everywhere()
+        return Error(error.sure * factor, error.sigma * factor, error.odd)
+
+    def amplified(self, least: float, most: float) -> Error:
+        """After gains >= 0: what is beyond 1 stays there if none of them makes anything darker."""
+        error = self if least >= 1.0 or not self.beyond else self.everywhere()
+        sure, sigma, beyond = error.sure * most, error.sigma * most, error.beyond * most
+        level = error.level * least if error.bright else math.inf
+        return Error(sure, sigma, error.odd, beyond, error.bright * most, level)
 
     def everywhere(self) -> Error:
-        """What may stand beyond 0 or 1 counts like all else."""
-        return Error(self.sure + self.beyond, self.sigma, self.odd) if self.beyond else self
+        """What may stand beyond 0 or 1, or in the light alone, counts like all else."""
+        if not self.beyond and not self.bright:
+            return self
+        return Error(self.sure + self.beyond + self.bright, self.sigma, self.odd)
 
     def clipped(self) -> Error:
         """After both pictures are clipped to [0, 1]."""
-        return Error(self.sure, self.sigma, self.odd) if self.beyond else self
+        return replace(self, beyond=0.0) if self.beyond else self
+
+    def rounded(self, by: float) -> Error:
+        """With what single precision adds where the pictures differ: equal values stay equal."""
+        if self.sure or self.sigma:
+            return replace(self, sure=self.sure + by)
+        if self.bright:
+            return replace(self, bright=self.bright + by)
+        return replace(self, beyond=self.beyond + by) if self.beyond else self
 
 
 def mean_size(sigma: float, count: int) -> float:

@@ -290,3 +290,32 @@ def test_a_pedestal_above_the_converter_leaves_a_range():
     assert apart(run(prepared, chosen), whole).max() <= chosen.predicted_error_dn + 1e-4
     facts = Facts(5.0, 6.0, (), noise=0.1, limits=(0.0, 1.0))
     assert (facts.bottom, facts.top) == (1.0, 1.0)
+
+
+def test_luck_ends_before_its_reach():
+    assert np.abs(noise._normals(np.dtype(np.float64))).max() < REACH
+
+
+@pytest.mark.parametrize("mosaic", ["", "RGGB"])
+def test_what_a_full_well_holds_back_shows_in_the_light_alone(mosaic):
+    """Black and white to three times the well: read noise takes white down, gamma is flat there."""
+    image = np.zeros((64, 96, 3), np.float32)
+    image[:, 32:] = np.linspace(0.95, 3.0, 64, dtype=np.float32)[:, None]
+    camera = Camera(
+        full_well=5000.0, shot_noise=False, read_noise=10.0, bit_depth=10, mosaic=mosaic,
+        white_balance=(1.5, 1.0, 0.8), gamma="srgb",
+    )  # fmt: skip
+    prepared = Prepared(Scene(96, 64, image=image), camera)
+    present = tuple(effect for effect in EFFECTS if effect.present(prepared.given))
+    chain = Chain(present, prepared.view, measured(prepared.stack, prepared.view))
+    bound = chain.dn({0: SKIP})
+    steps = tuple(Step(effect.name, "", "", 0, 0) for effect in present[1:])
+    change = apart(run(prepared, Plan(steps, (), (), bound, 0, 0)), run(prepared, everything(prepared)))  # fmt: skip
+    codes = math.ceil(REACH * 10 / 5000 * 1023)
+    steepest = 1.055 / 2.4 * (0.8 * 0.98) ** (1 / 2.4 - 1) * 1.5 / 1023 * 255
+    assert present[0].name == "full well"
+    assert 0 < change.max() <= bound
+    if mosaic:
+        assert bound < 5 * codes * steepest
+    else:
+        assert bound < 1.02 * codes * steepest

@@ -94,8 +94,11 @@ def skipped(facts: Facts, view: View) -> Error:
 
 
 def carried(error: Error, facts: Facts, view: View) -> Error:
-    """Means do not grow; one photosite shows in up to four of them."""
-    return replace(error, odd=4.0 * error.odd)
+    """Means do not grow; one photosite shows in up to four of them, a quarter of each at least."""
+    if error.beyond:
+        error = error.everywhere()
+    level = error.level / 4.0 + 0.75 * min(facts.bottom, 0.0)
+    return replace(error, odd=4.0 * error.odd, level=level)
 
 
 def after(facts: Facts, view: View) -> Facts:
@@ -113,6 +116,7 @@ EFFECT = Effect(
     cost=measured((1.64, 173)),
     skipped=skipped,
     carried=carried,
+    knows_where=True,
     after=after,
     pair="bayer",
 )

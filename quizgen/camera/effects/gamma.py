@@ -90,9 +90,11 @@ _SHORT = 2.0**-10
 
 
 def carried(error: Error, facts: Facts, view: View) -> Error:
-    """The darkest values are spread most; both pictures are clipped."""
+    """The darkest values are spread most, of all or of those in the light; both are clipped."""
     error = error.clipped()
-    return _spread(error, facts.bottom - error.certain, view)
+    spread = _spread(replace(error, bright=0.0), facts.bottom - error.certain, view)
+    bright = _gap(error.bright, error.level, view) if error.bright else 0.0
+    return replace(spread, sure=spread.sure + bright, level=math.inf)
 
 
 def after(facts: Facts, view: View) -> Facts:
@@ -115,7 +117,7 @@ EFFECT = Effect(
     cost=measured((1.9, 92), table=(1.5, 76)),
     skipped=skipped,
     carried=carried,
-    keeps_clipped=lambda _: True,
+    knows_where=True,
     after=after,
     rungs=(Rung("table", table),),
 )

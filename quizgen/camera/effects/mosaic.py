@@ -48,5 +48,6 @@ EFFECT = Effect(
     run=on_picture(run),
     cost=measured((0.134, 18.6)),
     skipped=no_bound,  # what it loses shows after demosaicing
+    knows_where=True,
     pair="bayer",
 )

@@ -51,10 +51,17 @@ def skipped(facts: Facts, view: View) -> Error:
 
 def carried(error: Error, facts: Facts, view: View) -> Error:
     """Any difference may become a whole code."""
-    error, step = error.clipped(), _step(view)
+    step = _step(view)
+    bright, level = _whole(error.bright, step), min(error.level, 1.0) - step
+    error = replace(error, beyond=0.0, bright=bright, level=level if bright else math.inf)
     if error.sigma:
         return error.plus(Error(step))
-    return replace(error, sure=math.ceil(error.sure / step - 1e-9) * step)
+    return replace(error, sure=_whole(error.sure, step))
+
+
+def _whole(difference: float, step: float) -> float:
+    """The codes that a difference may become."""
+    return math.ceil(difference / step - 1e-9) * step
 
 
 def after(facts: Facts, view: View) -> Facts:
@@ -81,6 +88,6 @@ EFFECT = Effect(
     cost=measured((0.39, 38.4)),
     skipped=skipped,
     carried=carried,
-    keeps_clipped=lambda _: True,
+    knows_where=True,
     after=after,
 )

@@ -6,7 +6,7 @@ from quizgen.camera.blocks import Work
 from quizgen.camera.body import NEEDS_FULL_WELL
 from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, PointByPoint
-from quizgen.camera.facts import Error, Facts
+from quizgen.camera.facts import REACH, Error, Facts
 from quizgen.camera.noise import electrons_at_white, luck, noisier, normal_noise
 from quizgen.camera.settings import NOT_NEGATIVE, Setting
 from quizgen.camera.values import quantity
@@ -30,6 +30,17 @@ def skipped(facts: Facts, view: View) -> Error:
     return Error(0.0, _sigma(view))
 
 
+def carried(error: Error, facts: Facts, view: View) -> Error:
+    """Noise takes white below 1 again, and with it part of what a full well would have held back.
+
+    Only that limit stands before, so that what lies beyond is above 1. Luck ends before `REACH`.
+    """
+    far = REACH * _sigma(view)
+    if not error.beyond or not far:
+        return error
+    return error.plus(Error(bright=min(error.beyond, far), level=1.0 - far))
+
+
 def after(facts: Facts, view: View) -> Facts:
     """Noisier."""
     return noisier(facts, skipped(facts, view))
@@ -44,6 +55,8 @@ EFFECT = Effect(
     run=PointByPoint(work),
     cost=measured((7.16, 292)),
     skipped=skipped,
+    carried=carried,
+    knows_where=True,
     after=after,
     random=True,
 )

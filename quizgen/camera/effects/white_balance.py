@@ -40,15 +40,10 @@ def skipped(facts: Facts, view: View) -> Error:
     return facts.amplified(factor)
 
 
-def _nothing_darker(view: View) -> bool:
-    gains = view.camera[WHITE_BALANCE]
-    return min(gains) >= 1.0
-
-
 def carried(error: Error, facts: Facts, view: View) -> Error:
     """Amplified by the largest gain."""
     gains = view.camera[WHITE_BALANCE]
-    return error.times(max(gains))
+    return error.amplified(min(gains), max(gains))
 
 
 def after(facts: Facts, view: View) -> Facts:
@@ -67,6 +62,6 @@ EFFECT = Effect(
     cost=measured((1.55, 76.5)),
     skipped=skipped,
     carried=carried,
-    keeps_clipped=_nothing_darker,
+    knows_where=True,
     after=after,
 )
