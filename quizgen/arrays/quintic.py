@@ -23,6 +23,8 @@ _FLAT = 2.0**-12
 
 _NEWTON, _STEPS = 24, 88
 """Steps that Newton has, and all: halving the bracket ends what he does not."""
+_NOISE = 2.0**-50
+"""Of values in doubles next to a root, relative to m."""
 _CLOSE = 2.0**-3
 _UNSURE = 2.0**-40
 _TIE = 2.0**-90
@@ -125,7 +127,7 @@ class Quintic(msgspec.Struct, frozen=True):
         """The root to about twelve digits, less next to the fold."""
         fold = self.fold()
         ends = np.zeros(self.m.size), np.minimum(fold, _HIGHEST * self.m)
-        return _root(self.value_and_slope, ends, np.minimum(fold, self.m), fold)
+        return _root(self.value_and_slope, ends, np.minimum(fold, self.m), fold, _NOISE * self.m)
 
     def value_and_slope(self, x: Array) -> tuple[Array, Array]:
         """What the left side exceeds m by, and its slope."""
@@ -146,24 +148,33 @@ class Quintic(msgspec.Struct, frozen=True):
         return Pair(x, step)
 
     def small_root(self, x: Array, residual: Array) -> Array:
-        """Root of the polynomial around x, whose slope is known to twice the precision, too."""
+        """Root of the polynomial around x, whose coefficients may cancel where folds meet.
+
+        Two such folds lie next to one another: the root is looked for up to the first.
+        """
         A, B, C, x_pair = pairs(self.A, self.B, self.C, x)
         square = x_pair * x_pair
+        bend = square * (C * 10)
         slope = (A + square * (B * 3 + square * (C * 5))).rounded()
-        B2, C2 = self.B, self.C * x * x
-        terms = (residual, slope, x * (3 * B2 + 10 * C2), B2 + 10 * C2, 5 * self.C * x, self.C)
-        near = _NEAR * x
-        return _root(_polynomial(terms), (-near, near), np.zeros(x.size), self.fold())
+        second, third = (x_pair * (B * 3 + bend)).rounded(), (B + bend).rounded()
+        terms = (residual, slope, second, third, 5 * self.C * x, self.C)
+        near, fold = _NEAR * x, self.fold()
+        last = np.minimum(near, fold - x * (1 - _FOLD_OFF))
+        return _root(_polynomial(terms), (-near, last), np.zeros(x.size), fold, np.zeros(1))
 
 
 _NEAR = 2.0**-6
+_FOLD_OFF = 2.0**-50
+"""Above what a rounded fold is off by, relative to it."""
 
 
-def _root(function: Function, ends: tuple[Array, Array], x: Array, fold: Array) -> Array:
+def _root(
+    function: Function, ends: tuple[Array, Array], x: Array, fold: Array, noise: Array
+) -> Array:
     """Newton steps from x, kept inside a bracket; the function grows up to its fold.
 
-    What has not arrived by then is halved: 64 times take the bracket, at most 64 times as wide as
-    the root lies from 0, to less than 2**-50 of it.
+    A value below its noise has arrived. What has not after those steps is halved: 64 times take the
+    bracket, at most 64 times as wide as the root lies from 0, to less than 2**-50 of it.
     """
     low, high = ends
     folds = np.isfinite(fold)
@@ -176,6 +187,7 @@ def _root(function: Function, ends: tuple[Array, Array], x: Array, fold: Array) 
         # a step that stays where it is has arrived, though that is now an end of the bracket
         usable = ((step > low) & (step < high) & (slope > 0)) | (np.abs(step - x) <= near)
         following = np.where(usable & (turn < _NEWTON), step, (low + high) / 2)
+        following = np.where(np.abs(value) <= noise, x, following)
         arrived = np.all(np.abs(following - x) <= near)
         x = following
         if arrived:

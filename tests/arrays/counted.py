@@ -265,22 +265,41 @@ def fold_bound(_):
     return max(falling, rising) / 2 + UNIT + SECOND
 
 
+_GROWING = 64 * (3 * 3 + 6 * 5 + 4 * 7)
+"""Units squared of m by which a cubic that grows is off, see below."""
+
+
 def quintic_inverse_bound(exponent):
     """Bound for the inverse of two coefficients, of a slope x f'/m of about 2**exponent at the root.
 
     Up to the first fold each term is at most 4 m: of unlike signs, the terms of the slope bound
     each other. The start has arrived: its last step, of Newton's or of halving, was at most 2**-50
-    of it, and a value in doubles is off by at most 32 units of m, by the slope. The step from
-    there leaves out its square by 13 terms, and takes a slope that is off by 8 units of them; the
-    residual is off by 64 * 2**-106 of m. Below 2**-12 the polynomial around the start is solved,
-    whose bracket of 2**-5 is halved to 2**-69 at least; from the start to the root the function
-    grows, so that none of its terms is above the 64 units that it misses, nor off by more than 8
-    units of that. The slope is known like the residual.
+    of it or its value at most 8 units of m, and a value in doubles is off by at most 32 units, by
+    the slope. The step from there leaves out its square by 13 terms, and takes a slope that is off
+    by 8 units of them; the residual is off by 64 * 2**-106 of m. Below 2**-12 the polynomial around
+    the start is solved, whose bracket of 2**-5 is halved to 2**-69 at least, with coefficients that
+    are known like the residual, then rounded. From the start to the root it grows, over a step so
+    short that its last two terms are none: a cubic that grows has terms of at most 3, 6 and 4 times
+    what it grows by, here 64 units. Each is off by a unit, and by two for each step of Horner's
+    rule from there on.
     """
     slope = arb(2) ** exponent
     residual = 64 * UNIT * UNIT / slope
-    start = arb(2) ** -50 + 32 * UNIT / slope
+    start = arb(2) ** -50 + 40 * UNIT / slope
     terms = 52 / slope
     steep = start * start * terms + start * 8 * UNIT * terms + residual
-    flat = residual + 512 * UNIT * UNIT / slope + arb(2) ** -69
+    flat = residual + _GROWING * UNIT * UNIT / slope + arb(2) ** -69
     return (steep if slope > arb(2) ** -12 else flat) + UNIT + SECOND
+
+
+def flat_inverse_bound(exponent):
+    """By how much of r_d the inverse of two coefficients misses it, of slopes below 2**exponent.
+
+    Where two folds meet, the root moves by the cube root of what r_d is off by, so that no digits
+    of the root can be promised; what the formula says of the answer can. As above, the polynomial
+    around the start is solved to 2**-69 of it; then the root is rounded. Both move the value by the
+    slope and by half the second derivative, of which the terms are at most 52 m.
+    """
+    slope = arb(2) ** arb(exponent).upper()
+    moved = UNIT + arb(2) ** -69
+    return (64 + _GROWING) * UNIT * UNIT + moved * slope + 26 * moved * moved

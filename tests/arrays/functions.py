@@ -33,6 +33,13 @@ FUNCTIONS = {
 }
 """By the name of the formula's family."""
 
+COUNTS = {
+    "depth_of_field.far_limit": 4, "projection.pixel": 5, "distortion.distort_x": 4,
+    "distortion.fold_radius": 2, "distortion.inverse_radius": 3, "gamma.gap": 2,
+    "poisson.pmf": 2, "poisson.lower": 2, "hsv.red": 3, "hsv.green": 3, "hsv.blue": 3,
+}  # fmt: skip
+"""Arguments of the functions that take more than one."""
+
 
 def function(name):
     """Callable for ``family.function``."""

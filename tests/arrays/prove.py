@@ -224,6 +224,9 @@ PIECES = {
     "inverse_radius, k2 (log2 of slope)": Piece(
         counted.quintic_inverse_bound, -40.0, 0.0, 40, ROOT, 2 * quintic._STEPS
     ),
+    "inverse_radius, k2, slope to 2^-40: what r_d is missed by": Piece(
+        counted.flat_inverse_bound, -41.0, -40.0, 1, ROOT, 2 * quintic._STEPS
+    ),
     "luminosity.efficiency": Piece(counted.curve_bound, 0.0, 1.0, 1, (luminosity.Curve.read,)),
     "projection.pixel, f x/(pitch z)": Piece(counted.term_bound, 0.0, 1.0, 1, PIXEL),
 }

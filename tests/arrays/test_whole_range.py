@@ -12,7 +12,7 @@ import mpmath as mp
 import numpy as np
 import oracle
 import pytest
-from functions import FUNCTIONS, function
+from functions import COUNTS, FUNCTIONS, function
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from ulp import ulps
@@ -25,12 +25,6 @@ EDGES = st.sampled_from([0.0, -0.0, 5e-324, 2.2250738585072014e-308, 1.797693134
 NEAR_ONE = st.integers(-4, 4).map(lambda n: 1 + n * 2**-52)
 UNIT = st.floats(0, 1)
 NUMBER = st.one_of(ANY, ANY.map(abs), EDGES, NEAR_ONE, UNIT)
-COUNTS = {
-    "depth_of_field.far_limit": 4, "projection.pixel": 5, "distortion.distort_x": 4,
-    "distortion.fold_radius": 2, "distortion.inverse_radius": 3, "gamma.gap": 2,
-    "poisson.pmf": 2, "poisson.lower": 2, "hsv.red": 3, "hsv.green": 3, "hsv.blue": 3,
-}  # fmt: skip
-"""Arguments of the functions that take more than one."""
 
 
 def alone(call, args):
@@ -161,6 +155,44 @@ def test_undistorting_in_any_unit():
         )
         assert below <= 0
         assert above >= 0 or value >= distortion.fold_radius(*row[1:]) * (1 - 1e-7)
+
+
+def folds_at_a_half():
+    """Rows whose r_d is the largest that any point reaches, exactly, at 1/2."""
+    for n in range(274, 3000):
+        s = -n / 1024
+        yield -s, -8 - 20 * s, 16 * (1 + 3 * s)
+
+
+def folds_that_meet(rng):
+    """Rows next to where two folds are one and the root moves by a cube root."""
+    yield 0.14593570553834814, -8.903957382502353, 35.67620568123817
+    yield 0.153001953977983, -8.100507760488455, 29.528201689980158
+    yield 0.42876060340463346, -1.0315171428345535, 0.4788124271827024
+    for k1 in rng.uniform(-10, -0.1, 3000):
+        k2 = 9 * k1 * k1 / 20
+        x = math.sqrt(-3 * k1 / (10 * k2))
+        yield x * (1 + x * x * (k1 + k2 * x * x)), k1, k2
+
+
+def test_undistorting_where_the_slope_vanishes():
+    """The answer is not beyond the fold and satisfies the formula, by exact fractions.
+
+    It misses r_d by what rounding the answer moves it, and 2**-92 of it.
+    """
+    rows = [*folds_at_a_half(), *folds_that_meet(np.random.default_rng(5))]
+    found = distortion.inverse_radius(*map(np.array, zip(*rows, strict=True)))
+    flat = 0
+    for value, row in zip(found, rows, strict=True):
+        if np.ma.is_masked(value):  # r_d was rounded to beyond
+            continue
+        r, r_d, k1, k2 = map(Fraction, (float(value), *row))
+        slope = abs(r * (1 + r * r * (3 * k1 + 5 * k2 * r * r))) / r_d
+        missed = abs(r * (1 + r * r * (k1 + k2 * r * r)) - r_d) / r_d
+        assert missed <= slope * Fraction(1.6) / 2**53 + Fraction(1, 2**92)
+        assert value <= distortion.fold_radius(*row[1:]) * (1 + 2.0**-48)
+        flat += slope < 2.0**-40
+    assert flat > 2700
 
 
 SLOW = {
