@@ -1,11 +1,15 @@
 """Array functions against the textbook formula and other libraries on a million exam inputs.
 
-Run: ``python benchmarks/numerics.py``. Prints nanoseconds per value (least of several runs, the
-ways taken in turn), first for a million draws of every argument, then for a million points or
-pixels of one camera, whose settings are plain numbers. Exits with 1 when a stable function is
-slower on draws than allowed: 1.5 times the textbook formula where that is right on every hard row
-of ``tests/arrays/rows`` (to 5 units in the last place; both are measured here), else 3 times, and
-20 times for the inverse of the distortion.
+Run: ``python benchmarks/numerics.py [--worst]``. Prints nanoseconds per value (least of several
+runs, the ways taken in turn), first for a million draws of every argument, then for a million
+points or pixels of one camera, whose settings are plain numbers. Exits with 1 when a stable
+function is slower on draws than allowed: 1.5 times the textbook formula where that is right on
+every hard row of ``tests/arrays/rows`` (to 5 units in the last place; both are measured here),
+else 3 times, and 20 times for the inverse of the distortion.
+
+``--worst`` prints instead what the slowest element of each function takes: of many rows of zeros,
+subnormal and huge numbers, coefficients of every size, counts beyond all doubles. Exits with 1 if
+one takes more than 20 microseconds at a machine's best speed.
 """
 
 from __future__ import annotations
@@ -20,6 +24,9 @@ from typing import Any, NamedTuple
 import mpmath as mp
 import numpy as np
 
+sys.path.insert(0, str(Path(__file__).parent.parent / "tests" / "arrays"))
+from functions import COUNTS, FUNCTIONS
+
 from quizgen.arrays import distortion, gamma, gaussian, hsv, luminosity, poisson
 from quizgen.tradeoff.families import BY_NAME
 from quizgen.tradeoff.ladder import rungs
@@ -29,6 +36,14 @@ HARD = Path(__file__).parents[1] / "tests" / "arrays" / "rows"
 ACCURATE = 5.0
 """Units in the last place up to which a textbook formula counts as right."""
 ROOT2, GAMMA = 2**0.5, 2.2
+ODD = (0.0, -0.0, 5e-324, 1e-310, sys.float_info.min, sys.float_info.max, 1e-200, 1e200, 1e-30,
+       1e30, 1e-8, 1e8, 1.0, 0.5, 1 / 3, 2.0, 3.0, 37.0, 60.0, 61.0, 1e6, 1e15, 2.0**53, 0.1, 0.02,
+       0.8606629658238703, 1 + 2**-52, 1 - 2**-53, 359.9999, 120.0, 447.3, 555.0)  # fmt: skip
+"""Edges of the doubles and of formulas; also their opposites."""
+FOLDS_THAT_MEET = (0.14593570553834814, -8.903957382502353, 35.67620568123817)
+ROWS_OF_ODD, BLOCK, MOST_MICROSECONDS = 300, 1024, 20.0
+LOOP, LOOP_THERE = 3_000_000, 0.13
+"""Turns of a loop, and the seconds that it takes on the machine of the limit."""
 
 
 class Case(NamedTuple):
@@ -208,6 +223,52 @@ def least(case: Case, *, peer: bool) -> list[float]:
     return [seconds / COUNT * 1e9 for seconds in best]
 
 
+def slowness() -> float:
+    """How much slower a loop is than where the limit was set."""
+    start, total = time.process_time(), 0
+    for number in range(LOOP):
+        total += number * number
+    return (time.process_time() - start) / LOOP_THERE
+
+
+def odd_rows(rng: np.random.Generator, count: int) -> Iterator[list[Any]]:
+    """Arguments of which all but the last element of a block are the same odd ones."""
+    if count == len(FOLDS_THAT_MEET):
+        yield [np.full(BLOCK, x) for x in FOLDS_THAT_MEET]
+    for _ in range(ROWS_OF_ODD):
+        row = rng.choice(ODD, count) * rng.choice([1.0, 1.0, -1.0], count)
+        row = row * (1 + rng.integers(-3, 4, count) * 2.0**-40)
+        yield [np.append(np.full(BLOCK - 1, x), np.nextafter(x, 2.0)) for x in row]
+
+
+def microseconds(call: Callable[..., Any], columns: list[Any]) -> float:
+    """Of each element of a block, at the better of two tries."""
+    best = float("inf")
+    for _ in range(2):
+        start = time.process_time()
+        call(*columns)
+        best = min(best, time.process_time() - start)
+    return best / BLOCK * 1e6
+
+
+def worst() -> int:
+    """Print what the slowest element of each function takes; 1 if it is too much."""
+    rng, over = np.random.default_rng(1), False
+    print(f"{'function':26} {'us':>6}  arguments")
+    for name, call in FUNCTIONS.items():
+        before = slowness()
+        with np.errstate(all="ignore"):
+            timed = [
+                (microseconds(call, columns), [float(column[0]) for column in columns])
+                for columns in odd_rows(rng, COUNTS.get(name, 1))
+            ]
+        longest, row = max(timed)
+        longest /= (before + slowness()) / 2
+        over = over or longest > MOST_MICROSECONDS
+        print(f"{name:26} {longest:6.1f}  {', '.join(f'{x:.4g}' for x in row)}")
+    return int(over)
+
+
 def main() -> int:
     rng = np.random.default_rng(1)
     slow = []
@@ -231,4 +292,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(worst() if sys.argv[1:] == ["--worst"] else main())
