@@ -91,7 +91,7 @@ def primitives(size: tuple[int, int], repeats: int) -> dict[str, float]:
         exposure=1.0, dark_current=100.0, shutter=0.1, read_noise=5.0, smear=0.01, bit_depth=12,
         mosaic="RGGB", white_balance=(1.5, 1.0, 1.4), gamma="srgb", hue=1.0,
         gaussian_noise=0.05, impulse_noise=0.05, normalise=(0.1, 0.9, 0.0, 1.0), blooming=True,
-        light=2856.0,
+        light=2856.0, fixed_pattern=1.0, dark_frames=4,
     )  # fmt: skip
     image = look.scene.image
     raw = mosaic.run(image, look)

@@ -93,3 +93,12 @@ def test_a_turning_spot_becomes_an_arc_without_gaps():
         for turn in along
     ]
     assert min(near) > 0.4 * float(np.mean(near))
+
+
+def test_the_time_of_every_effect_can_be_measured(monkeypatch):
+    """What ``benchmarks/camera.py --calibrate`` prints for the table of costs."""
+    monkeypatch.syspath_prepend(str(Path(__file__).parents[2] / "benchmarks"))
+    times = import_module("camera").primitives((48, 32), 1)
+    drawn = {effect.name for effect in EFFECTS if effect.stage in ("scene", "optics")}
+    assert set(NAMES) - drawn <= set(times) | {"vignetting"}
+    assert min(times.values()) > 0

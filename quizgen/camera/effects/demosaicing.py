@@ -113,7 +113,7 @@ EFFECT = Effect(
     decides=("bayer", "demosaicing", "moire"),
     present=lambda view: view.camera[MOSAIC] != "",
     run=on_picture(run),
-    cost=measured((1.64, 173)),
+    cost=measured((1.87, 58.7)),
     skipped=skipped,
     carried=carried,
     knows_where=True,

@@ -161,7 +161,7 @@ EFFECT = Effect(
     settings=(SHOT_NOISE,),
     present=lambda view: view.camera[FULL_WELL] is not None and view.camera[SHOT_NOISE],
     run=PointByPoint(work),
-    cost=measured((15.5, 690), gaussian=(8.2, 330)),
+    cost=measured((7.6, 460), gaussian=(3.94, 231)),
     skipped=skipped,
     carried=carried,
     after=after,

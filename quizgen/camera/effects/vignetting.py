@@ -143,7 +143,7 @@ EFFECT = Effect(
     settings=(NATURAL, MECHANICAL),
     present=present,
     run=PointByPoint(work),
-    cost=measured((1.55, 115)),
+    cost=measured((1.09, 127)),
     skipped=skipped,
     after=after,
 )
