@@ -1,13 +1,13 @@
 """Large pictures piece by piece, so that what lies in between stays in the processor's cache.
 
-Pieces do not depend on how many cores share them, so neither do the results.
+One after the other: in so small a piece a call of NumPy takes microseconds, and threads that hand
+over the interpreter's lock after each took twice as long as one, and four times the processor time.
 """
 
 from __future__ import annotations
 
-import os
-from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable, Iterator, Sequence
+from functools import cache
 from time import perf_counter
 
 import numpy as np
@@ -20,34 +20,24 @@ Work = Callable[[Image, int], None]
 BLOCK = 3 << 13
 """Values per piece: whole colours, 96 KiB."""
 
-_WORTH_SHARING = 1 << 21
-_MOST_CORES = 4
+_SETTLED = 30 << 20
+"""Bytes, just below the most that the C library still takes note of (32 MiB)."""
 
 
-def for_pieces(length: int, piece: int, size: int, work: Callable[[int, int], None]) -> None:
-    """Call ``work(start, stop)`` for consecutive pieces of [0, length).
+@cache
+def settle_the_allocator() -> None:
+    """Let the C library see a large array come and go, once.
 
-    Parameters
-    ----------
-    length, piece : int
-        How far to go, and how far at once.
-    size : int
-        Values to be worked on in all; only many are worth a second core.
-    work : callable
-        Must not depend on the order of the calls.
+    Until then it gives temporaries back to the system piece by piece, and to take new memory costs
+    more than to draw or to warp what is put there. The array is never written to and takes none.
     """
-    starts = range(0, length, piece)
-    cores = min(_MOST_CORES, os.cpu_count() or 1) if size >= _WORTH_SHARING else 1
+    np.empty(_SETTLED, np.uint8)
 
-    def share(first: int) -> None:
-        for start in starts[first::cores]:
-            work(start, min(start + piece, length))
 
-    if cores == 1:
-        share(0)
-        return
-    with ThreadPoolExecutor(cores) as pool:
-        list(pool.map(share, range(cores)))
+def pieces(length: int, size: int) -> Iterator[tuple[int, int]]:
+    """Start and stop of consecutive pieces of [0, length), the last one maybe smaller."""
+    for start in range(0, length, size):
+        yield start, min(start + size, length)
 
 
 def in_turn(
@@ -75,7 +65,7 @@ def in_turn(
     result = flat if own else np.empty_like(flat)
     clock: list[list[float]] = []
 
-    def one(start: int, stop: int) -> None:
+    for start, stop in pieces(flat.size, BLOCK):
         piece, ticks = result[start:stop], [perf_counter()]
         if not own:
             piece[...] = flat[start:stop]
@@ -83,8 +73,6 @@ def in_turn(
             work(piece, start // BLOCK)
             ticks.append(perf_counter())
         clock.append(ticks)
-
-    for_pieces(flat.size, BLOCK, flat.size, one)
     return result.reshape(values.shape), np.diff(clock, axis=1).sum(axis=0)
 
 

@@ -12,6 +12,7 @@ from itertools import groupby
 import msgspec
 import numpy as np
 
+from quizgen.camera.blocks import settle_the_allocator
 from quizgen.camera.body import aperture
 from quizgen.camera.outlines import SHAPES, TEXTURES, Plane
 from quizgen.camera.scene import Image, SceneError, Thing
@@ -305,6 +306,7 @@ def draw(view: View) -> Stack:
     """
     if view.scene.metric:
         raise SceneError("lengths in metres must be projected first")
+    settle_the_allocator()
     return tuple(_draw_sheet(sheet, view) for sheet in sheets(view))
 
 

@@ -16,7 +16,7 @@ from types import ModuleType
 import numpy as np
 from numpy.typing import NDArray
 
-from quizgen.camera.blocks import for_pieces
+from quizgen.camera.blocks import pieces
 
 Image = NDArray[np.floating]
 
@@ -152,12 +152,9 @@ def goes_by_slabs(kernel: NDArray[np.float64]) -> bool:
 def _convolve_by_slabs(cv2: ModuleType, image: Image, kernel: NDArray[np.float64]) -> Image:
     """A few kernel rows at a time, so few that OpenCV sums directly."""
     result, reach = np.empty_like(image), kernel.shape[0] // 2
-
-    def band(start: int, stop: int) -> None:
+    for start, stop in pieces(len(image), _BAND):
         rows = _rows(image, start - reach, stop + reach)
         result[start:stop] = _by_slabs(cv2, rows, kernel, stop - start)
-
-    for_pieces(len(image), _BAND, image.size, band)
     return result
 
 
@@ -249,11 +246,8 @@ def sample(image: Image, x: Image, y: Image) -> Image:
         return np.asarray(found.reshape(*x.shape, image.shape[2]))
     result = np.empty((*x.shape, image.shape[2]), image.dtype)
     image = np.ascontiguousarray(image)
-
-    def band(start: int, stop: int) -> None:
+    for start, stop in pieces(len(result), _ROWS):
         result[start:stop] = _sample_rows(image, x[start:stop], y[start:stop])
-
-    for_pieces(len(result), _ROWS, result.size, band)
     return result
 
 
@@ -294,12 +288,9 @@ def sample_grid(channel: Image, x: NDArray[np.float64], y: NDArray[np.float64]) 
     left, right, across = _split(x.astype(channel.dtype), channel.shape[1])
     top, bottom, down = _split(y.astype(channel.dtype), channel.shape[0])
     result = np.empty((y.size, x.size), channel.dtype)
-
-    def band(start: int, stop: int) -> None:
+    for start, stop in pieces(y.size, _ROWS):
         part = slice(start, stop)
         share = down[part, None]
         rows = channel[top[part]] * (1 - share) + channel[bottom[part]] * share
         result[part] = rows[:, left] * (1 - across) + rows[:, right] * across
-
-    for_pieces(y.size, _ROWS, result.size, band)
     return result

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quizgen.camera import effects
-from quizgen.camera.blocks import BLOCK, for_pieces, in_turn
+from quizgen.camera.blocks import BLOCK, in_turn, pieces
 from quizgen.camera.camera import Camera
 from quizgen.camera.chain import GREY_LEVELS
 from quizgen.camera.codes import rounded
@@ -63,11 +63,8 @@ class Photo(msgspec.Struct, frozen=True):
         """8-bit codes, halves rounded upward."""
         flat = self.values.reshape(-1)
         codes = np.empty(flat.shape, np.uint8)
-
-        def work(start: int, stop: int) -> None:
+        for start, stop in pieces(flat.size, BLOCK):
             codes[start:stop] = rounded(flat[start:stop] * GREY_LEVELS)
-
-        for_pieces(flat.size, BLOCK, flat.size, work)
         return codes.reshape(self.values.shape)
 
 
@@ -187,7 +184,7 @@ class _Run:
         works = [run.work(view, rung) for run, rung in runs if isinstance(run, PointByPoint)]
         result, clock = in_turn(picture, works, own=self._ours(picture))
         spent = (perf_counter() - started) * 1e3
-        shares = clock / clock.sum()  # several cores have shared the time
+        shares = clock / clock.sum()
         names = (step.effect for step in steps)
         self.times.update(zip(names, (spent * shares).tolist(), strict=True))
         self.stack = [Layer(result)]

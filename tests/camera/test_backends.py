@@ -101,15 +101,31 @@ def test_slabs_and_bands_leave_no_seams(kernel):
     assert np.abs(filters.convolve(image, kernel) - whole).max() < 2e-6
 
 
-def test_cores_do_not_change_a_bit():
-    """2.9 million values are shared among cores; alone, and in rows, they come out the same."""
+def test_pieces_do_not_change_a_bit():
+    """2.9 million values are encoded in pieces; row by row they come out the same."""
     image = picture(height=900, width=1070)
     image[0, :4, 0] = (0.0, 1.0, 0.0031308, 1e-40)
-    shared = power.encode(image, "srgb")
-    assert np.array_equal(shared, np.stack([power.encode(row, "srgb") for row in image]))
+    whole = power.encode(image, "srgb")
+    assert np.array_equal(whole, np.stack([power.encode(row, "srgb") for row in image]))
     knee = np.where(image <= 0.0031308, 12.92 * image.astype(float), 0.0)
     curve = 1.055 * np.maximum(image, 1e-9).astype(float) ** (1 / 2.4) - 0.055
-    assert np.abs(shared - np.where(knee > 0, knee, curve * (image > 0))).max() < 3e-7
+    assert np.abs(whole - np.where(knee > 0, knee, curve * (image > 0))).max() < 3e-7
+
+
+def test_threads_do_not_change_a_bit():
+    """OpenCV warps and blurs on all cores, whatever their number."""
+    image = picture(height=300, width=400)
+    camera = Camera(0.05, 5e-6, f_number=2.0, focus_distance=3.0, k1=-20.0, hue=0.3, gamma="srgb")
+    scene = Scene(400, 300, image=image, depth=3.3)
+    shots, before = [], cv2.getNumThreads()
+    try:
+        for threads in (1, 3):
+            cv2.setNumThreads(threads)
+            shots.append(simulate_everything(scene, camera))
+    finally:
+        cv2.setNumThreads(before)
+    assert {"distortion", "defocus", "hsv edit"} <= set(shots[0].times)
+    assert np.array_equal(shots[0].values, shots[1].values)
 
 
 def test_sampling_is_bilinear(backend):

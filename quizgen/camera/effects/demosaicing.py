@@ -7,7 +7,7 @@ import math
 import numpy as np
 from msgspec.structs import replace
 
-from quizgen.camera.blocks import for_pieces
+from quizgen.camera.blocks import pieces
 from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, on_picture
 from quizgen.camera.effects.mosaic import CHANNELS, MOSAIC, colour_at
@@ -37,11 +37,8 @@ def _bilinear(plane: Image, tile: tuple[tuple[int, int], ...]) -> Image:
     """Means of the nearest photosites of each colour, from a plane padded by one."""
     height, width = plane.shape[0] - 2, plane.shape[1] - 2
     result = np.empty((height, width, 3), plane.dtype)
-
-    def band(start: int, stop: int) -> None:
+    for start, stop in pieces(height, _ROWS):
         _fill(result[start:stop], plane[start : stop + 2], tile)
-
-    for_pieces(height, _ROWS, result.size, band)
     return result
 
 
