@@ -11,7 +11,7 @@ from flint import fmpq
 
 from quizgen.arrays.aliases import Array, Counts, Flags, Numbers, Result
 from quizgen.arrays.domain import NONNEGATIVE, REAL, Rule
-from quizgen.arrays.kernel import Kernel, lowest
+from quizgen.arrays.kernel import Kernel, lowest, within
 from quizgen.arrays.quintic import Quintic, cubic, room
 from quizgen.arrays.rational import ONE, binary, exactly, over_power
 
@@ -22,29 +22,53 @@ _TAME = 4.0
 _LARGEST = 2.0**200
 
 
-def _distort(x: Array, y: Array, k1: Array, k2: Array) -> tuple[Array, ...]:
-    """Plain doubles while the change is small.
-
-    In units of 2**-53 times x, the change is off by at most 5 |change| + 3 |k2| r**4, also where
-    its terms cancel; adding it to x and y costs one more.
-    """
+def _change(x: Array, y: Array, k1: Array, k2: Array) -> tuple[Array, Array]:
+    """k1 r**2 + k2 r**4, and r**2."""
     r2, square = x * x, y * y
     r2 = np.add(r2, square, out=r2 if r2.size >= square.size else square)
     change = k2 * r2
     change = change + k1 if k1.size > change.size else np.add(change, k1, out=change)
     change *= r2
+    return change, r2
+
+
+def _is_small(change: Array, k2: Array, top: float) -> bool:
+    """Whether plain doubles will do throughout, up to an r**2.
+
+    In units of 2**-53 times x, the change is off by at most 5 |change| + 3 |k2| r**4, also where
+    its terms cancel; adding it to x and y costs one more.
+    """
+    least, most, bend = change.min(), change.max(), max(k2.max(), -k2.min())
+    return bool(5 * max(most, -least) + 3 * bend * top * top <= _ALLOWED * (1 + least))
+
+
+def _distort(x: Array, y: Array, k1: Array, k2: Array) -> tuple[Array, ...]:
+    """Plain doubles while the change is small."""
+    change, r2 = _change(x, y, k1, k2)
     moved = x * change, y * change
     for place, found in zip((x, y), moved, strict=True):
         np.add(found, place, out=found)
-    least, most, top = change.min(), change.max(), r2.max()
-    bend = max(k2.max(), -k2.min())
-    if 5 * max(most, -least) + 3 * bend * top * top <= _ALLOWED * (1 + least):
+    if _is_small(change, k2, r2.max()):
         return moved
     off = 5 * np.abs(change) + 3 * np.abs(k2) * r2 * r2
     doubtful = ~(off <= _ALLOWED * (1 + change))
     return tuple(np.where(doubtful, np.nan, place) for place in moved)
 
 
+def _distort_all(x_d: Array, y_d: Array, x: Array, y: Array, k1: Array, k2: Array) -> bool:
+    """Both results, if the change is small everywhere; what is not finite is not small."""
+    change, r2 = _change(x, y, k1, k2)
+    top = r2.max()
+    tame = all(within(k, -_FAR, _FAR) for k in (k1, k2)) and top <= _FAR
+    if not tame or not _is_small(change, k2, top):
+        return False
+    for place, found in ((x, x_d), (y, y_d)):
+        np.multiply(place, change, out=found)
+        np.add(found, place, out=found)
+    return True
+
+
+_FAR = 2.0**100
 _ALLOWED = 3.0
 
 
@@ -137,7 +161,10 @@ def _fold(k1: Array, k2: Array) -> Array:
     return np.ldexp(Quintic(one, np.ldexp(k1, 2 * j), np.ldexp(k2, 4 * j), one).fold(), j)
 
 
-_DISTORT = Kernel(_distort, (REAL,) * 4, exact=_distort_exact, reach=2.0**100, tiny=True, outputs=2)
+_DISTORT = Kernel(
+    _distort, (REAL,) * 4, exact=_distort_exact, reach=_FAR, tiny=True, outputs=2,
+    shortcut=_distort_all,
+)  # fmt: skip
 _FOLD = Kernel(_fold, (REAL, REAL), shortcut=_fold_of_barrel)
 _INVERSE = Kernel(_inverse, (NONNEGATIVE, REAL, REAL), (Rule("beyond-fold", _beyond),))
 

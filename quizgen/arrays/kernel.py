@@ -53,7 +53,7 @@ class Kernel(msgspec.Struct, frozen=True):
     outputs : int
         Number of result arrays.
     shortcut : callable, optional
-        Fills a block of the only result from those of the arguments, and tells whether a short look
+        Fills a block of each result from those of the arguments, and tells whether a short look
         showed that every element has an answer and the formula is trusted, as in nearly all
         blocks. Where it says no, the block is done again with a look at each argument.
     """
@@ -92,11 +92,10 @@ class Kernel(msgspec.Struct, frozen=True):
         masks: list[tuple[int, Flags]] = []
         fixed = [_limits(arg) if arg.size == 1 else None for arg in args]
         for start, block in _blocks(args, columns[0].size):
-            part = columns[0][start : start + BLOCK]
-            if self.shortcut is not None and self.shortcut(part, *block):
+            parts = [column[start : start + BLOCK] for column in columns]
+            if self.shortcut is not None and self.shortcut(*parts, *block):
                 continue
             limits = [known or _limits(arg) for known, arg in zip(fixed, block, strict=True)]
-            parts = [column[start : start + BLOCK] for column in columns]
             bad = self._bad(block, limits)
             if bad is None:
                 _fill(parts, self._values(block, limits), slice(None))

@@ -189,6 +189,9 @@ UNIFORM = (
     poisson._uniform_lower, poisson._uniform_rest, gaussian.mills, *LOGARITHM, tables,
 )  # fmt: skip
 GAP = (gamma_gap, power, *LOGARITHM)
+DISTORT = (
+    distortion._change, distortion._is_small, distortion._distort, distortion._distort_all,
+)  # fmt: skip
 FOLD = (quintic.Quintic.inside, quintic.Quintic.fold, distortion._fold, double_double)
 PIECES = {
     "gaussian.far_tail": Piece(far_bound, 0.6999, 37.5, 4000, TAIL),
@@ -207,7 +210,7 @@ PIECES = {
     "gamma.srgb_decode, bright (log2)": Piece(counted.decode_bound, -3.4, 427.0, 100, DECODE),
     "far_limit to 0.3 of hyperfocal": Piece(counted.short_limit_bound, 0.0, 0.30001, 300, LIMIT),
     "far_limit beyond (log2 of rest)": Piece(counted.long_limit_bound, -40.1, -0.5, 100, LIMIT),
-    "distortion.distort": Piece(counted.distort_bound, 0.0, 1.0, 1, (distortion._distort,)),
+    "distortion.distort": Piece(counted.distort_bound, 0.0, 1.0, 1, DISTORT),
     "fold_radius, k2 = 0": Piece(counted.barrel_bound, 0.0, 1.0, 1, (distortion._fold_of_barrel,)),
     "fold_radius, both coefficients": Piece(counted.fold_bound, 0.0, 1.0, 1, FOLD),
     "logarithm.log_pair": Piece(counted.log_bound, 0.0, 0.1716, 200, LOGARITHM),
