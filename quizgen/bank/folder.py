@@ -106,7 +106,7 @@ class Bank:
     def _solvers(self) -> Path:
         return self.root / SOLVERS
 
-    @property
+    @cached_property
     def _figures(self) -> Path:
         return self.root / FIGURES
 

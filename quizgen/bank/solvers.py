@@ -14,6 +14,7 @@ import time
 import traceback
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from functools import lru_cache
 from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
 from pathlib import Path
 from threading import RLock
@@ -68,9 +69,14 @@ class _Finder(PathFinder):
         return found
 
 
+@lru_cache(maxsize=64)
+def _private(folder: Path) -> str:
+    return _PRIVATE + digest_of(str(folder.resolve()).encode())[:8]
+
+
 def _mounted(folder: Path) -> str:
     """Private name of the package that a folder of solvers or figures is."""
-    name = _PRIVATE + digest_of(str(folder.resolve()).encode())[:8]
+    name = _private(folder.absolute())
     with _LOCK:
         if _Finder not in sys.meta_path:
             sys.meta_path.insert(0, _Finder)

@@ -12,6 +12,7 @@ from quizgen.locale import FIRST
 from quizgen.outside import located, read_bytes
 
 
+@cache
 def words_of(module: str, lang: str) -> dict[str, str]:
     """Sentences of a figure, from ``<lang>.toml`` beside it; in English where there is none.
 

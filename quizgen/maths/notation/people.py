@@ -204,6 +204,8 @@ _WRITERS: dict[str, Callable[[str], str]] = {
 
 
 _WITH_INDEX = lazy(r"[^\W\d_]+['′]*_[^\W_]+['′]*|(?<![^\W_])[^\W\d_]'(?![^\W_])")
+_INDEXED = "_'"
+"""One of which every such name has."""
 
 
 def names_in(text: str) -> str:
@@ -214,6 +216,8 @@ def names_in(text: str) -> str:
     >>> names_in("z'_p in front of λ_1 and z'")
     'z′ₚ in front of λ₁ and z′'
     """
+    if not any(sign in text for sign in _INDEXED):  # looking for names takes long
+        return text
     return _WITH_INDEX.sub(lambda m: name(m[0]), text)
 
 
