@@ -186,11 +186,13 @@ def turned(layer: Layer, angles: Sequence[float | Field], reach: float) -> Layer
 
 
 _TILE, _CELL = 128, 32
-"""Sides of the squares that are turned at once, and of those that are empty or not."""
+"""Sides of the squares that are turned or not, and of those that are empty or not."""
+_ROW = 8
+"""Squares beside each other that are turned at once: few calls, and what they need fits the cache."""
 
 
 def _filled(layer: Layer, reach: float) -> Iterator[Box]:
-    """Tiles that content may reach."""
+    """Rows of tiles that content may reach."""
     height, width = layer.colour.shape[:2]
     lines = [np.arange(0, length, _CELL) for length in (height, width)]
     there = np.ones((len(lines[0]), len(lines[1])), bool)
@@ -199,14 +201,21 @@ def _filled(layer: Layer, reach: float) -> Iterator[Box]:
         there = np.logical_or.reduceat(rows, lines[1], axis=1)
     far, cells = math.ceil(min(reach, height + width) / _CELL), _TILE // _CELL
     for y in range(0, len(there), cells):
-        for x in range(0, there.shape[1], cells):
-            near = slice(max(0, y - far), y + cells + far), slice(max(0, x - far), x + cells + far)
-            if there[near].any():
-                yield _square(y * _CELL), _square(x * _CELL)
+        band = there[max(0, y - far) : y + cells + far].any(axis=0)
+        starts = range(0, len(band), cells)
+        full = [bool(band[max(0, x - far) : x + cells + far].any()) for x in starts]
+        for first, last in _runs(full):
+            yield slice(y * _CELL, y * _CELL + _TILE), slice(first * _TILE, last * _TILE)
 
 
-def _square(start: int) -> slice:
-    return slice(start, start + _TILE)
+def _runs(full: list[bool]) -> Iterator[tuple[int, int]]:
+    """First and last (exclusive) of full places beside each other, a few at a time."""
+    first = 0
+    for place, now in enumerate([*full, False]):
+        if not now or place - first == _ROW:
+            if first < place:
+                yield first, place
+            first = place + (not now)
 
 
 def _turned(
