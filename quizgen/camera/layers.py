@@ -188,7 +188,7 @@ def turned(layer: Layer, angles: Sequence[float | Field], reach: float) -> Layer
 _TILE, _CELL = 128, 32
 """Sides of the squares that are turned or not, and of those that are empty or not."""
 _ROW = 8
-"""Squares beside each other that are turned at once: few calls, and what they need fits the cache."""
+"""Squares beside each other that are turned at once: few calls, and all that they need is small."""
 
 
 def _filled(layer: Layer, reach: float) -> Iterator[Box]:
@@ -201,9 +201,9 @@ def _filled(layer: Layer, reach: float) -> Iterator[Box]:
         there = np.logical_or.reduceat(rows, lines[1], axis=1)
     far, cells = math.ceil(min(reach, height + width) / _CELL), _TILE // _CELL
     for y in range(0, len(there), cells):
-        band = there[max(0, y - far) : y + cells + far].any(axis=0)
+        band = np.any(there[max(0, y - far) : y + cells + far], axis=0)
         starts = range(0, len(band), cells)
-        full = [bool(band[max(0, x - far) : x + cells + far].any()) for x in starts]
+        full = [bool(np.any(band[max(0, x - far) : x + cells + far])) for x in starts]
         for first, last in _runs(full):
             yield slice(y * _CELL, y * _CELL + _TILE), slice(first * _TILE, last * _TILE)
 

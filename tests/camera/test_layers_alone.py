@@ -1,5 +1,7 @@
 """Layers are photographed one by one, and only where something is: the picture is the same."""
 
+from itertools import product
+
 import numpy as np
 import pytest
 
@@ -78,6 +80,16 @@ def test_tiles_and_bands_leave_no_seams(effect, monkeypatch):
     monkeypatch.setattr(layers, "_BAND", 1024)
     whole = by_name(effect).run(prepared.stack, view, "")
     assert np.abs(composite(parts) - composite(whole)).max() < 1e-5
+
+
+@pytest.mark.parametrize("length", [1, 7, 8, 9, 17])
+def test_every_filled_tile_is_turned_once(length):
+    for kept in product((False, True), repeat=min(length, 9)):
+        full = [*kept, *(True for _ in range(length - len(kept)))]
+        runs = list(layers._runs(full))
+        places = [place for first, last in runs for place in range(first, last)]
+        assert places == [place for place, now in enumerate(full) if now]
+        assert all(last - first <= 8 for first, last in runs)
 
 
 def test_an_empty_layer_stays_empty():

@@ -6,9 +6,10 @@ from fractions import Fraction
 import cv2
 import numpy as np
 import pytest
+from scipy import ndimage
 from scipy.integrate import quad
 
-from quizgen.camera import Camera, Length, Scene, SceneError, Thing, View, simulate
+from quizgen.camera import Camera, Length, Scene, SceneError, Thing, View, focus, simulate
 from quizgen.camera.draw import Layer, Motion, composite
 from quizgen.camera.effects import defocus, distortion, lateral_colour, rolling_shutter, vignetting
 from quizgen.camera.filters import convolve
@@ -107,6 +108,40 @@ def test_the_front_does_not_leak_into_a_blurred_background():
     picture = run(prepared, everything(prepared)).values
     assert picture[:, :40].min() > 0.999
     assert picture[:, 40:].max() < 1e-6
+
+
+def test_slices_of_a_depth_map_leave_no_seams():
+    """In bands of rows, as SciPy blurs each slice of the whole picture (far in front of near)."""
+    source = np.random.default_rng(5)
+    image = source.random((500, 60, 3))
+    depth = 1.0 / np.linspace(1.0 / 1.5, 1.0 / 6.0, 500)[:, None] * np.ones(60)
+    depth[200:320, 20:35] = 1.2
+    camera = Camera(0.05, 1e-5, 4.0, 2.0)
+    view = View(Scene(60, 500, image=image, depth=depth, precision="float64"), camera)
+    middles = focus.map_slices(view)
+    slices = np.rint((view.blur_diameter(depth) - middles[0]) / (middles[1] - middles[0]))
+    expected = image.copy()
+    for number in range(len(middles) - 1, -1, -1):
+        kernel, mask = disc(float(middles[number])), (slices == number)[..., None] * 1.0
+        cover = ndimage.convolve(mask, kernel[..., None], mode="nearest")
+        colour = ndimage.convolve(image * mask, kernel[..., None], mode="nearest")
+        if number == len(middles) - 1:
+            seen = cover > 1e-3
+            expected = np.where(seen, colour / np.where(seen, cover, 1.0), image)
+        else:
+            expected = expected * (1.0 - cover) + colour
+    found = defocus.work(Layer(image, depth=depth), view).colour
+    assert 8 < len(middles) < 30
+    assert np.abs(found - expected).max() < 1e-12
+
+
+def test_a_depth_map_is_bent_with_its_picture():
+    depth = np.random.default_rng(2).random((150, 201)).astype(np.float32) + 1.0
+    image = np.repeat(depth[..., None], 3, axis=2)
+    view = View(Scene(201, 150, image=image, depth=depth), Camera(0.05, 0.05 / 220, k1=-0.2))
+    bent = distortion.work(Layer(image, depth=depth), view, "nearest")
+    assert np.abs(bent.depth - depth).max() > 0.5
+    assert np.array_equal(bent.depth, bent.colour[..., 0])
 
 
 @pytest.mark.parametrize(("k1", "k2"), [(-0.2, 0.0), (0.3, 0.0), (-0.25, 0.1), (0.1, 0.4)])

@@ -9,6 +9,7 @@ import numpy as np
 from msgspec.structs import replace
 
 from quizgen.arrays.distortion import fold_radius, inverse_radius
+from quizgen.camera.blocks import pieces
 from quizgen.camera.body import NEEDS_LENS, aperture
 from quizgen.camera.costs import at_least_a_call, at_size, sampling
 from quizgen.camera.draw import Box, Layer, sheets
@@ -182,7 +183,10 @@ def work(layer: Layer, view: View, rung: str = "") -> Layer:
 def _with_depth(layer: Layer, view: View) -> Layer:
     if not isinstance(layer.depth, np.ndarray):
         return layer
-    return replace(layer, depth=sample_nearest(layer.depth, *source(view)))
+    depth = np.empty_like(layer.depth)
+    for start, stop in pieces(len(depth), _BAND):
+        depth[start:stop] = sample_nearest(layer.depth, *source(view, slice(start, stop)))
+    return replace(layer, depth=depth)
 
 
 def _top_radius(view: View) -> float:
