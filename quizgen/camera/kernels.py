@@ -70,7 +70,7 @@ def _tents(positions: Kernel) -> Kernel:
 
 
 def _sharing(positions: Kernel) -> Callable[[Kernel], Kernel]:
-    """What shares rows at ascending positions (px) between the pixels before and after each.
+    """What shares rows at ascending positions (px, > 0) between the pixels before and after each.
 
     Sums in one thread and in one order: a product of matrices takes all cores for a moment.
     """
@@ -78,14 +78,13 @@ def _sharing(positions: Kernel) -> Callable[[Kernel], Kernel]:
     share = (positions - before)[:, None]
     rest = 1.0 - share
     starts = np.append(0, (before[1:] != before[:-1]).nonzero()[0] + 1)
-    reach = math.ceil(np.abs(positions).max())
-    pixels = before[starts] + reach
+    pixels, reach = before[starts], math.ceil(positions[-1])
 
     def shared(rows: Kernel) -> Kernel:
-        found = np.zeros((2 * reach + 2, rows.shape[1]))
+        found = np.zeros((reach + 2, rows.shape[1]))
         found[pixels] = np.add.reduceat(rows * rest, starts)
         found[pixels + 1] += np.add.reduceat(rows * share, starts)
-        return found[:-1]
+        return found[: reach + 1]
 
     return shared
 
@@ -114,10 +113,19 @@ def disc(diameter: float) -> Kernel:
 
 
 def _splatted(cells: Kernel, centres: Kernel) -> Kernel:
-    """Light at a grid of positions (px along both axes) on the pixels, sum 1, symmetric."""
-    shared = _sharing(centres)
-    kernel = shared(shared(cells).T).T
-    kernel = (kernel + kernel[::-1] + kernel[:, ::-1] + kernel[::-1, ::-1]) / 4.0
+    """Light at a grid of positions (px along both axes) on the pixels, sum 1, symmetric.
+
+    One quarter stands for all: the light in the middle row and column comes from both sides.
+    """
+    half = len(centres) // 2
+    shared = _sharing(centres[half:])
+    quarter = shared(shared(cells[half:, half:]).T).T
+    quarter[0] *= 2.0
+    quarter[:, 0] *= 2.0
+    reach = len(quarter) - 1
+    kernel = np.empty((2 * reach + 1, 2 * reach + 1))
+    kernel[reach:, reach:], kernel[reach:, :reach] = quarter, quarter[:, :0:-1]
+    kernel[:reach] = kernel[:reach:-1]
     return np.asarray(kernel / kernel.sum())
 
 

@@ -5,17 +5,27 @@ Every function returns plain arrays; words, frames and alt texts belong to the f
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import lru_cache
+from itertools import groupby
+from typing import cast
+
 import numpy as np
 from numpy.typing import NDArray
 
 from quizgen.camera.blocks import in_turn
 from quizgen.camera.camera import Camera
 from quizgen.camera.codes import histogram, rounded
-from quizgen.camera.effects import demosaicing, mosaic
+from quizgen.camera.draw import Box, blend, content, draw
+from quizgen.camera.effects import demosaicing, gamma, mosaic
 from quizgen.camera.effects.gaussian_noise import gaussian
 from quizgen.camera.effects.impulse_noise import impulses
 from quizgen.camera.effects.normalisation import stretch_range
+from quizgen.camera.filters import convolve, everywhere_alike
 from quizgen.camera.hsv import edit_hsv
+from quizgen.camera.kernels import disc
+from quizgen.camera.layers import wider
 from quizgen.camera.noise import luck
 from quizgen.camera.scene import Image, Scene
 from quizgen.camera.view import View
@@ -75,3 +85,67 @@ def normalised(
     """A picture stretched from [low, high] to [0, 1], and the histograms before and after."""
     after = stretch_range(image, low, high)
     return after, histogram(image, bins), histogram(after, bins)
+
+
+def focused(scene: Scene, depths: Sequence[float], *cameras: Camera) -> tuple[Codes, ...]:
+    """Photographs of the things of a scene, each at a depth, by lenses of any focus and opening.
+
+    What `photographs` takes of them, in less time: of what is drawn nothing depends on the depth,
+    so it is kept, and of a camera only its lens and its tone curve are asked.
+
+    Parameters
+    ----------
+    scene : Scene
+        Things that stand still inside the frame, sized in px, before an even background.
+    depths : sequence of float
+        Of the things in their order, m.
+    *cameras : Camera
+        Each with a lens.
+    """
+    far_first = sorted(range(len(depths)), key=lambda thing: -depths[thing])
+    groups = [(depth, tuple(some)) for depth, some in groupby(far_first, key=depths.__getitem__)]
+    with everywhere_alike():
+        return tuple(_focused(scene, groups, camera) for camera in cameras)
+
+
+def _focused(
+    scene: Scene, groups: Sequence[tuple[float, tuple[int, ...]]], camera: Camera
+) -> Codes:
+    view = View(scene, camera)
+    behind, even = _behind(scene, camera[gamma.GAMMA])
+    light, seen = behind.copy(), even.copy()
+    top, bottom = scene.height, 0
+    for depth, some in groups:
+        part, keep, colour = _out_of_focus(*_drawn(scene, some), view.blur_diameter(depth))
+        blend(light[part], keep, colour)
+        top, bottom = min(top, part[0].start), max(bottom, part[0].stop)
+    rows = slice(top, bottom)
+    seen[rows] = codes(in_turn(light[rows], [gamma.work(view)], own=True)[0])
+    return seen
+
+
+@lru_cache(maxsize=16)
+def _behind(scene: Scene, tone: str | float) -> tuple[Image, Codes]:
+    """The even background of a scene: its light, and its codes."""
+    light = np.empty((scene.height, scene.width, 3), scene.precision)
+    light[...] = scene.background
+    encoded = in_turn(light, [gamma.work(View(scene, Camera(gamma=tone)))])[0]
+    return light, codes(encoded)
+
+
+def _out_of_focus(image: Image, box: Box, diameter: float) -> tuple[Box, Image, Image]:
+    """Where the light of a thing gets, the share kept there of what is behind, and its colour."""
+    kernel = disc(diameter)
+    part = wider(box, kernel.shape[0] // 2, image.shape)
+    light = convolve(np.ascontiguousarray(image[part]), kernel)
+    return part, np.repeat(1.0 - light[..., 3:], 3, axis=2), light[..., :3]
+
+
+@lru_cache(maxsize=16)
+def _drawn(scene: Scene, some: tuple[int, ...]) -> tuple[Image, Box]:
+    """Colour and cover of some things that share a depth, shape (H, W, 4), and where they are."""
+    things = tuple(replace(scene.things[place], depth=1.0) for place in some)
+    blurring = Camera(focal_length=0.05, pixel_pitch=1e-4, f_number=2.0)
+    _, layer = draw(View(replace(scene, things=things), blurring))
+    cover = cast("Image", layer.cover)  # there is something behind
+    return np.concatenate([layer.colour, cover], axis=2), content(cover)

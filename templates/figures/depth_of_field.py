@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import TYPE_CHECKING
 
 from quizgen.figures.kit import (
@@ -67,18 +67,18 @@ def _photos(
     focal: float, depths: tuple[float, ...], settings: tuple[Setting, ...]
 ) -> tuple[NDArray[np.uint8], ...]:
     """The photographs, for the question and for its solution."""
-    from quizgen.camera import Camera, photographs
-    from quizgen.camera.filters import everywhere_alike
+    from quizgen.camera import Camera
+    from quizgen.camera.pictures import focused
 
     cameras = [
         Camera(focal / 1e3, SENSOR_MM / 1e3 / _WIDE, number, distance, gamma="srgb")
         for distance, number in settings
     ]
-    with everywhere_alike():
-        return tuple(photo.pixels() for photo in photographs(_scene(depths), *cameras))
+    return focused(_scene(), depths, *cameras)
 
 
-def _scene(depths: tuple[float, ...]) -> Scene:
+@cache
+def _scene() -> Scene:
     """The objects, drawn equally large, so that blur alone tells them apart."""
     from quizgen.camera import Length, Scene, Thing
 
@@ -90,12 +90,12 @@ def _scene(depths: tuple[float, ...]) -> Scene:
     things = tuple(
         Thing(
             shape, x=Length(_APART * (place - 1)), y=Length(2.0), width=Length(36),
-            height=Length(52), radius=Length(20), cell=Length(9), depth=depths[place],
+            height=Length(52), radius=Length(20), cell=Length(9),
             texture=texture, colour=colour, other=other,
         )
         for place, (shape, texture, colour, other) in enumerate(looks)
     )  # fmt: skip
-    return Scene(_WIDE, _HIGH, things, (0.18, 0.24, 0.3), background_depth=10.0 * depths[-1])
+    return Scene(_WIDE, _HIGH, things, (0.18, 0.24, 0.3))
 
 
 def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:

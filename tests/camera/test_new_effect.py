@@ -45,7 +45,11 @@ EFFECT = Effect(
 def table(monkeypatch):
     place = next(i for i, effect in enumerate(effects.EFFECTS) if effect.name == "exposure")
     longer = (*effects.EFFECTS[:place], EFFECT, *effects.EFFECTS[place:])
-    monkeypatch.setattr(effects, "EFFECTS", longer)
+    with monkeypatch.context() as patched:
+        patched.setattr(effects, "EFFECTS", longer)
+        effects.settings.cache_clear()
+        yield
+    effects.settings.cache_clear()
 
 
 def scene_file(tmp_path, haze, question=""):

@@ -8,6 +8,10 @@ Adding an effect is one module with an ``EFFECT``, and its import and its line h
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from functools import cache
+from types import MappingProxyType
+
 from quizgen.camera.body import BODY, VELOCITY
 from quizgen.camera.effect import Effect
 from quizgen.camera.effects import (
@@ -108,7 +112,8 @@ def questions() -> tuple[str, ...]:
     return tuple(sorted({kind for effect in EFFECTS for kind in effect.decides}))
 
 
-def settings() -> dict[str, AnySetting]:
+@cache
+def settings() -> Mapping[str, AnySetting]:
     """Every key of ``[camera]``: the body's and the effects'."""
     found = (*BODY, *(setting for effect in EFFECTS for setting in effect.settings))
-    return {setting.name: setting for setting in found}
+    return MappingProxyType({setting.name: setting for setting in found})
