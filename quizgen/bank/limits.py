@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from fractions import Fraction
-from typing import Any
+from typing import Any, Literal
 
 import msgspec
 
@@ -65,8 +65,36 @@ class Answer(msgspec.Struct, frozen=True):
     predicate: str = ""
     output: str = ""
     unit: str = ""
+    bare: bool = False
     percent: bool = False
+    form: Literal["", "fraction", "lowest", "decimal"] = ""
+    notation: Literal["", "f-number"] = ""
+    counts: str | tuple[str, ...] | dict[str, str | tuple[str, ...]] = ()
+    decimals: int | None = None
+    sigfigs: int | None = None
+    rel: Scalar | None = None
+    abs: Scalar | None = None
+    exact: bool = False
+    within: Scalar = 1
+    strict: bool = False
+    period: Scalar = 360
+    up_to_scale: bool = False
+    value: str = ""
     symbols: tuple[str, ...] | dict[str, Any] = ()
+    negative: bool = True
+    reuse: bool = False
+    among: tuple[str, ...] = ()
+    terms: tuple[str, ...] = ()
+    also: tuple[str, ...] = ()
+    needed: int | None = None
+    view: tuple[Scalar, Scalar, Scalar, Scalar] | None = None
+    tall: Scalar = 0
+    grid: tuple[Scalar, Scalar] | None = None
+    given: dict[str, Any] = {}
+    marks: dict[str, Any] = {}
+    lines: dict[str, Any] = {}
+    features: dict[str, Any] = {}
+    cuts: tuple[Scalar, ...] = ()
 
 
 def number(text: Scalar) -> Fraction:

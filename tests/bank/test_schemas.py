@@ -11,6 +11,7 @@ from functools import cache
 from pathlib import Path
 from random import Random
 
+import msgspec
 import pytest
 from jsonschema import Draft202012Validator
 
@@ -18,6 +19,7 @@ from quizgen.bank.about import read_about
 from quizgen.bank.schemas import schema
 from quizgen.bank.template import read_rules
 from quizgen.errors import BankError
+from quizgen.marking.kinds import KINDS
 
 ROOT = Path(__file__).parents[2]
 READ: dict[str, Callable[[Path], object]] = {"template": read_rules, "bank": read_about}
@@ -131,3 +133,25 @@ def test_nothing_is_told_of_a_key_that_there_is_not():
     assert {name: set(keys) for name, keys in told.items()} == {
         name: set(part["properties"]) for name, part in parts.items()
     }
+
+
+MADE = {"notes", "why", "define", "correct", "values", "names", "units"}
+"""What a draw gives to the key of a part, and nobody writes."""
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_editors_know_the_keys_of_every_answer_kind(kind):
+    listed = set(json.loads(schema("template"))["$defs"]["Answer"]["properties"])
+    keys = {field.encode_name for field in msgspec.structs.fields(KINDS[kind])}
+    assert keys - listed <= MADE
+
+
+def test_editors_know_every_key_that_answers_have():
+    listed = set(json.loads(schema("template"))["$defs"]["Answer"]["properties"])
+    parts = [
+        part
+        for file in files("template")
+        for part in tomllib.loads(file.read_text("utf-8"))["part"]
+    ]
+    assert len(parts) > 400
+    assert {key for part in parts for key in part["answer"]} <= listed
