@@ -49,6 +49,8 @@ _TOO_LARGE = 10**MOST_DIGITS
 _STARTS_FORMULA = frozenset({"=", "+", "-", "@", "\u2212", "\t"})
 _JOINERS = frozenset("\u200c\u200d")
 """Bangla needs them."""
+CONTROLS = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
+"""What steers terminals and stands in no text; tabs and ends of lines do."""
 _BREAKS = frozenset({"Zl", "Zp"})
 """Separators of lines and paragraphs: readers of JSON Lines would cut there."""
 NAMES = "letters A-Z, digits, '_', '.' and '-'"
@@ -300,6 +302,9 @@ def parse_toml(
     except (tomllib.TOMLDecodeError, ValueError) as found:
         raise error(f"{where}: not valid TOML: {_short(found)}") from None
     _check(table, where, error)
+    for place, value, _ in _values(table if "\\" in text else ()):
+        if isinstance(value, str) and (odd := CONTROLS.search(value)):
+            raise error(f"{where}: {visible(place) or 'a name'}: {_named(odd[0])} in a text")
     return table
 
 

@@ -50,6 +50,7 @@ ADVICE = {
     "nothing to fill": "use these blanks, or none",
     "is to be a": "write it so",
     "is none of language.toml": "rename the file, or delete it",
+    r"U\+\S+ .*\] in a text": "take it out",
     "unknown figure": "use one of these, or write templates/figures/NAME.py in the bank",
     "missing parameter": "give it in values of [figure]",
     "unknown parameter": "leave it out of values, or mend its name",
@@ -213,6 +214,7 @@ def _in_toml(what: str) -> Iterator[str]:
         yield rf"""(?:^|[{{,\s])"?{re.escape(key[1])}"?\s*="""
     if place := _KEY.match(what):
         *tables, last = place[1].split(".")
+        yield rf"^\s*{re.escape(place[1])}\s*="
         yield rf"""^\s*"?{re.escape(last)}"?\s*="""
         yield rf"^\[+{re.escape('.'.join([*tables, last]))}\]"
     for named in re.findall(r"'([^']+)'", what) if not what.startswith("part ") else ():

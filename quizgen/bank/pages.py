@@ -50,6 +50,9 @@ def read_text(path: Path) -> Text:
         Naming the file and what is wrong in it.
     """
     source = outside.read_text(path, BankError)
+    if control := outside.CONTROLS.search(source):
+        line = source.count("\n", 0, control.start()) + 1
+        raise BankError(f"{path}:{line}: {outside.visible(control[0])} in a text")
     try:
         found = _TEXTS.find(source.encode())
         return found or _TEXTS.keep(parse_text(source), source.encode())

@@ -57,7 +57,7 @@ class Options(BankOptions):
 @class_.command()
 @click.argument("roster", type=click.Path(path_type=Path))
 @click.option("--out", type=click.Path(path_type=Path), required=True, help="Folder of the class.")
-@click.option("--blueprint", help="A blueprint's name or TOML file. [default: mock]")
+@click.option("--blueprint", help="A blueprint's name or TOML file. [default: mock, else all.90]")
 @click.option("--columns", help="What columns are called: id=Matrikel,name=Name.")
 @click.option("--lang", type=Tongue(both=True),
               help="Of who has none in the roster; English if the bank has it.")  # fmt: skip

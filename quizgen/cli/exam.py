@@ -76,7 +76,7 @@ class Options(BankOptions):
 @click.command()
 @click.option("--seed", type=SEED, help="Number that fixes every draw.")
 @click.option("--code", help="Code of a paper: builds exactly that paper again.")
-@click.option("--blueprint", help="mock, trial or a TOML file. [default: mock]")
+@click.option("--blueprint", help="mock, trial or a TOML file. [default: mock, else all.90]")
 @click.option("--topic", help="Questions of one topic (or all), instead of a blueprint.")
 @click.option("--minutes", type=Whole(3, 9999), help="As many questions as this time allows.")
 @click.option(

@@ -50,7 +50,7 @@ class Options(BankOptions):
 
 @click.command()
 @click.argument("target", metavar="FORMAT", type=click.Choice([*FORMATS], case_sensitive=False))
-@click.option("--blueprint", help="A slot for each question of a paper. [default: mock]")
+@click.option("--blueprint", help="A slot for each question of it. [default: mock, else all.90]")
 @click.option("--topic", help="A slot for each template of this topic.")
 @click.option("--template", "templates", help="A slot for each of these templates, by comma.")
 @click.option("--variants", type=Whole(1, MOST), default=10, show_default=True,

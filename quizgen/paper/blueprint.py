@@ -91,11 +91,13 @@ class Blueprint(Authored, frozen=True):
 
 
 EVERYTHING = "all"
+MOCK = "mock"
 
 
 def usual(bank: Bank) -> str:
-    """The blueprint of who asks for none; that of several banks as one asks all of them."""
-    return f"{EVERYTHING}.90" if len(bank.parts) > 1 else "mock"
+    """The blueprint of who asks for none: the bank's mock exam; without one, all that there is."""
+    alone = len(bank.parts) == 1 and MOCK in bank.blueprints
+    return MOCK if alone else f"{EVERYTHING}.90"
 
 
 def of_topic(bank: Bank, topic: str, minutes: int = 0) -> Blueprint:

@@ -43,6 +43,20 @@ def test_what_is_written_can_be_printed_and_carded(root, tmp_path):
     assert run("cards", "--format", "tsv", *shared).exit_code == 0
 
 
+def test_a_paper_of_all_there_is_needs_no_blueprint(root, tmp_path):
+    shared = ("--bank", root, "--trust", "--out")
+    made = run("exam", "--seed", "1", "--format", "html", *shared, tmp_path / "paper")
+    assert made.exit_code == 0, made.output
+    assert "Code: all.90-1-en-" in made.output
+    assert f"{len(KINDS) + 1} questions" in made.output
+    (tmp_path / "roster.csv").write_text("id,name\n1,Ada\n", "utf-8")
+    made = run("class", "make", tmp_path / "roster.csv", *shared, tmp_path / "class")
+    assert made.exit_code == 0, made.output
+    made = run("export", "gift", "--variants", "1", *shared, tmp_path / "some.gift")
+    assert made.exit_code == 0, made.output
+    assert f"slots: {len(KINDS) + 1}" in made.output
+
+
 def test_without_a_kind_something_is_computed(root, tmp_path):
     assert run("new", "bank", tmp_path / "other").exit_code == 0
     made = run("new", "template", "example/some-solver", "--bank", tmp_path / "other")
