@@ -16,7 +16,7 @@ from click.testing import CliRunner
 from quizgen.cli.tradeoff import tradeoff
 from quizgen.locale import languages
 from quizgen.maths.systems import arrays, compile_expr, multiprecision, symbolic
-from quizgen.tradeoff import ladder, measure
+from quizgen.tradeoff import ladder, measure, report
 from quizgen.tradeoff.data import words
 from quizgen.tradeoff.digits import digits
 from quizgen.tradeoff.families import BY_NAME, FAMILIES
@@ -287,6 +287,16 @@ def test_command_writes_page_plots_and_data(tmp_path):
     assert rows["exact"]["hard_digits"] == "17"
     assert float(rows["float64"]["hard_digits"]) < 4
     assert float(rows["stable"]["low_ns"]) <= float(rows["stable"]["median_ns"])
+
+
+def test_every_measurement_draws_figures_that_nothing_has_kept(monkeypatch):
+    drawn = []
+    monkeypatch.setattr(
+        "quizgen.figures.render", lambda _, given, **__: drawn.append(given["sigma"])
+    )
+    report._figure()
+    report._figure()
+    assert len(drawn) == len(set(drawn)) == 12
 
 
 def test_unknown_family_is_one_line():
