@@ -10,6 +10,7 @@ from typing import Any
 
 from quizgen.locale import table
 from quizgen.tradeoff.measure import Measured, Timing
+from quizgen.tradeoff.numbers import short
 from quizgen.tradeoff.overview import cost, cost_text, digits_text, proven, road
 from quizgen.tradeoff.plot import time_text
 from quizgen.tradeoff.product import PHASES, Product
@@ -120,7 +121,7 @@ def verdict_text(family: FamilyReport, report: Report, text: dict[str, Any]) -> 
     """What is graded, what it costs, and what pictures use."""
     spent = proven(family).nanoseconds
     share = 100 * spent / (1e9 * report.figure.median)
-    said: str = text["overview"]["verdict"].format(cost=time_text(spent), share=f"{share:.2g}")
+    said: str = text["overview"]["verdict"].format(cost=time_text(spent), share=short(share))
     return said
 
 

@@ -13,6 +13,7 @@ from quizgen.arrays.double_double import Double
 from quizgen.tradeoff import plain
 from quizgen.tradeoff.measure import Effort, timed
 from quizgen.tradeoff.photographs import photographs
+from quizgen.tradeoff.plot import power_text
 from quizgen.tradeoff.rung import Column
 from quizgen.tradeoff.special import fixed_point
 from quizgen.tradeoff.work import Curve, Point
@@ -138,9 +139,9 @@ def _photons(effort: Effort) -> Iterator[Curve]:
         k = np.unique(np.floor(np.maximum(N + np.sqrt(N) * np.linspace(-6, 6, 401), 0)))
         error = np.max(np.abs(np.asarray(lower(k, N)) - tail(-(k - N) / np.sqrt(N))))
         spent = timed(partial(rng.poisson, N, 4096), effort.repeats)
-        exact.append(Point(f"N = {N:g}", spent, 0.0))
+        exact.append(Point(f"N = {power_text(N)}", spent, 0.0))
         spent = timed(partial(rng.normal, N, N**0.5, 4096), effort.repeats)
-        normal.append(Point(f"N = {N:g}", spent, float(error)))
+        normal.append(Point(f"N = {power_text(N)}", spent, float(error)))
     yield Curve("normal", tuple(normal))
     yield Curve("Poisson", tuple(exact))
 

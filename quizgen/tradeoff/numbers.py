@@ -6,6 +6,7 @@ import re
 from typing import Any
 
 from quizgen.locale import language, numbers_in
+from quizgen.maths.notation import people
 
 _NO_PROSE = re.compile(
     r'<(?:script|style|code|pre|span translate="no")[ >].*?</|<[^>]*>', re.DOTALL
@@ -38,3 +39,16 @@ def in_places(places: list[list[Any]], lang: str) -> list[list[Any]]:
          *(tuple(piece.replace(".", sign) for piece in pieces) for pieces in numbers)]
         for x, at, said, *numbers in places
     ]  # fmt: skip
+
+
+def short(value: float) -> str:
+    """A number in two figures, whole from a hundred on, as people write it.
+
+    Examples
+    --------
+    >>> short(0.0123), short(1.64e-7), short(243.0), short(470000.0)
+    ('0.012', '1.6·10⁻⁷', '243', '4.7·10⁵')
+    """
+    if 100 <= value < 9999.5:
+        return f"{value:.0f}"
+    return people.number(f"{value:.2g}")

@@ -31,7 +31,7 @@ from quizgen.tradeoff.data import (
     words,
 )
 from quizgen.tradeoff.measure import Measured, Timing, pareto
-from quizgen.tradeoff.numbers import in_places, in_prose
+from quizgen.tradeoff.numbers import in_places, in_prose, short
 from quizgen.tradeoff.plot import (
     Axes,
     Choices,
@@ -104,7 +104,14 @@ def fragment(report: Report, command: str, lang: str) -> str:
 @cache
 def _layouts() -> jinja2.Environment:
     layouts = environment("quizgen.tradeoff")
-    layouts.filters.update(time=time_text, count=count, spread=spread_text, in_prose=_in_prose)
+    layouts.filters.update(
+        time=time_text,
+        count=count,
+        short=short,
+        grouped=_grouped,
+        spread=spread_text,
+        in_prose=_in_prose,
+    )
     layouts.globals.update(
         faces={weight: bangla_uri(name) for name, weight in (("Regular", 400), ("Bold", 700))},
         words=words,
@@ -132,6 +139,10 @@ def _layouts() -> jinja2.Environment:
         each_panel=each_panel,
     )
     return layouts
+
+
+def _grouped(number: int) -> str:
+    return people.number(str(number))
 
 
 def _in_prose(page: Markup, lang: str) -> Markup:
@@ -182,7 +193,7 @@ def sentence(report: Report, lang: str) -> str:
         slower=overview.factor_text(slower),
         times=overview.factor_text(median.proven.time / median.stable.time),
         proven=time_text(median.proven.time),
-        share=f"{median.proven.time / report.figure.median / 1e7:.2g}",
+        share=short(median.proven.time / report.figure.median / 1e7),
         figure=time_text(1e9 * report.figure.median),
     )
     return said

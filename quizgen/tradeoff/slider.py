@@ -107,8 +107,14 @@ def places(sweep: Sweep, said: dict[str, str], failed: str) -> list[list[Any]]:
 
 
 def input_text(value: float) -> str:
-    """An input, short: 4.25, 0.003, 3.2·10⁻⁷."""
-    if 1e-3 <= value < 1e6:
+    """An input, short.
+
+    Examples
+    --------
+    >>> input_text(4.25), input_text(0.0032), input_text(470000.0), input_text(3.2e-7)
+    ('4.25', '0.0032', '4.7·10⁵', '3.2·10⁻⁷')
+    """
+    if 1e-3 <= value < 9999.5:  # beyond, %g has exponents as programs write them
         return f"{value:.4g}"
     mantissa, power = f"{value:.1e}".split("e")
     return f"{mantissa}·10{raised(int(power))}"

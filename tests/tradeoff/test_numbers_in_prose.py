@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
+from quizgen.locale import languages
+from quizgen.tradeoff.data import words
 from quizgen.tradeoff.numbers import in_places, in_prose
 
 PAGE = (
@@ -29,3 +33,18 @@ def test_positions_of_a_slider_have_it():
         [12.5, "k = 2,65", "k = 2,65: 3 digits", ("8,04", "91", "·10⁻³"), ("8", ",1", "")]
     ]
     assert in_places([place], "en") == [place]
+
+
+def told(value):
+    """All words below a table of words."""
+    return (
+        [one for part in value.values() for one in told(part)]
+        if isinstance(value, dict)
+        else [value]
+    )
+
+
+@pytest.mark.parametrize("lang", languages())
+def test_no_word_has_a_mark_between_thousands(lang):
+    """A comma or a point there is the decimal sign of the one language or the other."""
+    assert [one for one in told(words(lang)) if re.search(r"\d[.,]\d{3}\b", one)] == []
