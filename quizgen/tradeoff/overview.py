@@ -11,8 +11,10 @@ import statistics
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from quizgen.tradeoff.digits import ALL_DIGITS
-from quizgen.tradeoff.labels import Labels
+from quizgen.tradeoff.labels import Box, Labels
 from quizgen.tradeoff.measure import Measured
 from quizgen.tradeoff.plot import (
     BOUNDS,
@@ -140,17 +142,31 @@ def panel(report: Report, inputs: str, title: str, axes: Axes, said: dict[str, s
             labels.keep_clear(*_at(way), 4)
     parts += [path(map(_at, one), "thin off") for one in roads]
     parts += [_points(one, inputs) for one in roads]
-    arrows = [(median.printed, median.stable), (median.stable, median.proven)]
-    parts += [_arrow(_at(start), _at(end)) for start, end in arrows]
-    for start, end in arrows:
-        (x1, y1), (x2, y2) = _at(start), _at(end)
-        words = cost_text(cost(start, end), said)
-        labels.size = 12
-        parts.append(label(labels.place(words, (x1 + x2) / 2, (y1 + y2) / 2 + 30), "head"))
+    parts += _steps(median, labels, said)
     labels.size = 11
     for number, one in enumerate(roads, 1):
         parts.append(label(labels.place(str(number), *_at(one.printed))))
     return "".join(parts)
+
+
+def _steps(median: Road, labels: Labels, said: dict[str, str]) -> list[str]:
+    """Both arrows with their words: the second step above its arrow, the first beside its own."""
+    start, middle, end = map(_at, median)
+    above = cost_text(cost(median.stable, median.proven), said)
+    beside = cost_text(cost(median.printed, median.stable), said)
+    labels.size = 12
+    labels.written(RIGHT, _Y.end - 10, above, "end")
+    for (x1, y1), (x2, y2) in ((start, middle), (middle, end)):
+        for share in np.linspace(0, 1, 60):
+            labels.keep_clear(x1 + share * (x2 - x1), y1 + share * (y2 - y1), 4)
+    labels.taken.append(Box(middle[0] + 10, end[1], RIGHT, middle[1] + 40))  # read as the second's
+    half_way = (start[0] + middle[0]) / 2, (start[1] + middle[1]) / 2
+    return [
+        _arrow(start, middle),
+        _arrow(middle, end),
+        text(RIGHT, _Y.end - 10, above, "end", "head"),
+        label(labels.place(beside, *half_way), "head"),
+    ]
 
 
 LANE, LANES_TOP, LANES_BOTTOM = 50, 26, 40

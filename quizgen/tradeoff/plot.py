@@ -26,7 +26,8 @@ STYLE = """
 .tp .on{fill:#0b62c4;stroke:#0b62c4}.tp .off{fill:none;stroke:currentColor;opacity:.65}
 .tp .second{stroke:#b3470a;fill:#b3470a}.tp .third{stroke:#3f7d20;fill:#3f7d20}
 .tp polyline.line{fill:none}.tp .line{stroke-width:1.6}
-.tp .small{font-size:11px}.tp .head{font-weight:600}
+.tp .small{font-size:11px}
+.tp .head{font-weight:600;paint-order:stroke;stroke:Canvas;stroke-width:3px;stroke-linejoin:round}
 .tp .float64{stroke-dasharray:7 3}.tp .float32{stroke-dasharray:2 3}
 .tp .cursor{stroke:currentColor;stroke-width:1.5;opacity:.8}
 .tp .thin{stroke-width:.8;opacity:.45;fill:none}.tp .arrow{stroke-width:2.6;fill:none}
@@ -44,7 +45,7 @@ def style() -> str:
 
 
 PANEL, HEIGHT, LEFT, TOP, BOTTOM = 420, 300, 40, 30, 46
-RIGHT = PANEL - 12
+RIGHT = PANEL - 20
 BOUNDS = Box(LEFT + 1, TOP - 8, PANEL - 1, HEIGHT - BOTTOM - 1)
 """Where labels of a panel may stand."""
 
@@ -98,9 +99,15 @@ def document(panels: Sequence[str], title: str, height: int = HEIGHT) -> str:
 
 
 def time_text(nanoseconds: float) -> str:
-    """A time with a unit that keeps it short."""
+    """A time with a unit that keeps it short.
+
+    Examples
+    --------
+    >>> time_text(0.4567), time_text(999.4), time_text(999.6), time_text(12.5e6)
+    ('0.457 ns', '999 ns', '1 µs', '12.5 ms')
+    """
     for factor, unit in ((1e9, "s"), (1e6, "ms"), (1e3, "µs")):
-        if nanoseconds >= factor:
+        if nanoseconds >= 0.9995 * factor:  # what rounds to a thousand has the next unit
             return f"{nanoseconds / factor:.3g} {unit}"
     return f"{nanoseconds:.3g} ns"
 
