@@ -80,6 +80,43 @@ def test_no_label_of_a_plot_covers_another_one(opened, width):
     page.close()
 
 
+OUTSIDE = """() => [...document.querySelectorAll('svg')].filter(svg => svg.checkVisibility()).flatMap(
+  svg => { const whole = svg.getBoundingClientRect();
+    return [...svg.querySelectorAll('text')].filter(text => { const box = text.getBoundingClientRect();
+      return box.left < whole.left || box.right > whole.right || box.top < whole.top
+        || box.bottom > whole.bottom }).map(text => text.textContent) })"""
+SIDEWAYS = """() => [...document.querySelectorAll('.wide')].filter(
+  box => box.checkVisibility() && box.scrollWidth > box.clientWidth).map(box => box.innerText)"""
+
+
+@pytest.mark.parametrize("width", [400, 900])
+def test_nothing_is_cut_off(opened, width):
+    """A plot shows no label beyond its edge, and on a phone no table has to be pushed aside."""
+    page = opened(width)
+    for lang in languages():
+        page.check(f"#{lang}")
+        assert page.evaluate(OUTSIDE) == []
+        assert page.evaluate(SIDEWAYS) == []
+        assert page.evaluate("document.documentElement.scrollWidth") <= width
+    page.close()
+
+
+PROSE = """() => { const body = document.body.cloneNode(true);
+  body.querySelectorAll('script, style, code, [translate=no]').forEach(node => node.remove());
+  return body.textContent
+    + [...body.querySelectorAll('[data-places]')].map(node => node.dataset.places).join() }"""
+
+
+def test_no_number_is_written_as_programs_write_it(opened):
+    page = opened(900)
+    said = page.evaluate(PROSE)
+    assert "N = 10⁶" in said
+    assert said.count("10\u202f000") >= 2 * len(languages())
+    assert re.findall(r".{40}\d[eE][-+]?\d.{20}", said) == []
+    assert re.findall(r"[a-z]\.(?=[A-Z][a-z])", said) == []  # a sentence without a space after it
+    page.close()
+
+
 def test_letters_on_a_phone_are_not_smaller_than_nine_pixels(opened):
     page = opened(400)
     shown = page.evaluate(
