@@ -62,33 +62,38 @@ def _repeat(length: int) -> str:
     return _symbol(257 + code) + extra + _DISTANCE_ONE
 
 
+_SHIFT = 27
+"""A byte and what repeats it take no more bits; behind them stands how many it are."""
+
+
 @cache
-def _table() -> tuple[NDArray[np.uint64], NDArray[np.int64]]:
-    """Bits of a byte and what repeats it, as numbers, and how many each has.
+def _table() -> NDArray[np.uint32]:
+    """Bits of a byte and what repeats it, as numbers, and in the highest bits how many it are.
 
     Row 259 b + n is byte b with n repeats, row 259 (256 + b) + n its n repeats alone.
     """
     import numpy as np
 
     literals, wide = _numbers([_symbol(code) for code in range(256)])
-    values = np.zeros((2, 256, _ROW), np.uint64)
-    lengths = np.zeros(values.shape, np.int64)
+    values = np.zeros((2, 256, _ROW), np.uint32)
+    lengths = np.zeros(values.shape, np.uint32)
     values[1, :, 1], lengths[1, :, 1] = literals, wide
-    values[1, :, 2], lengths[1, :, 2] = literals | literals << wide.view(np.uint64), 2 * wide
+    values[1, :, 2], lengths[1, :, 2] = literals | literals << wide, 2 * wide
     repeats = [_repeat(length) for length in range(_SHORTEST, _LONGEST + 1)]
     values[1, :, _SHORTEST:], lengths[1, :, _SHORTEST:] = _numbers(repeats)
-    values[0] = literals[:, None] | values[1] << wide.view(np.uint64)[:, None]
+    values[0] = literals[:, None] | values[1] << wide[:, None]
     lengths[0] = wide[:, None] + lengths[1]
-    return values.ravel(), lengths.ravel()
+    return np.asarray(values | lengths << _SHIFT, np.uint32).ravel()
 
 
 _ROW = _LONGEST + 1
 
 
-def _numbers(codes: list[str]) -> tuple[NDArray[np.uint64], NDArray[np.int64]]:
+def _numbers(codes: list[str]) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
     import numpy as np
 
-    return np.array([int(code[::-1], 2) for code in codes], np.uint64), np.array([*map(len, codes)])
+    numbers = [int(code[::-1], 2) for code in codes], [*map(len, codes)]
+    return np.array(numbers[0], np.uint32), np.array(numbers[1], np.uint32)
 
 
 def _runs(data: NDArray[np.uint8]) -> NDArray[np.intp]:
@@ -124,15 +129,17 @@ def deflate(data: NDArray[np.uint8]) -> bytes:
     """
     import numpy as np
 
-    values, lengths = _table()
-    rows = _runs(data)
-    at = lengths[rows]
-    ends = len(_HEADER) + np.cumsum(at)
-    np.subtract(ends, at, out=at)
-    size = (int(ends[-1]) + len(_END) + 7) // 8
+    found = _table()[_runs(data)]
+    lengths = found >> _SHIFT
+    at = np.cumsum(lengths, dtype=np.intp)
+    size = (len(_HEADER) + int(at[-1]) + len(_END) + 7) // 8
+    at -= lengths
+    at += len(_HEADER)
+    values = (found & ((1 << _SHIFT) - 1)).astype(np.uint64)
+    values <<= (at & 15).view(np.uint64)
     # Bits of different runs never meet, so that adding joins them; up to 15 + 27 bits from the
     # start of a word on, which floats add exactly.
-    joined = np.bincount(at >> 4, values[rows] << (at & 15).view(np.uint64), size // 2 + 3)
+    joined = np.bincount(at >> 4, values, size // 2 + 3)
     words = joined.astype(np.uint64)
     words[0] += int(_HEADER[::-1], 2)
     stream = words.copy()
@@ -199,7 +206,10 @@ def _one_if_alike(codes: NDArray[np.uint8]) -> NDArray[np.uint8]:
     """Three equal channels as one."""
     import numpy as np
 
-    if codes.ndim == 3 and all(np.array_equal(codes[..., 0], codes[..., at]) for at in (1, 2)):
+    def alike(rows: NDArray[np.uint8]) -> bool:
+        return all(np.array_equal(rows[..., 0], rows[..., at]) for at in (1, 2))
+
+    if codes.ndim == 3 and alike(codes[len(codes) // 2]) and alike(codes):
         return codes[..., 0]
     return codes
 

@@ -6,7 +6,7 @@ Layers are kept apart only where something needs it: different blur or different
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import groupby
 
 import msgspec
@@ -107,7 +107,8 @@ def blend(behind: Image, keep: Image, image: Image) -> None:
         behind *= keep
     else:
         for channel in range(behind.shape[2]):  # far faster than NumPy's loops over three values
-            behind[..., channel] *= keep[..., 0]
+            plane = behind[..., channel]
+            plane *= keep[..., 0]
     behind += image
 
 
@@ -229,13 +230,18 @@ def _add(layer: Layer, thing: Thing, view: View, part: Box) -> None:
 
 def _shown(thing: Thing, view: View, place: tuple[Plane, Plane], cover: Image) -> Image:
     """A thing's colours times its cover over a part; of an even one a row may stand for all."""
-    texture, colour = TEXTURES[thing.texture], np.asarray(thing.colour, view.precision)
-    planes = list(colour)
-    if texture is not None:
-        share = texture(thing, *place).astype(view.precision)
-        rest, other = 1.0 - share, np.asarray(thing.other, view.precision)
-        planes = [rest * one + share * two for one, two in zip(colour, other, strict=True)]
-    image = np.empty((*np.broadcast_shapes(cover.shape, planes[0].shape), 3), view.precision)
+    texture = TEXTURES[thing.texture]
+    if texture is None:
+        return _times(cover, cover.shape, thing.colour)
+    share = texture(thing, *place).astype(view.precision)
+    rest, pairs = 1.0 - share, zip(thing.colour, thing.other, strict=True)
+    shape = np.broadcast_shapes(cover.shape, share.shape)
+    return _times(cover, shape, [rest * one + share * two for one, two in pairs])
+
+
+def _times(cover: Image, shape: tuple[int, ...], planes: Sequence[float | Image]) -> Image:
+    """Colours, even or not, times a cover that is there for a part of this shape."""
+    image = np.empty((*shape, 3), cover.dtype)
     for channel, plane in enumerate(planes):  # far faster than NumPy's loops over three values
         np.multiply(cover, plane, out=image[..., channel])
     return image
@@ -250,7 +256,7 @@ def reach(thing: Thing) -> float:
 
 def motion(thing: Thing, view: View) -> Motion:
     """How a thing moves over the picture."""
-    across, down = (part.value for part in thing.velocity)
+    across, down = thing.velocity[0].value, thing.velocity[1].value
     if not thing.spin:
         return Motion((across, down)) if across or down else STILL
     return Motion((across, down), thing.spin, _place(thing, view), reach(thing))

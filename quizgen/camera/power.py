@@ -32,40 +32,46 @@ _OCTAVES = 127
 Field = NDArray[np.float64]
 
 
-def _by_cell(exponent: float) -> Field:
-    """m^exponent for the middle m of every cell: octaves by rows, the subnormal one first."""
+def _by_cell(exponent: float, first: int = 0) -> Field:
+    """m^exponent for the middle m of every cell: octaves by rows, the subnormal one is number 0."""
     middles = (1.0 + (cell + 0.5) / _CELLS for cell in range(_CELLS))
     within = np.array([math.pow(middle, exponent) for middle in middles])
-    octaves = [math.pow(2.0, exponent * (n - _OCTAVES)) for n in range(1, _OCTAVES)]
-    return np.concatenate([np.zeros(_CELLS), np.outer(octaves, within).reshape(-1)])
+    octaves = [math.pow(2.0, exponent * (n - _OCTAVES)) for n in range(first, _OCTAVES)]
+    if not first:
+        octaves[0] = 0.0
+    return np.outer(octaves, within).reshape(-1)
 
 
 @cache
-def _lines(exponent: float) -> tuple[Field, Field]:
+def _lines(exponent: float, first: int = 0) -> tuple[Field, Field]:
     """Offset and slope of the tangent in the middle of every cell, and the value 1 at 1.
 
     A tangent is off by e(e-1)/2 d^2 at a relative distance d, at most half a cell: half of the
-    largest such error is taken off, 1.5e-8 of the value remains.
+    largest such error is taken off, 1.5e-8 of the value remains. Octaves before the first one
+    are left out.
     """
-    powers = _by_cell(exponent)
+    powers = _by_cell(exponent, first)
     lowered = exponent * (1.0 - exponent) / 16.0 / _CELLS**2
     offsets = powers * (1.0 - exponent - lowered)
     slopes = np.zeros_like(powers)
-    np.divide(exponent * powers, _by_cell(1.0), out=slopes, where=powers > 0.0)
+    np.divide(exponent * powers, _by_cell(1.0, first), out=slopes, where=powers > 0.0)
     return np.append(offsets, 1.0), np.append(slopes, 0.0)
 
 
 @cache
 def _curve(gamma: str | float) -> tuple[Image, Image]:
-    """Offset and slope by cell of a tone curve."""
+    """Offset and slope by cell of a tone curve; most of a standard one's are on its dark line."""
     if gamma != "srgb":
         offsets, slopes = _lines(1.0 / float(gamma))
-    else:
-        offsets, slopes = _lines(1.0 / 2.4)
-        dark = np.append(_by_cell(1.0) <= SRGB_KNEE, False)
-        offsets = np.where(dark, 0.0, 1.055 * offsets - 0.055)
-        slopes = np.where(dark, 12.92, 1.055 * slopes)
-    return offsets.astype(np.float32), slopes.astype(np.float32)
+        return offsets.astype(np.float32), slopes.astype(np.float32)
+    first = _OCTAVES + math.frexp(SRGB_KNEE)[1] - 1
+    offsets, slopes = _lines(1.0 / 2.4, first)
+    dark = np.append(_by_cell(1.0, first) <= SRGB_KNEE, False)
+    start, count = first * _CELLS, _OCTAVES * _CELLS + 1
+    whole: tuple[Image, Image] = np.zeros(count, np.float32), np.full(count, 12.92, np.float32)
+    whole[0][start:] = np.where(dark, 0.0, 1.055 * offsets - 0.055)
+    whole[1][start:] = np.where(dark, 12.92, 1.055 * slopes)
+    return whole
 
 
 def by_lines(gamma: str | float) -> Work:
