@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from quizgen.cli.terminal import Progress
+from quizgen.cli.terminal import Progress, many
 
 
 @click.command()
@@ -46,4 +46,4 @@ def tradeoff(
         )
     write(report, Path(out), " ".join(words))
     page = Path(out) / "tradeoff.html"
-    click.echo(f"{page}: {len(report.families)} families, {report.seconds:.1f} s")
+    click.echo(f"{page}: {many(len(report.families), 'formula')}, {report.seconds:.1f} s")
