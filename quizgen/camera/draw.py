@@ -210,22 +210,27 @@ def _own_axes(thing: Thing, view: View, part: Box) -> tuple[Plane, Plane]:
     return cosine * x + sine * y, cosine * y - sine * x
 
 
-def _add(layer: Layer, thing: Thing, view: View, part: Box) -> None:
-    """Draw upon a part of a layer; memory nothing is written to is not taken from the system."""
+def _add(layer: Layer, thing: Thing, view: View, part: Box, *, empty: bool) -> bool:
+    """Draw upon a part of a layer, empty or not, and say whether anything is there to be drawn.
+
+    Memory nothing is written to is not taken from the system.
+    """
     x, y = _own_axes(thing, view, part)
     distance = SHAPES[thing.shape](thing, x, y)
     cover = np.clip(0.5 - distance, 0.0, 1.0).astype(view.precision)[..., None]
     if not cover.any():
-        return
-    if cover.min() < 1.0:
-        keep = 1.0 - cover
-        blend(layer.colour[part], keep, _shown(thing, view, (x, y), cover[..., 0]))
+        return False
+    full = bool(cover.min() == 1.0)
+    image = _shown(thing, view, (x, y), cover[:1, :, 0] if full else cover[..., 0])
+    if full or empty:  # nothing behind is kept
+        layer.colour[part] = image
         if layer.cover is not None:
-            blend(layer.cover[part], keep, cover)
-        return
-    layer.colour[part] = _shown(thing, view, (x, y), cover[:1, :, 0])  # nothing behind is kept
+            layer.cover[part] = cover
+        return True
+    blend(layer.colour[part], 1.0 - cover, image)
     if layer.cover is not None:
-        layer.cover[part] = 1.0
+        blend(layer.cover[part], 1.0 - cover, cover)
+    return True
 
 
 def _shown(thing: Thing, view: View, place: tuple[Plane, Plane], cover: Image) -> Image:
@@ -324,10 +329,11 @@ def _draw_sheet(sheet: Sheet, view: View) -> Layer:
     for tile in _tiles(view):
         if sheet.opaque and view.scene.image is None:
             layer.colour[tile] = line[: tile[1].stop - tile[1].start]
+        empty = not sheet.opaque
         for thing, box in zip(sheet.things, boxes, strict=True):
             part = _both(tile, box)
-            if part is not None:
-                _add(layer, thing, view, part)
+            if part is not None and _add(layer, thing, view, part, empty=empty):
+                empty = False
     return layer
 
 
