@@ -23,7 +23,7 @@ from quizgen.camera.decision import Decision, Plan, Step, Unit, cost_table
 from quizgen.camera.draw import Stack, draw
 from quizgen.camera.effect import Effect, same_error
 from quizgen.camera.filters import opencv
-from quizgen.camera.look import coarse, glimpsed, measured
+from quizgen.camera.look import coarse, filled, glimpsed, measured
 from quizgen.camera.margins import views
 from quizgen.camera.scene import Scene, SceneError
 from quizgen.camera.view import View
@@ -189,14 +189,15 @@ def _best(
     choice = _spend(chain, units, costs, budget)
     if all(unit.fixed or choice[unit.members[0]] == SKIP for unit in units):
         return chain, choice
+    stack = filled(prepared.stack)
     for apart in GLIMPSES:
-        hopeful = Chain(present, view, glimpsed(prepared.stack, view, apart), seen)
+        hopeful = Chain(present, view, glimpsed(stack, view, apart), seen)
         if not _opened(units, (chain, hopeful), choice, budget):
             return chain, choice
     gain = _total(costs, choice) - _total(costs, _spend(hopeful, units, costs, budget))
     if gain <= FACTS_PER_MEGAPIXEL * view.megapixels:
         return chain, choice
-    chain = Chain(present, view, measured(prepared.stack, view), seen)
+    chain = Chain(present, view, measured(stack, view), seen)
     return chain, _spend(chain, units, costs, budget)
 
 

@@ -14,7 +14,7 @@ from quizgen.camera.effects import EFFECTS, gamma, questions
 from quizgen.camera.effects.binning import BINNING
 from quizgen.camera.effects.distortion import K1, K2
 from quizgen.camera.facts import DEVIATIONS, EXCEEDED, Error, Facts
-from quizgen.camera.look import coarse, glimpsed, measured
+from quizgen.camera.look import coarse, filled, glimpsed, measured
 from quizgen.camera.plan import GLIMPSES, Prepared, _units, everything, plan
 from quizgen.camera.simulate import difference_dn, run
 
@@ -245,4 +245,4 @@ def test_nothing_steep_lies_where_a_layer_is_empty():
         whole = tuple(
             look._measure(layer, (low + high) / 2, high - low, 1) for layer in prepared.stack
         )
-        assert measured(prepared.stack, prepared.view).layers == whole
+        assert measured(filled(prepared.stack), prepared.view).layers == whole
