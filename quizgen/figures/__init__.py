@@ -20,6 +20,7 @@ from quizgen.figures._board import Board, Drawing, Line
 from quizgen.figures._figure import Figure
 from quizgen.figures._module import FigureModule, checked, name_of
 from quizgen.figures._parameters import Parameter, complete
+from quizgen.figures._words import forget_words
 from quizgen.locale import languages, numbers_in
 from quizgen.maths.notation import people
 
@@ -108,6 +109,7 @@ __all__ = [
     "Line",
     "Parameter",
     "completed",
+    "forget_words",
     "in_words",
     "parameters",
     "render",

@@ -38,6 +38,12 @@ def words_of(module: str, lang: str) -> dict[str, str]:
     return sentences
 
 
+def forget_words() -> None:
+    """Have the sentences of all figures read again."""
+    words_of.cache_clear()
+    _table.cache_clear()
+
+
 @cache
 def _table(file: Path) -> dict[str, Any]:
     with located(file, BankError):

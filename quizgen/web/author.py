@@ -16,6 +16,7 @@ from starlette.routing import Route
 from quizgen.bank.folder import Bank
 from quizgen.bank.levels import EXAM, GUIDED
 from quizgen.errors import QuizgenError
+from quizgen.figures import forget_words
 from quizgen.question.compose import instance, put_into_words
 from quizgen.shapes import decoded
 from quizgen.web.made import Made, Wanted, made
@@ -40,7 +41,7 @@ class Preview:
 
     def run(self, bank: Bank) -> bytes:
         """Make it."""
-        template = bank.afresh().template(self.template)
+        template = _afresh(bank).template(self.template)
         drawn = instance(template, self.seed)
         found = []
         for lang in template.texts:
@@ -59,7 +60,13 @@ class Examined:
 
     def run(self, bank: Bank) -> bytes:
         """Find it."""
-        return msgspec.json.encode(self.examine(*bank.afresh().home(self.template)))
+        return msgspec.json.encode(self.examine(*_afresh(bank).home(self.template)))
+
+
+def _afresh(bank: Bank) -> Bank:
+    """The same bank, its files, solvers, figures and what figures say read again."""
+    forget_words()
+    return bank.afresh()
 
 
 def stamp_of(bank: Bank) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shutil
 
 import html5lib
 import pytest
@@ -157,13 +158,50 @@ def test_authors_are_told_what_is_wrong_with_their_bank(author, root):
         about.unlink()
 
 
-def test_a_figure_that_is_saved_is_drawn_anew(root):
-    figure = root / "templates" / "figures" / "own.py"
-    figure.parent.mkdir(exist_ok=True)
-    before = stamp_of(Bank(root))
-    figure.write_text("", "utf-8")
-    assert stamp_of(Bank(root)) != before
-    figure.unlink()
+FIGURE = """
+from quizgen.figures.kit import Parameter, Pen, words_of
+
+DARK, PARAMETERS = "invert", {"f": Parameter("", "focal length")}
+
+
+def draw(canvas, values, *, quiz):
+    pen = Pen(height=60)
+    pen.label((20, 20), "{7}")
+    pen.onto(canvas)
+
+
+def alt(values, lang, *, quiz):
+    return words_of(__file__, lang)["said"]
+"""
+
+
+def test_a_figure_that_is_saved_is_drawn_anew_and_told_in_its_new_words(author, root):
+    rules, folder = root / "templates" / "projection" / NAME / "template.toml", root / "templates"
+    before, told = rules.read_text("utf-8"), stamp_of(Bank(root))
+    figure, words = (folder / "figures" / name for name in ("own.py", "en.toml"))
+    figure.parent.mkdir()
+    try:
+        figure.write_text(FIGURE, "utf-8")
+        assert stamp_of(Bank(root)) != told
+        words.write_text('[own]\nsaid = "A small seven."\n', "utf-8")
+        rules.write_text(
+            re.sub(
+                r"\[figure\]\n.*\n.*\n", '[figure]\nname = "own"\nvalues = { f = "f" }\n', before
+            )
+        )
+        first = author.get(f"/author/{NAME}").text
+        assert "A small seven." in first
+        figure.write_text(FIGURE.replace("(20, 20)", "(40, 20)"), "utf-8")
+        words.write_text('[own]\nsaid = "A seven."\n', "utf-8")
+        again = author.get(f"/author/{NAME}").text
+        assert "A seven." in again
+        assert "A small seven." not in again
+        drawings = [set(re.findall(r'<path d="M [^"]*"', page)) for page in (first, again)]
+        assert drawings[0]
+        assert not drawings[0] & drawings[1]
+    finally:
+        shutil.rmtree(figure.parent)
+        rules.write_text(before, "utf-8")
 
 
 def test_authors_of_one_bank_among_others(root, database):
