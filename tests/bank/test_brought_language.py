@@ -35,7 +35,6 @@ En {{ t }}, à {{ v }}, la cycliste parcourt {{ s }}.
 """
 LANGUAGE = 'name = "français"\nenglish = "French"\ndecimal = ","\n'
 INTERFACE = '[paper]\nexam = "Examen blanc"\npage = "Page {page} sur {pages}"\n'
-MESSAGES = '[practice]\nresumed = "La séance {seed} continue."\n'
 
 
 def quizgen(where: Path, *words: str, typed: str = "", fails: bool = False) -> str:

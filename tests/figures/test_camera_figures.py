@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from figure_cases import module, render
 
-from quizgen.camera import pictures, simulate
+from quizgen.camera import pictures
 from quizgen.figures._parameters import complete
 from quizgen.png import encode
 
@@ -138,11 +138,6 @@ def test_outliers_have_their_share():
     levels = normalisation.sample(100.0, 140.0, 0.1, 5) * 255
     outside = ((levels < 100) | (levels > 140)).mean()
     assert outside == pytest.approx(0.1 * (1 - 40 / 255), abs=4 * np.sqrt(0.1 / levels.size))
-
-
-def _photo(kind, variant=1):
-    scene, camera = artefacts.photographed(kind, variant)
-    return simulate(scene, camera, question="artefacts").values
 
 
 @pytest.mark.parametrize("kind", range(12))

@@ -41,8 +41,6 @@ LIGHT = {"kind": "number", "value": "64", "exact": True, "of": ["q"]}
 STOP = {"kind": "number", "value": "6", "decimals": 2, "of": ["e"]}
 
 # X-A11: field of view 2 atan(S/(2f)), 36 mm and 50 mm: 39.6°
-VIEW = chain({"S": "mm", "f": "mm"}, ("a", "2*atan(S/(2*f))*180/pi", "deg"))
-VIEW_GIVEN = {"S": fmpq(9, 250), "f": fmpq(1, 20)}
 ANGLE = {"kind": "number", "value": "39.5977527", "decimals": 1, "of": ["a"]}
 
 

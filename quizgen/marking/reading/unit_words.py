@@ -212,7 +212,6 @@ def _spellings(known: System) -> _Spellings:
     return _Spellings(words, {word.lower(): to for word, to in words.items() if len(word) > 3})
 
 
-_POWER_OF_UNIT = lazy(r"(?<=[^\W\d_])\^?\(?(-?\d)\)?(?!\d)")
 _POINTS = lazy(r"\. ?")
 _BRACKETS = lazy(r"[(\[]([^()\[\]*/· ]+)[)\]]")
 _SQUARE = lazy(r"(?:square |quadrat|বর্গ ?)([^\W\d_][^*/· ]*)", re.IGNORECASE)
