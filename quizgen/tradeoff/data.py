@@ -11,7 +11,15 @@ from typing import Any
 from quizgen.locale import table
 from quizgen.tradeoff.measure import Measured, Timing
 from quizgen.tradeoff.numbers import short
-from quizgen.tradeoff.overview import cost, cost_text, digits_text, proven, road
+from quizgen.tradeoff.overview import (
+    cost,
+    cost_text,
+    digits_text,
+    factor_text,
+    middle,
+    proven,
+    road,
+)
 from quizgen.tradeoff.plot import time_text
 from quizgen.tradeoff.product import PHASES, Product
 from quizgen.tradeoff.report import FamilyReport, Report
@@ -98,15 +106,35 @@ def _errors(rung: Measured) -> list[str]:
 
 
 def markdown(report: Report, command: str) -> str:
-    """A short table in English: what each step costs and brings on hard inputs, and the verdict."""
+    """In English the sentence, and a table: each step on hard inputs, and the verdict."""
     text = words("en")
     head = "| formula | printed to stable | stable to exact | verdict |"
-    lines = [f"`{command}` on {report.machine}", "", head, "|---|---|---|---|"]
+    lines = [f"`{command}` on {report.machine}", "", f"> {sentence(report, 'en')}", ""]
+    lines += [head, "|---|---|---|---|"]
     for family in report.families:
         title = text["family"][family.name]["title"]
         steps = " | ".join(steps_text(family, "hard", text))
         lines.append(f"| {title} | {steps} | {verdict_text(family, report, text)} |")
     return "\n".join([*lines, "", text["overview"]["measure"], ""])
+
+
+def sentence(report: Report, lang: str) -> str:
+    """The picture in words."""
+    text = words(lang)["overview"]
+    roads = [road(family, "hard") for family in report.families]
+    median = middle(roads)
+    slower = cost(median.printed, median.stable).slower
+    said: str = text["sentence"].format(
+        count=len(roads),
+        before=digits_text(median.printed.digits, text["every"]),
+        stable=digits_text(median.stable.digits, text["every"]),
+        slower=factor_text(slower),
+        times=factor_text(median.proven.time / median.stable.time),
+        proven=time_text(median.proven.time),
+        share=short(median.proven.time / report.figure.median / 1e7),
+        figure=time_text(1e9 * report.figure.median),
+    )
+    return said
 
 
 def steps_text(family: FamilyReport, inputs: str, text: dict[str, Any]) -> tuple[str, str]:

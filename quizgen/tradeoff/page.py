@@ -26,6 +26,7 @@ from quizgen.tradeoff.data import (
     digits_said,
     markdown,
     product_csv,
+    sentence,
     steps_text,
     verdict_text,
     words,
@@ -178,25 +179,6 @@ def each_panel(report: Report, lang: str) -> str:
     """Every formula on a line of its own, hard inputs, each step with what it costs and brings."""
     text = words(lang)
     return overview.lanes(report, text["overview"], text["page"]["x"])
-
-
-def sentence(report: Report, lang: str) -> str:
-    """The picture in words."""
-    text = words(lang)["overview"]
-    roads = [overview.road(family, "hard") for family in report.families]
-    median = overview.middle(roads)
-    slower = overview.cost(median.printed, median.stable).slower
-    said: str = text["sentence"].format(
-        count=len(roads),
-        before=overview.digits_text(median.printed.digits, text["every"]),
-        stable=overview.digits_text(median.stable.digits, text["every"]),
-        slower=overview.factor_text(slower),
-        times=overview.factor_text(median.proven.time / median.stable.time),
-        proven=time_text(median.proven.time),
-        share=short(median.proven.time / report.figure.median / 1e7),
-        figure=time_text(1e9 * report.figure.median),
-    )
-    return said
 
 
 def counted(found: Counted, system: str, fault: str) -> str:

@@ -283,6 +283,9 @@ def test_command_writes_page_plots_and_data(tmp_path):
     for name in ("thin-lens", "thin-lens-input", "overview"):
         svg = ET.parse(tmp_path / f"{name}.svg").getroot()
         assert svg.find("{http://www.w3.org/2000/svg}title").text
+    short = (tmp_path / "tradeoff.md").read_text("utf-8").split("\n\n")
+    assert short[1].startswith("> On hard inputs the printed formula has 2 of 16 digits right")
+    assert "| Image distance of a thin lens | × " in short[2]
     assert (tmp_path / "overview.png").read_bytes().startswith(b"\x89PNG")
     with (tmp_path / "tradeoff.csv").open(encoding="utf-8", newline="") as file:
         rows = {row["way"]: row for row in csv.DictReader(file)}
