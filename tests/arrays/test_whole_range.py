@@ -157,6 +157,23 @@ def test_undistorting_in_any_unit():
         assert above >= 0 or value >= distortion.fold_radius(*row[1:]) * (1 - 1e-7)
 
 
+@pytest.mark.parametrize("k", [2.0**-61, 1e-25, 1e-40, 1e-300, 5e-324])
+@pytest.mark.parametrize("sign", [1, -1])
+@pytest.mark.parametrize("of_fourth", [False, True])
+def test_undistorting_with_next_to_no_distortion(k, sign, of_fourth):
+    """The root lies within one unit in the last place, by exact fractions; alone and in an array."""
+    radii = np.array([5e-324, 1e-300, 1e-3, 0.3, 1.0, 1e3])
+    k1, k2 = (0.0, sign * k) if of_fourth else (sign * k, 0.0)
+    for r_d, value in zip(radii, distortion.inverse_radius(radii, k1, k2), strict=True):
+        assert distortion.inverse_radius(r_d, k1, k2) == value
+        step = Fraction(math.ulp(value))
+        below, above = (
+            r * (1 + r * r * (Fraction(k1) + Fraction(k2) * r * r)) - Fraction(r_d)
+            for r in (Fraction(value) - step, Fraction(value) + step)
+        )
+        assert below <= 0 <= above
+
+
 def folds_at_a_half():
     """Rows whose r_d is the largest that any point reaches, exactly, at 1/2."""
     for n in range(274, 3000):
