@@ -6,12 +6,12 @@ what would stop a later stage without saying where. Here each such field is one 
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
-from typing import Any, Literal
 
 import msgspec
 
+from quizgen.bank.answers import ANSWERS, Choice, Match, Order, Pooled
 from quizgen.bank.complaints import in_words
 from quizgen.bank.most import (
     MOST_CHOICES,
@@ -35,66 +35,6 @@ LARGEST = 10**100
 
 Problems = Iterator[tuple[str, str]]
 """Field and what is wrong in it."""
-
-
-class Answer(msgspec.Struct, frozen=True):
-    """The shapes of what an authored answer may name; each kind checks the rest."""
-
-    kind: str
-    of: str | tuple[str, ...] | dict[str, str] = ()
-    options: dict[str, bool | str] = {}
-    pairs: dict[str, str] = {}
-    steps: tuple[str, ...] = ()
-    before: tuple[tuple[str, str], ...] = ()
-    distractors: tuple[str, ...] = ()
-    gaps: tuple[str, ...] = ()
-    points: tuple[str, ...] = ()
-    true: bool | str = True
-    claim: str = ""
-    source: str = msgspec.field(name="from", default="")
-    take: int = 0
-    right: tuple[int, int] | None = None
-    extra: int | None = None
-    in_order: bool = False
-    cells: dict[str, dict[str, bool | Scalar]] = {}
-    accept: tuple[Scalar, Scalar] | None = None
-    traps: dict[str, Any] = {}
-    let: dict[str, str] = {}
-    example: dict[str, Scalar] = {}
-    where: tuple[str, ...] = ()
-    predicate: str = ""
-    output: str = ""
-    unit: str = ""
-    bare: bool = False
-    percent: bool = False
-    form: Literal["", "fraction", "lowest", "decimal"] = ""
-    notation: Literal["", "f-number"] = ""
-    counts: str | tuple[str, ...] | dict[str, str | tuple[str, ...]] = ()
-    decimals: int | None = None
-    sigfigs: int | None = None
-    rel: Scalar | None = None
-    abs: Scalar | None = None
-    exact: bool = False
-    within: Scalar = 1
-    strict: bool = False
-    period: Scalar = 360
-    up_to_scale: bool = False
-    value: str = ""
-    symbols: tuple[str, ...] | dict[str, Any] = ()
-    negative: bool = True
-    reuse: bool = False
-    among: tuple[str, ...] = ()
-    terms: tuple[str, ...] = ()
-    also: tuple[str, ...] = ()
-    needed: int | None = None
-    view: tuple[Scalar, Scalar, Scalar, Scalar] | None = None
-    tall: Scalar = 0
-    grid: tuple[Scalar, Scalar] | None = None
-    given: dict[str, Any] = {}
-    marks: dict[str, Any] = {}
-    lines: dict[str, Any] = {}
-    features: dict[str, Any] = {}
-    cuts: tuple[Scalar, ...] = ()
 
 
 def number(text: Scalar) -> Fraction:
@@ -223,59 +163,63 @@ def _out_of(field: str, value: Scalar, most: int) -> Problems:
 
 
 def misshapen(rules: Rules) -> Problems:
-    """Answers with a value of another type than what belongs there."""
+    """Answers of no kind, and with keys or types of values that their kind does not have."""
     for place, part in enumerate(rules.part, 1):
-        try:
-            converted(part.answer, Answer)
-        except msgspec.ValidationError as error:
-            yield f"part {place}: answer", in_words(error, Answer)
+        kind = part.answer.get("kind", "")
+        if "kind" not in part.answer:
+            yield f"part {place}: answer", "the key 'kind' is missing"
+        elif not isinstance(kind, str) or kind not in ANSWERS:
+            yield f"part {place}", f"unknown kind {kind!r} (allowed: {', '.join(sorted(ANSWERS))})"
+        else:
+            try:
+                converted(part.answer, ANSWERS[kind])
+            except msgspec.ValidationError as error:
+                yield f"part {place}: answer", in_words(error, ANSWERS[kind])
+
+
+LISTS = "options", "pairs", "steps", "gaps", "points"
+"""Keys of an answer that hold names, of which there is at least one."""
 
 
 def _answer(table: Mapping[str, object]) -> Problems:
-    try:
-        answer = converted(table, Answer)
-    except msgspec.ValidationError as error:
-        yield "answer", in_words(error, Answer)
-        return
-    listed: dict[str, Collection[str]] = {"options": answer.options, "pairs": answer.pairs,
-              "steps": (*answer.steps, *answer.distractors), "gaps": answer.gaps,
-              "points": answer.points}  # fmt: skip
-    most = MOST_IN_POOL if answer.take else MOST_OPTIONS
-    for field, names in listed.items():
-        if len(names) > most or (field in table and not names):
+    answer = converted(table, ANSWERS[str(table["kind"])])
+    most = MOST_IN_POOL if table.get("take") else MOST_OPTIONS
+    shown = {name: getattr(answer, name) for name in LISTS if name in answer.__struct_fields__}
+    if isinstance(answer, Match | Order):
+        shown["distractors"] = answer.distractors
+    if isinstance(answer, Order):
+        shown["steps"] = (*answer.steps, *answer.distractors)
+    for field, names in shown.items():
+        if len(names) > most or (field in LISTS and not names):
             yield f"answer.{field}", f"1 to {most} are needed"
         if len(set(names)) < len(names):
             yield f"answer.{field}", "a name stands twice"
-    strangers = {name for pair in answer.before for name in pair} - set(answer.steps)
-    if strangers:
-        yield "answer.before", f"names {sorted(strangers)}, which are not steps"
-    yield from _pooled(answer)
+    if isinstance(answer, Order):
+        strangers = {name for pair in answer.before for name in pair} - set(answer.steps)
+        if strangers:
+            yield "answer.before", f"names {sorted(strangers)}, which are not steps"
+    if isinstance(answer, Pooled):
+        yield from _pooled(answer)
 
 
-POOLED = {"choice": "options", "multi": "options", "match": "pairs", "order": "steps",
-          "gap": "gaps"}  # fmt: skip
-"""Kind to what every draw may take some of."""
-
-
-def _pooled(answer: Answer) -> Problems:
-    field = POOLED.get(answer.kind, "")
-    if answer.take and not field:
-        yield "answer.take", f"only {', '.join(POOLED)} have a pool"
-    elif answer.take and not 1 <= answer.take <= min(MOST_OPTIONS, len(getattr(answer, field))):
+def _pooled(answer: Pooled) -> Problems:
+    field = next(field for field in LISTS if field in answer.__struct_fields__)
+    if answer.take and not 1 <= answer.take <= min(MOST_OPTIONS, len(getattr(answer, field))):
         yield "answer.take", f"must be 1 to {MOST_OPTIONS} and at most the number of {field}"
-    if answer.take and answer.before:
+    if isinstance(answer, Order) and answer.take and answer.before:
         yield "answer.take", "some of the steps can be taken only of one order, without before"
-    if answer.right and not (answer.take and 1 <= answer.right[0] <= answer.right[1]):
+    right = answer.right if isinstance(answer, Choice) else None
+    if right and not (answer.take and 1 <= right[0] <= right[1]):
         yield "answer.right", "is [least, most] right options among those that take names"
-    spare = len(answer.distractors) + bool(answer.take) * len({*answer.pairs.values()})
-    if answer.extra is not None and not 0 <= answer.extra <= spare:
-        yield "answer.extra", f"must be 0 to {spare}, the number of distractors"
+    if isinstance(answer, Match | Order):
+        others = {*answer.pairs.values()} if isinstance(answer, Match) and answer.take else ()
+        spare = len(answer.distractors) + len(others)
+        if answer.extra is not None and not 0 <= answer.extra <= spare:
+            yield "answer.extra", f"must be 0 to {spare}, the number of distractors"
 
 
 def _claims(rules: Rules) -> Problems:
     taking = [part.answer for part in rules.part if "from" in part.answer]
-    if any((a.get("kind"), a["from"]) != ("tf", "claims") for a in taking):
-        yield "part", 'from = "claims" belongs to kind "tf"; there is no other pool'
     if len(taking) > len(rules.claims):
         yield "claims", f"{len(rules.claims)} are too few for {len(taking)} parts"
     if rules.claims and not taking:

@@ -9,21 +9,22 @@ from typing import Any
 import msgspec
 
 from quizgen.bank.about import About
-from quizgen.bank.limits import Answer
+from quizgen.bank.answers import ANSWERS, AnyAnswer
 from quizgen.bank.rules import Rules
 
 SCHEMAS: dict[str, type[msgspec.Struct]] = {"template": Rules, "bank": About}
 """File without its suffix to what stands in it."""
+REF = "#/$defs/{name}"
 _TOLD = "told.toml"
 """What is said of each key, beside this module."""
 
 
 def schema(name: str) -> bytes:
     """The schema of ``template.toml`` or ``bank.toml``, as JSON."""
-    shapes = [SCHEMAS[name], Answer] if name == "template" else [SCHEMAS[name]]
-    (whole, *_), parts = msgspec.json.schema_components(shapes, ref_template="#/$defs/{name}")
-    if name == "template":  # a part holds a table of any keys, of which these are looked at
-        parts["PartRule"]["properties"]["answer"] = {"$ref": "#/$defs/Answer"}
+    shapes = [SCHEMAS[name], AnyAnswer] if name == "template" else [SCHEMAS[name]]
+    (whole, *others), parts = msgspec.json.schema_components(shapes, ref_template=REF)
+    for answers in others:  # a part holds a table of any keys, which its kind knows
+        parts["PartRule"]["properties"]["answer"] = answers
     _describe(parts)
     table = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
@@ -37,6 +38,7 @@ def schema(name: str) -> bytes:
 def _describe(parts: dict[str, dict[str, Any]]) -> None:
     """Say of each key what it means."""
     told = tomllib.loads((files(__package__) / _TOLD).read_text("utf-8"))
+    answers = {shape.__name__ for shape in ANSWERS.values()}
     for name, part in parts.items():
         for key, value in part["properties"].items():
-            value["description"] = told[name][key]
+            value["description"] = told["Answer" if name in answers else name][key]

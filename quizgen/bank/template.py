@@ -6,7 +6,8 @@ are written in the grammar that students type, over quantities in the units they
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 from pathlib import Path
@@ -33,6 +34,7 @@ from quizgen.shapes import converted
 PART_LABELS = "abcdefghij"
 QUOTED = 60
 """Letters of a formula by which an author knows it."""
+_WHOLE = re.compile(r"[+-]?[0-9]{1,18}\.0")
 _RULES = Compiled("rules", Rules)
 
 
@@ -169,15 +171,20 @@ def read_rules(path: Path) -> Rules:
 
 def _read(path: Path, source: str) -> Rules:
     try:
-        shape = converted(parse_toml(source, path, BankError), Rules)
+        shape = converted(parse_toml(source, path, BankError, _whole_or(float)), Rules)
         for place, problem in misshapen(shape):
             raise BankError(f"{path}: {place}: {problem}")
-        exact = parse_toml(source, path, BankError, parse_float=str)
+        exact = parse_toml(source, path, BankError, _whole_or(str))
         rules = converted(exact, Rules)
     except msgspec.ValidationError as error:
         raise BankError(f"{path}: {in_words(error, Rules)}") from error
     _check_draws(path, rules)
     return rules
+
+
+def _whole_or(kind: type) -> Callable[[str], object]:
+    """Reads a number with a point: 3.0 as 3, as editors do that know no other whole numbers."""
+    return lambda text: int(text[:-2]) if _WHOLE.fullmatch(text) else kind(text)
 
 
 def _check_draws(path: Path, rules: Rules) -> None:

@@ -24,11 +24,6 @@ from quizgen.question.filling import Filler, as_typed, plain
 from quizgen.shapes import converted
 
 LETTERS = "ABCDEFGHIJKL"
-OWN_KEYS = frozenset(
-    {"of", "options", "pairs", "steps", "before", "distractors", "gaps", "true", "claim"}
-    | {"from", "take", "right", "extra", "in_order", "given", "grid", "marks"}
-)
-"""Keys of an authored answer that a builder replaces; all others are handed on as they are."""
 ROUNDED_MISTAKE = 4
 """Significant figures of a mistake's answer that has no short exact form."""
 
@@ -56,7 +51,8 @@ def specification(shape: type[S], drawn: Draw, index: int, **given: object) -> S
         If the answer has a key that the kind does not know, or one of the wrong type.
     """
     answer = answer_of(drawn, index)
-    table = {name: value for name, value in answer.items() if name not in OWN_KEYS}
+    fields = {field.encode_name for field in msgspec.structs.fields(shape)} - {"of"}
+    table = {name: value for name, value in answer.items() if name in fields}
     if "accept" in answer:
         table["accept"] = [key_text(drawn.computed(str(bound))) for bound in answer["accept"]]
     try:

@@ -81,8 +81,9 @@ def test_rules_that_are_wrong_are_told_each_time(tmp_path, empty_cache):
 def test_rules_that_would_come_back_otherwise_are_read_each_time(tmp_path, empty_cache, value):
     """A date is no text, and some numbers are too long for what they are kept in."""
     (tmp_path / "template.toml").write_text(
-        f'topic = "eye"\ntier = "A"\n[[part]]\nanswer = {{ kind = "gap", on = {value} }}\n'
+        'topic = "eye"\ntier = "A"\n[[part]]\nanswer = { kind = "sketch", view = [0, 1, 0, 1], '
+        f"grid = [1, 1], lines = {{}}, features = {{ a = {{ on = {value} }} }} }}\n"
     )
     first, again = (read_rules(tmp_path / "template.toml") for _ in range(2))
     assert repr(first) == repr(again)
-    assert not isinstance(again.part[0].answer["on"], str)
+    assert not isinstance(again.part[0].answer["features"]["a"]["on"], str)

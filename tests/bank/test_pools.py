@@ -151,9 +151,9 @@ def test_sets_of_claims_are_counted(tmp_path, count, expected):
     [
         (claimed(2, true=1, false=0), "claims: 1 are too few for 2 parts"),
         ("[claims]\na = true\n" + part('{ kind = "tf", true = true }'), "no part has from"),
-        (part('{ kind = "tf", from = "pool" }'), "there is no other pool"),
+        (part('{ kind = "tf", from = "pool" }'), "from: 'pool' is not allowed"),
         (part('{ kind = "gap", take = 3, gaps = ["a", "b"] }'), "answer.take: must be 1 to 12"),
-        (part('{ kind = "tf", take = 1, true = true }'), "answer.take: only choice"),
+        (part('{ kind = "tf", take = 1, true = true }'), "unknown key 'take'"),
         (
             part('{ kind = "order", take = 2, steps = ["a", "b", "c"], before = [["a", "b"]] }'),
             "without before",

@@ -16,17 +16,19 @@ import pytest
 from jsonschema import Draft202012Validator
 
 from quizgen.bank.about import read_about
+from quizgen.bank.answers import ANSWERS
 from quizgen.bank.schemas import schema
 from quizgen.bank.template import read_rules
 from quizgen.errors import BankError
-from quizgen.marking.kinds import KINDS
+from quizgen.marking.kinds import KINDS as MARKED
+from quizgen.question.kinds import KINDS as ASKED
 
 ROOT = Path(__file__).parents[2]
 READ: dict[str, Callable[[Path], object]] = {"template": read_rules, "bank": read_about}
 SHAPE = re.compile(r"stands there|unknown key|is missing|is not allowed")
 """What is said of a value of another type, of a key that there is not, and of one that lacks."""
-OTHERS = ("text", 7, 2.5, True, [], ["one"], [1, 2], {}, {"some": "table"}, [[]], [{}])
-"""What is put in the place of something else; no number such as 3.0, a whole one to schemas."""
+OTHERS = ("text", 7, 2.5, 3.0, True, [], ["one"], [1, 2], {}, {"some": "table"}, [[]], [{}])
+"""What is put in the place of something else; 3.0 is a whole number to schemas."""
 CHANGES = 500
 
 
@@ -129,29 +131,66 @@ def test_nothing_is_told_of_a_key_that_there_is_not():
     parts = {
         name: part for kind in READ for name, part in json.loads(schema(kind))["$defs"].items()
     }
+    known = {name: set(part["properties"]) for name, part in parts.items()}
+    answers = [known.pop(shape.__name__) for shape in ANSWERS.values()]
     told = tomllib.loads((ROOT / "quizgen/bank/told.toml").read_text("utf-8"))
     assert {name: set(keys) for name, keys in told.items()} == {
-        name: set(part["properties"]) for name, part in parts.items()
+        "Answer": set().union(*answers),
+        **known,
     }
 
 
-MADE = {"notes", "why", "define", "correct", "values", "names", "units"}
-"""What a draw gives to the key of a part, and nobody writes."""
+UNUSED = {
+    "set": {"kind": "set", "of": ["x"]},
+    "interval": {"kind": "interval", "value": "[0, 1]"},
+}
+"""Answers of the kinds that no bank here asks."""
+OF_MULTI = {"choice": {"negative"}, "tf": {"negative", "options"}}
+"""What these kinds share with ``multi`` in marking, and do not have."""
+MADE = {
+    "accept",
+    "kind",
+    "notes",
+    "why",
+    "define",
+    "correct",
+    "value",
+    "values",
+    "units",
+    "traps",
+    "terms",
+}
+"""What a draw, the bank or the words give to the key of a part, and nobody writes in an answer."""
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_editors_know_the_keys_of_every_answer_kind(kind):
-    listed = set(json.loads(schema("template"))["$defs"]["Answer"]["properties"])
-    keys = {field.encode_name for field in msgspec.structs.fields(KINDS[kind])}
-    assert keys - listed <= MADE
+def test_there_is_a_shape_for_every_answer_kind():
+    assert {*ANSWERS} == {*MARKED} == {*ASKED}
 
 
-def test_editors_know_every_key_that_answers_have():
-    listed = set(json.loads(schema("template"))["$defs"]["Answer"]["properties"])
+@pytest.mark.parametrize("kind", ANSWERS)
+def test_editors_know_what_a_key_of_the_kind_may_hold(kind):
+    """All that marking goes by is authored, or made."""
+    authored = {field.encode_name for field in msgspec.structs.fields(ANSWERS[kind])}
+    keys = {field.encode_name for field in msgspec.structs.fields(MARKED[kind])}
+    assert keys - authored - OF_MULTI.get(kind, set()) <= MADE
+
+
+@pytest.mark.parametrize("kind", ANSWERS)
+def test_the_keys_of_other_kinds_are_refused(tmp_path, kind):
+    """Of each kind one real answer, with a key that only others have."""
     parts = [
         part
         for file in files("template")
         for part in tomllib.loads(file.read_text("utf-8"))["part"]
     ]
-    assert len(parts) > 400
-    assert {key for part in parts for key in part["answer"]} <= listed
+    found = {part["answer"]["kind"]: part["answer"] for part in parts}
+    real = {**found, **UNUSED}[kind]
+    table = {"topic": "noise", "tier": "A"}
+    assert verdicts(tmp_path, "template", {**table, "part": [{"answer": real}]})[1] == ""
+    own = {field.encode_name for field in msgspec.structs.fields(ANSWERS[kind])}
+    other = {"options", "percent", "gaps", "output", "correct", "notes"} - own
+    for name in sorted(other):
+        answer = {**real, name: {"a": True}}
+        said, wrong = verdicts(tmp_path, "template", {**table, "part": [{"answer": answer}]})
+        assert f"part 1: answer: unknown key {name!r}" in said
+        assert wrong

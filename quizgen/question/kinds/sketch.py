@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import lru_cache
-from typing import Any, TypeAlias
+from typing import Any
 
-import msgspec
-
+from quizgen.bank.answers import Curve, Formulas, Line, Sketch
 from quizgen.bank.draw import Draw
 from quizgen.bank.prose import Code
 from quizgen.figures import Board
@@ -32,38 +31,11 @@ COMMON = {"reads", *Feature.__struct_fields__}
 """Keys of every feature: no formulas."""
 
 Point = tuple[float, float]
-Formulas = tuple[Scalar, Scalar]
-
-
-class Curve(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A curved line: formulas in ``t``, which runs from the first to the last of ``t``."""
-
-    x: Scalar
-    y: Scalar
-    t: Formulas
-
-
-Authored: TypeAlias = Curve | list[Formulas]
-"""A line: formulas of its points, or a curve."""
-
-
-class Answer(msgspec.Struct, frozen=True):
-    """What a template says of a sketch."""
-
-    view: tuple[Scalar, Scalar, Scalar, Scalar]
-    grid: Formulas
-    lines: dict[str, Authored]
-    features: dict[str, dict[str, Any]]
-    tall: Scalar = 0
-    cuts: list[Scalar] = []
-    given: dict[str, Authored] = {}
-    marks: dict[str, Formulas] = {}
-    traps: dict[str, dict[str, Scalar]] = {}
 
 
 def build(drawn: Draw, index: int) -> Built[Spec]:
     """The wanted lines and those of each mistake, and the field that they are drawn in."""
-    answer = converted(answer_of(drawn, index), Answer)
+    answer = converted(answer_of(drawn, index), Sketch)
     right = _Place({name: to_float(value) for name, value in drawn.shown_values.items()})
     traps = {
         trap: _typed(right.but(changed).lines(answer.lines))
@@ -124,11 +96,11 @@ class _Place:
             return value
         return [*map(self.number, value)] if isinstance(value, list) else self.number(value)
 
-    def lines(self, authored: Mapping[str, Authored]) -> dict[str, list[Point]]:
+    def lines(self, authored: Mapping[str, Line]) -> dict[str, list[Point]]:
         """Lines by their names."""
         return {name: self._line(line) for name, line in authored.items()}
 
-    def _line(self, line: Authored) -> list[Point]:
+    def _line(self, line: Line) -> list[Point]:
         if not isinstance(line, Curve):
             return [_rounded(*self.point(point)) for point in line]
         x, y = self._compiled(line.x), self._compiled(line.y)
