@@ -25,6 +25,7 @@ AGREEMENT = 2e-5
 
 _SHIFT_TAPS = 49
 _ROWS = 64
+_GRID_ROWS = 32
 _BAND = 128
 _DIRECT_AREA = 129
 """Up to 11 x 11 taps OpenCV sums directly, on all cores; above, it transforms on one."""
@@ -283,14 +284,24 @@ def sample_nearest(image: Image, x: Image, y: Image) -> Image:
     return np.asarray(image[row, column])
 
 
-def sample_grid(channel: Image, x: NDArray[np.float64], y: NDArray[np.float64]) -> Image:
-    """Read one channel (H, W) on a grid of columns x and rows y, bilinearly, edges repeated."""
+def sample_grid(
+    channel: Image, x: NDArray[np.float64], y: NDArray[np.float64], into: Image
+) -> None:
+    """Read one channel (H, W) on a grid of columns x and rows y, bilinearly, edges repeated.
+
+    OpenCV's remap would take as long.
+    """
     left, right, across = _split(x.astype(channel.dtype), channel.shape[1])
     top, bottom, down = _split(y.astype(channel.dtype), channel.shape[0])
-    result = np.empty((y.size, x.size), channel.dtype)
-    for start, stop in pieces(y.size, _ROWS):
-        part = slice(start, stop)
-        share = down[part, None]
-        rows = channel[top[part]] * (1 - share) + channel[bottom[part]] * share
-        result[part] = rows[:, left] * (1 - across) + rows[:, right] * across
-    return result
+    rest = 1 - across
+    for start, stop in pieces(y.size, _GRID_ROWS):
+        part, share = slice(start, stop), down[start:stop, None]
+        rows, below = channel[top[part]], channel[bottom[part]]
+        rows *= 1 - share
+        below *= share
+        rows += below
+        found = np.take(rows, left, axis=1, mode="clip")  # all are inside: the fastest check
+        found *= rest
+        beside = np.take(rows, right, axis=1, mode="clip")
+        beside *= across
+        np.add(found, beside, out=into[part])

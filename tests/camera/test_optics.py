@@ -179,6 +179,20 @@ def test_lateral_colour_moves_red_out_and_blue_in():
     assert centres[2] - 90 == pytest.approx(-share, abs=0.02)
 
 
+def test_lateral_colour_is_opencvs_remapping_of_each_channel():
+    """Several bands of rows, reading beyond every edge."""
+    image = np.random.default_rng(3).random((130, 170, 3), np.float32)
+    view = View(Scene(170, 130, image=image), Camera(lateral_colour=-7.5))
+    split = lateral_colour.work(Layer(image), view).colour
+    corner = math.hypot(84.5, 64.5)
+    for channel, scale in enumerate((1 - 7.5 / corner, 1.0, 1 + 7.5 / corner)):
+        x = np.tile((np.arange(170) - 84.5) / scale + 84.5, (130, 1)).astype(np.float32)
+        y = np.tile((np.arange(130) - 64.5) / scale + 64.5, (170, 1)).T.astype(np.float32)
+        plane, mode = np.ascontiguousarray(image[..., channel]), cv2.BORDER_REPLICATE
+        expected = cv2.remap(plane, x, y, cv2.INTER_LINEAR, borderMode=mode)
+        assert np.abs(split[..., channel] - expected).max() < 1e-6
+
+
 @pytest.mark.parametrize(("across", "down"), [(6.0, 0.0), (0.0, 9.5), (4.0, 3.0)])
 def test_motion_is_a_box_along_the_path(across, down):
     """Variance L^2/12 along the path, plus 1/6 of the bilinear grid where it moves off the grid."""

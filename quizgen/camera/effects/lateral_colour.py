@@ -43,21 +43,26 @@ def work(layer: Layer, view: View, rung: str = "") -> Layer:
     """Magnify a layer's colours differently."""
 
     def split(image: Image, box: Box) -> Image:
-        return np.stack([_scaled(image, view, channel, box) for channel in range(3)], axis=2)
+        result = np.empty(image[box].shape, image.dtype)
+        for channel in range(3):
+            _scale(image[..., channel], view, channel, box, result[..., channel])
+        return result
 
     if layer.cover is not None:  # a cover for each colour
         layer = replace(layer, cover=np.broadcast_to(layer.cover, layer.colour.shape))
     return resampled(layer, split, _farthest(view))
 
 
-def _scaled(image: Image, view: View, channel: int, box: Box) -> Image:
-    scale, plane = _scales(view)[channel], image[..., channel]
+def _scale(plane: Image, view: View, channel: int, box: Box, into: Image) -> None:
+    """Magnify what one channel shows in a box."""
+    scale = _scales(view)[channel]
     if scale == 1.0:
-        return plane[box]
+        into[...] = plane[box]
+        return
     x, y = view.centre
     across = np.arange(view.width, dtype=np.float64)[box[1]] - x
     down = np.arange(view.height, dtype=np.float64)[box[0]] - y
-    return sample_grid(plane, across / scale + x, down / scale + y)
+    sample_grid(plane, across / scale + x, down / scale + y, into)
 
 
 def _shift(view: View) -> float:
