@@ -97,9 +97,9 @@ def convolve(image: Image, kernel: NDArray[np.float64]) -> Image:
     upright = np.asarray(image.any(axis=0))
     part = (_lit(image.reshape(len(image), -1), rows), _lit(upright, columns))
     if image[part].size == image.size:
-        return _convolved(image, kernel)
+        return convolve_all(image, kernel)
     result = np.zeros(image.shape, image.dtype)
-    result[part] = _convolved(image[part], kernel)
+    result[part] = convolve_all(image[part], kernel)
     return result
 
 
@@ -114,7 +114,8 @@ def _lit(lines: NDArray[np.bool_] | Image, reach: int) -> slice:
     return slice(max(0, int(where[0]) - reach), int(where[-1]) + reach + 1)
 
 
-def _convolved(image: Image, kernel: NDArray[np.float64]) -> Image:
+def convolve_all(image: Image, kernel: NDArray[np.float64]) -> Image:
+    """`convolve` without looking for where an image is even or black."""
     cv2 = opencv()
     kernel = _folded(_folded(kernel, image.shape[0]).T, image.shape[1]).T
     if kernel.size == 1:
@@ -198,9 +199,11 @@ def _convolve_by_shifts(image: Image, kernel: NDArray[np.float64]) -> Image:
     result = np.zeros((height, *wide.shape[1:]), image.dtype)
     total = result.reshape(-1)[: height * line - (wide.shape[1] - width) * channels]
     part = np.empty_like(total)
-    for row, column in np.argwhere(kernel).tolist():
-        start = row * line + column * channels
-        total += np.multiply(flat[start:][: total.size], float(kernel[row, column]), out=part)
+    for row, weights in enumerate(kernel.tolist()):
+        for column, weight in enumerate(weights):
+            if weight:
+                start = row * line + column * channels
+                total += np.multiply(flat[start : start + total.size], weight, out=part)
     return np.ascontiguousarray(result[:, :width])
 
 

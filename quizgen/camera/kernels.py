@@ -72,19 +72,19 @@ def _tents(positions: Kernel) -> Kernel:
 def _sharing(positions: Kernel) -> Callable[[Kernel], Kernel]:
     """What shares rows at ascending positions (px, > 0) between the pixels before and after each.
 
-    Sums in one thread and in one order: a product of matrices takes all cores for a moment.
+    There are some in every pixel up to the last. Sums in one thread and in one order: a product of
+    matrices takes all cores for a moment.
     """
-    before = np.floor(positions).astype(int)
-    share = (positions - before)[:, None]
+    reach = math.floor(positions[-1]) + 1
+    starts = np.searchsorted(positions, np.arange(reach))
+    share = (positions - np.floor(positions))[:, None]
     rest = 1.0 - share
-    starts = np.append(0, (before[1:] != before[:-1]).nonzero()[0] + 1)
-    pixels, reach = before[starts], math.ceil(positions[-1])
 
     def shared(rows: Kernel) -> Kernel:
-        found = np.zeros((reach + 2, rows.shape[1]))
-        found[pixels] = np.add.reduceat(rows * rest, starts)
-        found[pixels + 1] += np.add.reduceat(rows * share, starts)
-        return found[: reach + 1]
+        found = np.zeros((reach + 1, rows.shape[1]))
+        found[:-1] = np.add.reduceat(rows * rest, starts)
+        found[1:] += np.add.reduceat(rows * share, starts)
+        return found
 
     return shared
 
@@ -108,18 +108,28 @@ def disc(diameter: float) -> Kernel:
     if radius == 0.0:
         return np.ones((1, 1))
     count = max(SAMPLES, min(32 * math.ceil(radius), 1024), 2 * math.ceil(2.0 * radius))
-    centres = radius * ((np.arange(count, dtype=np.float64) + 0.5) * (2.0 / count) - 1.0)
-    return _splatted(_disc_cells(count), np.asarray(centres, np.float64))
+    return _splatted(_disc_quarter(count), radius * _centres(count))
+
+
+@lru_cache(maxsize=16)
+def _centres(count: int) -> Kernel:
+    """Middles of the upper half of so many cells on [-1, 1]."""
+    return np.asarray((np.arange(count // 2, count) + 0.5) * (2.0 / count) - 1.0)
+
+
+@lru_cache(maxsize=8)
+def _disc_quarter(count: int) -> Kernel:
+    half = count // 2
+    return np.ascontiguousarray(_disc_cells(count)[half:, half:])
 
 
 def _splatted(cells: Kernel, centres: Kernel) -> Kernel:
-    """Light at a grid of positions (px along both axes) on the pixels, sum 1, symmetric.
+    """Light at a grid of positions (px along both axes, > 0) on the pixels, sum 1, symmetric.
 
     One quarter stands for all: the light in the middle row and column comes from both sides.
     """
-    half = len(centres) // 2
-    shared = _sharing(centres[half:])
-    quarter = shared(shared(cells[half:, half:]).T).T
+    shared = _sharing(centres)
+    quarter = shared(shared(cells).T).T
     quarter[0] *= 2.0
     quarter[:, 0] *= 2.0
     reach = len(quarter) - 1
@@ -165,10 +175,10 @@ def airy(scale: float) -> Kernel:
     if radius < 1e-6:
         return np.ones((1, 1))
     count = max(2 * SAMPLES, min(16 * math.ceil(radius), 1024), 2 * math.ceil(2.0 * radius))
-    centres = radius * ((np.arange(count, dtype=np.float64) + 0.5) * (2.0 / count) - 1.0)
+    centres = radius * _centres(count)
     far = np.hypot(centres[:, None], centres[None, :]) * (math.pi / scale)
     light = np.where(far < DARK_RINGS[1], (2.0 * _bessel_j1(far) / far) ** 2, 0.0)
-    return _splatted(light, np.asarray(centres))
+    return _splatted(light, centres)
 
 
 @lru_cache(maxsize=64)

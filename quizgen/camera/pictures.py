@@ -22,9 +22,9 @@ from quizgen.camera.effects import demosaicing, gamma, mosaic
 from quizgen.camera.effects.gaussian_noise import gaussian
 from quizgen.camera.effects.impulse_noise import impulses
 from quizgen.camera.effects.normalisation import stretch_range
-from quizgen.camera.filters import convolve, everywhere_alike
+from quizgen.camera.filters import convolve_all, everywhere_alike
 from quizgen.camera.hsv import edit_hsv
-from quizgen.camera.kernels import disc
+from quizgen.camera.kernels import Kernel, disc
 from quizgen.camera.layers import wider
 from quizgen.camera.noise import luck
 from quizgen.camera.scene import Image, Scene
@@ -112,15 +112,20 @@ def _focused(
     scene: Scene, groups: Sequence[tuple[float, tuple[int, ...]]], camera: Camera
 ) -> Codes:
     view = View(scene, camera)
+    encode = gamma.work(view)
     behind, even = _behind(scene, camera[gamma.GAMMA])
     light, seen = behind.copy(), even.copy()
     top, bottom = scene.height, 0
     for depth, some in groups:
-        part, keep, colour = _out_of_focus(*_drawn(scene, some), view.blur_diameter(depth))
+        kernel = disc(view.blur_diameter(depth))
+        part, keep, colour = (
+            _blurred(scene, some, kernel) if kernel.size > 1 else _sharp(scene, some)
+        )
         blend(light[part], keep, colour)
         top, bottom = min(top, part[0].start), max(bottom, part[0].stop)
-    rows = slice(top, bottom)
-    seen[rows] = codes(in_turn(light[rows], [gamma.work(view)], own=True)[0])
+    rows = light[top:bottom]
+    encode(rows.reshape(-1), 0)
+    seen[top:bottom] = codes(rows)
     return seen
 
 
@@ -133,12 +138,24 @@ def _behind(scene: Scene, tone: str | float) -> tuple[Image, Codes]:
     return light, codes(encoded)
 
 
-def _out_of_focus(image: Image, box: Box, diameter: float) -> tuple[Box, Image, Image]:
-    """Where the light of a thing gets, the share kept there of what is behind, and its colour."""
-    kernel = disc(diameter)
-    part = wider(box, kernel.shape[0] // 2, image.shape)
-    light = convolve(np.ascontiguousarray(image[part]), kernel)
+Laid = tuple[Box, Image, Image]
+"""Where the light of things gets, the share kept there of what is behind, and their colour."""
+
+
+def _laid(part: Box, light: Image) -> Laid:
     return part, np.repeat(1.0 - light[..., 3:], 3, axis=2), light[..., :3]
+
+
+@lru_cache(maxsize=16)
+def _sharp(scene: Scene, some: tuple[int, ...]) -> Laid:
+    image, box = _drawn(scene, some)
+    return _laid(box, image[box])
+
+
+def _blurred(scene: Scene, some: tuple[int, ...], kernel: Kernel) -> Laid:
+    image, box = _drawn(scene, some)
+    part = wider(box, kernel.shape[0] // 2, image.shape)
+    return _laid(part, convolve_all(np.ascontiguousarray(image[part]), kernel))
 
 
 @lru_cache(maxsize=16)
