@@ -57,28 +57,29 @@ def f_numbers(values: Values) -> tuple[float, float]:
     return (pair[1], pair[0]) if values["order"] else pair
 
 
-def photos_of(values: Values, *settings: Setting) -> tuple[NDArray[np.uint8], ...]:
-    """The three objects with each setting of the lens, in 8-bit codes."""
-    return _photos(values["f"], tuple(values[f"z_{place}"] for place in (1, 2, 3)), settings)
+def photos_of(values: Values, wide: int, *settings: Setting) -> tuple[NDArray[np.uint8], ...]:
+    """The three objects with each setting of the lens, in 8-bit codes, so many pixels wide."""
+    depths = tuple(values[f"z_{place}"] for place in (1, 2, 3))
+    return _photos(values["f"], wide, depths, settings)
 
 
 @lru_cache(maxsize=64)
 def _photos(
-    focal: float, depths: tuple[float, ...], settings: tuple[Setting, ...]
+    focal: float, wide: int, depths: tuple[float, ...], settings: tuple[Setting, ...]
 ) -> tuple[NDArray[np.uint8], ...]:
     """The photographs, for the question and for its solution."""
     from quizgen.camera import Camera
     from quizgen.camera.pictures import focused
 
     cameras = [
-        Camera(focal / 1e3, SENSOR_MM / 1e3 / _WIDE, number, distance, gamma="srgb")
+        Camera(focal / 1e3, SENSOR_MM / 1e3 / wide, number, distance, gamma="srgb")
         for distance, number in settings
     ]
-    return focused(_scene(), depths, *cameras)
+    return focused(_scene(wide), depths, *cameras)
 
 
 @cache
-def _scene() -> Scene:
+def _scene(wide: int) -> Scene:
     """The objects, drawn equally large, so that blur alone tells them apart."""
     from quizgen.camera import Length, Scene, Thing
 
@@ -87,15 +88,16 @@ def _scene() -> Scene:
         ("box", "stripes", (0.95, 0.95, 0.95), (0.02, 0.03, 0.1)),
         ("disc", "checker", (0.75, 0.9, 0.95), (0.02, 0.12, 0.06)),
     )
+    size = wide / _WIDE
     things = tuple(
         Thing(
-            shape, x=Length(_APART * (place - 1)), y=Length(2.0), width=Length(36),
-            height=Length(52), radius=Length(20), cell=Length(9),
-            texture=texture, colour=colour, other=other,
+            shape, x=Length(size * _APART * (place - 1)), y=Length(2 * size),
+            width=Length(36 * size), height=Length(52 * size), radius=Length(20 * size),
+            cell=Length(9 * size), texture=texture, colour=colour, other=other,
         )
         for place, (shape, texture, colour, other) in enumerate(looks)
     )  # fmt: skip
-    return Scene(_WIDE, _HIGH, things, (0.18, 0.24, 0.3))
+    return Scene(wide, round(size * _HIGH), things, (0.18, 0.24, 0.3))
 
 
 def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
@@ -106,7 +108,7 @@ def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     wide = (WIDTH - 3 * _GAP) / 2
     high = wide * _HIGH / _WIDE
     pen = Pen(WIDTH, _BELOW + high + _TOP + 2)
-    photos = photos_of(values, *((values["s"], number) for number in f_numbers(values)))
+    photos = photos_of(values, _WIDE, *((values["s"], number) for number in f_numbers(values)))
     for place, photo in enumerate(photos):
         left = _GAP + place * (wide + _GAP)
         put(canvas, pen, photo, (left, _BELOW, wide, high))

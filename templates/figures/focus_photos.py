@@ -42,6 +42,7 @@ PARAMETERS = {
 }
 
 _ORDERS = tuple(permutations(range(4)))
+_WIDE = 96
 _GAP, _TOP, _BELOW = 6.0, 15.0, 14.0
 
 
@@ -61,7 +62,7 @@ def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     wide = (WIDTH - 4 * _GAP) / 3
     high = wide * 2 / 3
     pen = Pen(WIDTH, _BELOW + high + _TOP + 2)
-    photos = depth_of_field.photos_of(values, *settings(values))
+    photos = depth_of_field.photos_of(values, _WIDE, *settings(values))
     for place, (photo, (s, number)) in enumerate(zip(photos, settings(values), strict=True)):
         left = _GAP + place * (wide + _GAP)
         put(canvas, pen, photo, (left, _BELOW, wide, high))
