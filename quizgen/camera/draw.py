@@ -216,8 +216,10 @@ def _add(layer: Layer, thing: Thing, view: View, part: Box, *, empty: bool) -> b
     Memory nothing is written to is not taken from the system.
     """
     x, y = _own_axes(thing, view, part)
-    distance = SHAPES[thing.shape](thing, x, y)
-    cover = np.clip(0.5 - distance, 0.0, 1.0).astype(view.precision)[..., None]
+    share = 0.5 - SHAPES[thing.shape](thing, x, y)
+    np.maximum(share, 0.0, out=share)
+    np.minimum(share, 1.0, out=share)
+    cover = share.astype(view.precision)[..., None]
     if not cover.any():
         return False
     full = bool(cover.min() == 1.0)
@@ -227,9 +229,10 @@ def _add(layer: Layer, thing: Thing, view: View, part: Box, *, empty: bool) -> b
         if layer.cover is not None:
             layer.cover[part] = cover
         return True
-    blend(layer.colour[part], 1.0 - cover, image)
+    keep = 1.0 - cover
+    blend(layer.colour[part], keep, image)
     if layer.cover is not None:
-        blend(layer.cover[part], 1.0 - cover, cover)
+        blend(layer.cover[part], keep, cover)
     return True
 
 

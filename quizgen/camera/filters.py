@@ -267,16 +267,21 @@ def _sample_rows(image: Image, x: Image, y: Image) -> Image:
     top, bottom, down = _split(y, height)
     upper, lower = (row * width * channels for row in (top, bottom))
     left, right = left * channels, right * channels
-    corners = upper + left, upper + right, lower + left, lower + right
+    rows = (upper, lower) if down.any() else (upper,)
+    columns = (left, right) if across.any() else (left,)
+    corners = [[row + column for column in columns] for row in rows]
     flat = image.reshape(-1)
     found = np.empty((*x.shape, channels), image.dtype)
     for channel in range(channels):  # far faster than NumPy's loops over three values
         plane = flat[channel:]
-        one, two, three, four = (plane.take(corner) for corner in corners)
-        above = one * (1 - across) + two * across
-        below = three * (1 - across) + four * across
-        np.add(above * (1 - down), below * down, out=found[..., channel])
+        lines = [_mixed([plane.take(corner) for corner in row], across) for row in corners]
+        found[..., channel] = _mixed(lines, down)
     return found
+
+
+def _mixed(ends: list[Image], share: Image) -> Image:
+    """What lies between two ends, or the only one where all is read at the first."""
+    return ends[0] * (1 - share) + ends[1] * share if len(ends) > 1 else ends[0]
 
 
 def sample_nearest(image: Image, x: Image, y: Image) -> Image:
