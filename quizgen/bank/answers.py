@@ -5,10 +5,11 @@ Formulas are not read here, and sentences stand elsewhere: these are the shapes 
 
 from __future__ import annotations
 
-from typing import Any, Literal, TypeAlias, get_args
+from typing import Any, ClassVar, Literal, TypeAlias, get_args
 
 import msgspec
 
+from quizgen.bank.most import MOST_OPTIONS
 from quizgen.maths.constants import Scalar
 
 Condition: TypeAlias = bool | str
@@ -36,7 +37,15 @@ class Measured(Answer, frozen=True):
     strict: bool = False
 
 
-class Number(Measured, tag="number", frozen=True):
+class Numeric(Measured, kw_only=True, frozen=True):
+    """What is computed: one quantity at least, and as many as its kind has."""
+
+    of: str | tuple[str, ...] | dict[str, str]
+    least: ClassVar[int] = 1
+    most: ClassVar[int] = 1
+
+
+class Number(Numeric, tag="number", frozen=True):
     """A number without a unit, a share, a count."""
 
     form: Literal["", "fraction", "lowest", "decimal"] = ""
@@ -46,37 +55,40 @@ class Number(Measured, tag="number", frozen=True):
     counts: str | tuple[str, ...] = ()
 
 
-class Quantity(Measured, tag="quantity", frozen=True):
+class Quantity(Numeric, tag="quantity", frozen=True):
     """A number with its unit."""
 
     unit: str = ""
     bare: bool = False
 
 
-class Angle(Measured, tag="angle", frozen=True):
+class Angle(Numeric, tag="angle", frozen=True):
     """An angle in degrees."""
 
     period: Scalar = 360
 
 
-class Point(Measured, tag="point", frozen=True):
+class Point(Numeric, tag="point", frozen=True):
     """Coordinates."""
 
+    least, most = 2, MOST_OPTIONS
     names: tuple[str, ...] = ()
     unit: str = ""
     counts: str | tuple[str, ...] = ()
     up_to_scale: bool = False
 
 
-class Set(Measured, tag="set", frozen=True):
+class Set(Numeric, tag="set", frozen=True):
     """Numbers in any order."""
 
+    most = MOST_OPTIONS
     unit: str = ""
 
 
-class Table(Measured, tag="table", frozen=True):
+class Table(Numeric, tag="table", frozen=True):
     """Numbers by their labels."""
 
+    least, most = 2, MOST_OPTIONS
     counts: dict[str, str | tuple[str, ...]] = {}
     cells: dict[str, dict[str, bool | Scalar]] = {}
 

@@ -11,7 +11,7 @@ from fractions import Fraction
 
 import msgspec
 
-from quizgen.bank.answers import ANSWERS, Choice, Match, Order, Pooled
+from quizgen.bank.answers import ANSWERS, Choice, Match, Numeric, Order, Pooled
 from quizgen.bank.complaints import in_words
 from quizgen.bank.most import (
     MOST_CHOICES,
@@ -194,12 +194,21 @@ def _answer(table: Mapping[str, object]) -> Problems:
             yield f"answer.{field}", f"1 to {most} are needed"
         if len(set(names)) < len(names):
             yield f"answer.{field}", "a name stands twice"
+    if isinstance(answer, Numeric):
+        yield from _asked(answer)
     if isinstance(answer, Order):
         strangers = {name for pair in answer.before for name in pair} - set(answer.steps)
         if strangers:
             yield "answer.before", f"names {sorted(strangers)}, which are not steps"
     if isinstance(answer, Pooled):
         yield from _pooled(answer)
+
+
+def _asked(answer: Numeric) -> Problems:
+    count = 1 if isinstance(answer.of, str) else len(answer.of)
+    if not answer.least <= count <= answer.most:
+        wanted = f"{answer.least} to {answer.most}" if answer.most > 1 else "one"
+        yield "answer.of", f"names {count}, and this kind asks for {wanted}"
 
 
 def _pooled(answer: Pooled) -> Problems:

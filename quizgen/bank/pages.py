@@ -76,7 +76,7 @@ def parse_text(source: str) -> Text:
         elif name in PROSE_SECTIONS or re.fullmatch(r"[a-j]", name):
             sections[name] = blocks(content)
         else:
-            allowed = sorted(NAMED_SECTIONS | PROSE_SECTIONS)
+            allowed = ", ".join(sorted(NAMED_SECTIONS | PROSE_SECTIONS))
             raise BankError(f"section {name!r} is unknown (allowed: a, b, ..., {allowed})")
     named = {section: {n: said for n, (_, said) in found} for section, found in listed.items()}
     return Text(title, blocks(pieces[0]), sections, named, _cases(listed))

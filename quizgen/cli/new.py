@@ -85,7 +85,9 @@ def template(place: str, kind: str | None, root: Path) -> None:
     """Write a question TOPIC/NAME into a bank: rules, words and, if it computes, a solver."""
     from quizgen.bank.folder import Bank
 
-    topic, _, name = place.partition("/")
+    topic, slash, name = place.partition("/")
+    if not slash:
+        raise BankError(f"{place!r} has no topic before it; write TOPIC/{place}")
     _must_be_name(topic)
     _must_be_name(name)
     own = Bank(root)

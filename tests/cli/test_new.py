@@ -57,6 +57,21 @@ def test_a_paper_of_all_there_is_needs_no_blueprint(root, tmp_path):
     assert f"slots: {len(KINDS) + 1}" in made.output
 
 
+@pytest.mark.parametrize("answer", ['kind = "set", of = ["t", "v"]', 'kind = "interval", value = "[0, 1)"',
+                                    'kind = "table", of = ["t", "v"]', 'kind = "point", of = ["t", "s"]'])  # fmt: skip
+def test_what_is_computed_may_be_asked_in_other_kinds(tmp_path, answer):
+    assert run("new", "bank", tmp_path / "mine").exit_code == 0
+    file = tmp_path / "mine/templates/example/travel-time/template.toml"
+    asked = 'kind = "quantity", of = "t", unit = "s"'
+    assert asked in file.read_text("utf-8")
+    file.write_text(file.read_text("utf-8").replace(asked, answer), "utf-8")
+    shared = ("--bank", tmp_path / "mine", "--trust")
+    done = run("lint", *shared, "--seeds", "20")
+    assert done.exit_code == 0, done.output
+    made = run("exam", "--format", "html", *shared, "--out", tmp_path / "paper")
+    assert made.exit_code == 0, made.output
+
+
 def test_without_a_kind_something_is_computed(root, tmp_path):
     assert run("new", "bank", tmp_path / "other").exit_code == 0
     made = run("new", "template", "example/some-solver", "--bank", tmp_path / "other")
@@ -87,7 +102,7 @@ def test_nothing_is_overwritten(root, capsys):
     ("place", "said"),
     [
         ("physics/x", "write it under [topics] first"),
-        ("example", "'' is no name"),
+        ("example", "'example' has no topic before it"),
         ("../x", "'..' is no name"),
     ],
 )

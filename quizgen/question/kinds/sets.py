@@ -6,7 +6,7 @@ from quizgen.bank.draw import Draw
 from quizgen.locale import word
 from quizgen.marking.kinds.sets import Spec
 from quizgen.question.contract import Built
-from quizgen.question.hints import given, rounding
+from quizgen.question.hints import given, rounding, unit
 from quizgen.question.kinds.point import each
 from quizgen.question.specs import exact_first, numeric
 
@@ -17,8 +17,8 @@ def build(drawn: Draw, index: int) -> Built[Spec]:
 
 
 def hints(spec: Spec, lang: str) -> tuple[str, ...]:
-    """Shape and rounding."""
-    return given(word(lang, "ask.set"), rounding(spec, spec.values, lang))
+    """Shape, unit and rounding."""
+    return given(word(lang, "ask.set"), unit(spec.unit, lang), rounding(spec, spec.values, lang))
 
 
 def printed(spec: Spec, lang: str) -> str:
