@@ -15,7 +15,7 @@ import quizgen
 from quizgen import typeset
 from quizgen.bank.rules import Rules
 from quizgen.cli.main import COMMANDS, group
-from quizgen.locale import table
+from quizgen.locale import languages, table
 from quizgen.maths import model
 
 ROOT = Path(__file__).parent.parent
@@ -67,13 +67,18 @@ def words(entry, path=""):
             yield f"{path}{key}", value
 
 
-def test_every_interface_word_exists_in_both_languages():
-    english, bangla = dict(words(table("en"))), dict(words(table("bn")))
-    assert english.keys() == bangla.keys()
+def blanks(text):
+    return {part.split("}")[0] for part in text.split("{")[1:]}
+
+
+@pytest.mark.parametrize("lang", sorted({*languages()} - {"en"}))
+@pytest.mark.parametrize("file", ["interface", "messages", "web", "classes", "cards"])
+def test_every_word_has_the_same_blanks_in_every_language(file, lang):
+    english, other = (dict(words(table(one, file))) for one in ("en", lang))
+    assert english.keys() == other.keys()
     for name, text in english.items():
-        blanks = {part.split("}")[0] for part in text.split("{")[1:]}
-        assert blanks == {part.split("}")[0] for part in bangla[name].split("{")[1:]}, name
-        assert bangla[name].strip(), name
+        assert blanks(str(text)) == blanks(str(other[name])), name
+        assert str(other[name]).strip(), name
 
 
 def test_nothing_in_the_repository_names_a_machine():

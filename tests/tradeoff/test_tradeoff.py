@@ -97,6 +97,7 @@ def test_inputs_are_timed_one_by_one_until_it_takes_long(monkeypatch, patience, 
     assert found.low <= found.median <= found.high
 
 
+@pytest.mark.slow
 def test_ladder_of_a_question_costs_less_than_a_millisecond(measured):
     for rungs in measured.values():
         assert sum(rungs[key].nanoseconds for key in PROVEN & set(rungs)) < 1e6
