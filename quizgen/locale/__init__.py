@@ -46,8 +46,13 @@ FIRST = "en"
 BOTH = "both"
 """The choice of every language of a bank at once."""
 
-_POINT = re.compile(r"(?<=[0-9])\.(?=[0-9])")
-"""A decimal point; there is one in every number until it is written in a language."""
+_POINT = re.compile(
+    r"(?<![0-9.])(?P<whole>[0-9]+)\.(?P<rest>[0-9]+)(?!\.?[0-9])(?!(?<=\.[0-9]{3}),[0-9])"
+)
+"""A decimal point; there is one in every number until it is written in a language.
+
+What has several (12.5.2024) is no number, and 1.000,50 is one as it is written already.
+"""
 
 SHIPPED = Path(__file__).parent
 PLACES = [SHIPPED]
@@ -164,9 +169,11 @@ def numbers_in(lang: str, text: str) -> str:
     --------
     >>> numbers_in("de", "3 Punkte: 27.25 mm"), numbers_in("en", "27.25 mm")
     ('3 Punkte: 27,25 mm', '27.25 mm')
+    >>> numbers_in("de", "am 12.5.2024 für 1.000,50 Euro")
+    'am 12.5.2024 für 1.000,50 Euro'
     """
     sign = language(lang).decimal
-    return text if sign == "." else _POINT.sub(sign, text)
+    return text if sign == "." else _POINT.sub(rf"\g<whole>{sign}\g<rest>", text)
 
 
 def from_right(lang: str) -> bool:

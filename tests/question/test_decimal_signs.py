@@ -13,7 +13,7 @@ from quizgen.bank.draw import draw
 from quizgen.bank.folder import Bank, builtin
 from quizgen.bank.prose import Code, Paragraph, Words
 from quizgen.figures import Board, Drawing, render
-from quizgen.locale import amount, language, marks
+from quizgen.locale import amount, language, marks, numbers_in
 from quizgen.marking.mark import mark
 from quizgen.paper.key import key_of
 from quizgen.paper.marking import mark_paper
@@ -110,6 +110,22 @@ def test_points_of_a_paper_and_of_its_report_have_it(tmp_path):
         assert f"<td>2{half[1]}5</td>" in page
         result = mark_paper(key_of(paper), {}, lang)
         assert list(table_lines(result, lang, 80, paint=False))[-1].endswith(f"0 / 2{half[1]}5")
+
+
+@pytest.mark.parametrize(
+    ("written", "german"),
+    [
+        ("27.25 mm, -0.5; (1.5; 2.25).", "27,25 mm, -0,5; (1,5; 2,25)."),
+        ("(1.5,2.5) and 1.5e-3 and 3.14-3.15", "(1,5,2,5) and 1,5e-3 and 3,14-3,15"),
+        ("12.5.2024, 1.2.3, 1.000.000", "12.5.2024, 1.2.3, 1.000.000"),
+        ("1.000,50 and 12.345.678,9", "1.000,50 and 12.345.678,9"),
+        ("1.125 and 10.125, then 2", "1,125 and 10,125, then 2"),
+        ("sections 3 and 4. 5 follow", "sections 3 and 4. 5 follow"),
+    ],
+)
+def test_what_is_no_number_with_a_point_stays(written, german):
+    assert numbers_in("de", written) == german
+    assert numbers_in("en", written) == written
 
 
 def test_hints_in_plain_text_have_it():
