@@ -92,7 +92,9 @@ def test_an_angle_without_rounding_keeps_half_a_degree_apart(tmp_path):
 
 def test_a_cell_with_a_tolerance_of_its_own_keeps_to_it(tmp_path):
     cells = 'cells = { u = { abs = "1/20" } }'
-    mine = template(tmp_path, f'kind = "table", of = {{ u = "p\'_x" }}, exact = true, {cells}')
+    mine = template(
+        tmp_path, f'kind = "table", of = {{ u = "p\'_x", f = "f" }}, exact = true, {cells}'
+    )
     for seed in range(100):
         drawn = draw(mine, seed)
         key = to_float(drawn.values["p'_x"])
