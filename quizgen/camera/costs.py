@@ -19,8 +19,8 @@ SIZES = (0.3072, 12.0)
 
 Pair = tuple[float, float]
 
-SAMPLE: Pair = (7.15, 261)
-SAMPLE_OPENCV: Pair = (0.53, 28.8)
+SAMPLE: Pair = (7.09, 410)
+SAMPLE_OPENCV: Pair = (0.364, 19.2)
 TAP: Pair = (0.49, 30.1)
 FOURIER: Pair = (26.1, 2861)
 TAP_OPENCV: Pair = (0.017, 1.74)

@@ -110,7 +110,7 @@ EFFECT = Effect(
     decides=("bayer", "demosaicing", "moire"),
     present=lambda view: view.camera[MOSAIC] != "",
     run=on_picture(run),
-    cost=measured((1.87, 58.7)),
+    cost=measured((1.78, 76)),
     skipped=skipped,
     carried=carried,
     knows_where=True,

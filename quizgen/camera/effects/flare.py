@@ -35,6 +35,6 @@ EFFECT = Effect(
     settings=(FLARE,),
     present=lambda view: view.camera[FLARE] > 0.0,
     run=on_picture(run),
-    cost=measured((6.64, 293)),
+    cost=measured((6.2, 282)),
     skipped=skipped,
 )

@@ -143,7 +143,7 @@ EFFECT = Effect(
     settings=(NATURAL, MECHANICAL),
     present=present,
     run=PointByPoint(work),
-    cost=measured((1.09, 127)),
+    cost=measured((0.88, 88.4)),
     skipped=skipped,
     after=after,
 )
