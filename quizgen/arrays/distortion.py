@@ -32,35 +32,25 @@ def _change(x: Array, y: Array, k1: Array, k2: Array) -> tuple[Array, Array]:
     return change, r2
 
 
-def _is_small(change: Array, k2: Array, top: float) -> bool:
-    """Whether plain doubles will do throughout, up to an r**2.
+def _distort(x: Array, y: Array, k1: Array, k2: Array) -> tuple[Array, ...]:
+    """Plain doubles where the change is small.
 
     In units of 2**-53 times x, the change is off by at most 5 |change| + 3 |k2| r**4, also where
     its terms cancel; adding it to x and y costs one more.
     """
-    least, most, bend = change.min(), change.max(), max(k2.max(), -k2.min())
-    return bool(5 * max(most, -least) + 3 * bend * top * top <= _ALLOWED * (1 + least))
-
-
-def _distort(x: Array, y: Array, k1: Array, k2: Array) -> tuple[Array, ...]:
-    """Plain doubles while the change is small."""
     change, r2 = _change(x, y, k1, k2)
-    moved = x * change, y * change
-    for place, found in zip((x, y), moved, strict=True):
-        np.add(found, place, out=found)
-    if _is_small(change, k2, r2.max()):
-        return moved
     off = 5 * np.abs(change) + 3 * np.abs(k2) * r2 * r2
-    doubtful = ~(off <= _ALLOWED * (1 + change))
-    return tuple(np.where(doubtful, np.nan, place) for place in moved)
+    sure = off <= _ALLOWED * (1 + change)
+    return tuple(np.where(sure, place * change + place, np.nan) for place in (x, y))
 
 
 def _distort_all(x_d: Array, y_d: Array, x: Array, y: Array, k1: Array, k2: Array) -> bool:
-    """Both results, if the change is small everywhere; what is not finite is not small."""
+    """The same in place, if one look tells that all is small; what is not finite is not."""
     change, r2 = _change(x, y, k1, k2)
-    top = r2.max()
+    least, most, top = change.min(), change.max(), r2.max()
+    off = 5 * max(most, -least) + 3 * max(k2.max(), -k2.min()) * top * top
     tame = all(within(k, -_FAR, _FAR) for k in (k1, k2)) and top <= _FAR
-    if not tame or not _is_small(change, k2, top):
+    if not tame or not off <= _ALLOWED * (1 + least):
         return False
     for place, found in ((x, x_d), (y, y_d)):
         np.multiply(place, change, out=found)

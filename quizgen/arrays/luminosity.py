@@ -9,10 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quizgen.arrays import cie1924, cie1951
 from quizgen.arrays.aliases import Array, Numbers, Result
 from quizgen.arrays.domain import NONNEGATIVE
 from quizgen.arrays.kernel import Kernel
+from quizgen.arrays.tables import read
 
 
 class Curve(NamedTuple):
@@ -34,16 +34,20 @@ class Curve(NamedTuple):
         return np.where((wavelength >= self.first) & (above == wavelength - self.first), value, 0.0)
 
 
+_CIE, _STEP, _PEAK = read("cie.json"), 5, 507
+
+
 def _by_night() -> Curve:
     """Every nanometre, since the peak stands between two points of the table."""
-    at = cie1951.FIRST_NM + cie1951.STEP_NM * np.arange(len(cie1951.V))
-    peak = np.searchsorted(at, cie1951.PEAK_NM)
-    points = np.insert(at, peak, cie1951.PEAK_NM), np.insert(cie1951.V, peak, 1.0)
+    values = _CIE["night"]
+    at = 380 + _STEP * np.arange(len(values))
+    peak = np.searchsorted(at, _PEAK)
+    points = np.insert(at, peak, _PEAK), np.insert(values, peak, 1.0)
     every = np.arange(at[0], at[-1] + 1)
     return Curve(int(at[0]), 1, np.interp(every, *points))
 
 
-DAY = Curve(int(cie1924.FIRST_NM), int(cie1924.STEP_NM), np.array(cie1924.V))
+DAY = Curve(360, _STEP, np.array(_CIE["day"]))
 """V(lambda), CIE 1924: every 5 nm from 360 to 830 nm."""
 
 NIGHT = _by_night()

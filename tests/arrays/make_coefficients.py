@@ -1,9 +1,11 @@
-"""Compute the coefficients in ``quizgen/arrays/tables.py`` with mpmath; prints the module.
+"""Compute the coefficients in ``quizgen/arrays/tables.json`` with mpmath; prints the file.
 
-Run: ``python tests/arrays/make_coefficients.py > quizgen/arrays/tables.py``
+Run: ``python tests/arrays/make_coefficients.py > quizgen/arrays/tables.json``
 """
 
 from __future__ import annotations
+
+import json
 
 import mpmath as mp
 
@@ -117,25 +119,17 @@ def stirling_error(k):
     return mp.log(mp.factorial(k)) - (k + mp.mpf(1) / 2) * mp.log(k) + k - mp.log(2 * mp.pi) / 2
 
 
-def show(name, values, note):
-    """Print one tuple."""
-    print(f"{name} = (")
-    for value in values:
-        print(f"    {float(value)!r},")
-    print(")")
-    print(f'"""{note}"""\n')
+def found():
+    """All of them, to be rounded to doubles."""
+    return {
+        "mills_shift": SHIFT,
+        "mills_scale": SCALE,
+        "mills": to_powers(chebyshev(shaped, TERMS)),
+        "central": central(19),
+        "stirling": [stirling_error(k) for k in range(16)],
+        "temme": temme(9, 26),
+    }
 
 
 if __name__ == "__main__":
-    print('"""Coefficients computed by ``tests/arrays/make_coefficients.py``."""\n')
-    print(f"MILLS_SHIFT = {float(SHIFT)!r}\nMILLS_SCALE = {float(SCALE)!r}\n")
-    show("MILLS", to_powers(chebyshev(shaped, TERMS)), "Shaped Mills ratio, powers of t.")
-    show("CENTRAL", central(19), "P(0 < n < k)/k, powers of k**2.")
-    show("STIRLING", [stirling_error(k) for k in range(16)], "Error of Stirling's formula, 0..15.")
-    print("TEMME = (")
-    for row in temme(9, 26):
-        print("    (")
-        for value in row:
-            print(f"        {float(value)!r},")
-        print("    ),")
-    print(')\n"""Temme\'s c_0 .. c_8, powers of eta."""')
+    print(json.dumps(found(), default=float, indent=1))

@@ -14,7 +14,7 @@ from itertools import pairwise
 import mpmath as mp
 from mpmath import mpf
 
-from quizgen.arrays.cie1924 import FIRST_NM, STEP_NM, V
+from quizgen.arrays.luminosity import DAY
 
 
 def reference(name, args, digits=45):
@@ -170,7 +170,9 @@ def srgb_decode(x):
 
 def table():
     """V(lambda) of CIE 1924, read as the decimals of the table: wavelength and value."""
-    return [(mpf(FIRST_NM + STEP_NM * i), mpf(repr(v))) for i, v in enumerate(V)]
+    return [
+        (mpf(DAY.first + DAY.step * i), mpf(repr(v))) for i, v in enumerate(DAY.values.tolist())
+    ]
 
 
 def segments():

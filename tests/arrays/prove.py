@@ -48,6 +48,7 @@ from quizgen.arrays import (
 
 PROOFS = Path(__file__).with_name("proofs.tsv")
 DOCS = Path(__file__).parents[2] / "docs/accuracy.md"
+NUMBERS = Path(tables.__file__).with_name("tables.json")
 HEAD = "  | kernel | relative error, in 2^-53 | boxes | rounds |\n  |---|---|---|---|\n"
 COMPENSATED = arb(2) ** -80
 
@@ -169,7 +170,10 @@ class Piece(NamedTuple):
 
     def digest(self):
         """Of everything that the proven functions run."""
-        return hashlib.sha256("".join(map(inspect.getsource, self.code)).encode()).hexdigest()[:16]
+        sources = list(map(inspect.getsource, self.code))
+        if tables in self.code:
+            sources.append(NUMBERS.read_text("utf-8"))
+        return hashlib.sha256("".join(sources).encode()).hexdigest()[:16]
 
 
 TAIL = (gaussian.mills, gaussian.far_tail, gaussian.near_tail, polynomial.horner, tables)
@@ -189,9 +193,7 @@ UNIFORM = (
     poisson._uniform_lower, poisson._uniform_rest, gaussian.mills, *LOGARITHM, tables,
 )  # fmt: skip
 GAP = (gamma_gap, power, *LOGARITHM)
-DISTORT = (
-    distortion._change, distortion._is_small, distortion._distort, distortion._distort_all,
-)  # fmt: skip
+DISTORT = (distortion._change, distortion._distort, distortion._distort_all)
 FOLD = (quintic.Quintic.inside, quintic.Quintic.fold, distortion._fold, double_double)
 PIECES = {
     "gaussian.far_tail": Piece(far_bound, 0.6999, 37.5, 4000, TAIL),

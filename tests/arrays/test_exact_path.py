@@ -14,7 +14,7 @@ import pytest
 from test_rows import NAMES, rows_of
 from ulp import ulps
 
-from quizgen.arrays.cie1924 import FIRST_NM, STEP_NM, V
+from quizgen.arrays.luminosity import DAY
 from quizgen.errors import FormulaError, MathError
 from quizgen.maths import exact
 from quizgen.maths.notation import parse
@@ -22,6 +22,7 @@ from quizgen.maths.numbers import rational, to_float
 from quizgen.maths.precision import working_precision
 from quizgen.maths.systems import evaluate
 
+FIRST_NM, STEP_NM, V = DAY.first, DAY.step, DAY.values.tolist()
 LAST_NM = FIRST_NM + STEP_NM * (len(V) - 1)
 HEXAGON = "V - V*S*max(0, min(mod({turn} + H/60, 6), 4 - mod({turn} + H/60, 6), 1))"
 TENTS = " + ".join(
