@@ -19,18 +19,21 @@ from quizgen.arrays.rational import exactly, nearest
 BLOCK = 32768
 """Elements per block: temporaries stay near the processor, and calls are few."""
 
+_SETTLED = 16 * 8 * BLOCK
+"""Bytes of more temporaries than a formula has."""
+
 REACH = 2.0**120
 """Magnitudes from its inverse to it are moderate, unless a kernel says otherwise."""
 
 
 @cache
-def _settle_the_allocator() -> None:
-    """Let the C library see a larger array come and go, once.
+def settle_the_allocator(size: int) -> None:
+    """Let the C library see a larger array of so many bytes come and go, once.
 
     Until then it gives temporaries from 128 KiB on back to the system one by one, which can cost
     as much as the computation. The array is never written to and takes no memory.
     """
-    np.empty(16 * BLOCK)
+    np.empty(size, np.uint8)
 
 
 class Kernel(msgspec.Struct, frozen=True):
@@ -87,7 +90,7 @@ class Kernel(msgspec.Struct, frozen=True):
         return next((rule.reason for rule in self.rules if np.any(rule.broken(*args))), None)
 
     def _over(self, args: list[Array], shape: tuple[int, ...]) -> tuple[Array, ...]:
-        _settle_the_allocator()
+        settle_the_allocator(_SETTLED)
         columns = [np.empty(math.prod(shape)) for _ in range(self.outputs)]
         masks: list[tuple[int, Flags]] = []
         fixed = [_limits(arg) if arg.size == 1 else None for arg in args]

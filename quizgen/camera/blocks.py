@@ -7,7 +7,6 @@ over the interpreter's lock after each took twice as long as one, and four times
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from functools import cache
 from time import perf_counter
 
 import numpy as np
@@ -19,19 +18,6 @@ Work = Callable[[Image, int], None]
 
 BLOCK = 3 << 13
 """Values per piece: whole colours, 96 KiB."""
-
-_SETTLED = 30 << 20
-"""Bytes, just below the most that the C library still takes note of (32 MiB)."""
-
-
-@cache
-def settle_the_allocator() -> None:
-    """Let the C library see a large array come and go, once.
-
-    Until then it gives temporaries back to the system piece by piece, and to take new memory costs
-    more than to draw or to warp what is put there. The array is never written to and takes none.
-    """
-    np.empty(_SETTLED, np.uint8)
 
 
 def pieces(length: int, size: int) -> Iterator[tuple[int, int]]:

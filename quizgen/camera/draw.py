@@ -12,7 +12,7 @@ from itertools import groupby
 import msgspec
 import numpy as np
 
-from quizgen.camera.blocks import settle_the_allocator
+from quizgen.arrays.kernel import settle_the_allocator
 from quizgen.camera.body import aperture
 from quizgen.camera.outlines import SHAPES, TEXTURES, Plane
 from quizgen.camera.scene import Image, SceneError, Thing
@@ -305,6 +305,10 @@ def sheets(view: View) -> tuple[Sheet, ...]:
     return tuple(found)
 
 
+_SETTLED = 30 << 20
+"""Bytes, just below the most that the C library takes note of (32 MiB)."""
+
+
 def draw(view: View) -> Stack:
     """Draw everything.
 
@@ -320,7 +324,7 @@ def draw(view: View) -> Stack:
     """
     if view.scene.metric:
         raise SceneError("lengths in metres must be projected first")
-    settle_the_allocator()
+    settle_the_allocator(_SETTLED)
     return tuple(_draw_sheet(sheet, view) for sheet in sheets(view))
 
 
