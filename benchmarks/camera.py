@@ -22,17 +22,16 @@ from tempfile import TemporaryDirectory
 from time import perf_counter, process_time
 from typing import Any
 
-import msgspec
 import numpy as np
+from photographs import forget_maps, oracle, photos
 
-from quizgen.arrays.gamma import srgb_decode
-from quizgen.camera import Camera, Scene, SceneError, View, effects, filters, hsv, simulate
-from quizgen.camera.decision import Plan, Skipped
+from quizgen.camera import Camera, Scene, View, effects, filters, hsv
+from quizgen.camera.decision import Plan
 from quizgen.camera.draw import Layer
 from quizgen.camera.effects import distortion, lateral_colour, mosaic, vignetting
 from quizgen.camera.kernels import disc
 from quizgen.camera.plan import Prepared, everything, plan
-from quizgen.camera.simulate import difference_dn, is_broken, run
+from quizgen.camera.simulate import run
 from quizgen.cli.simulate import SCENES
 
 SIZES = {"640x480": (640, 480), "12 MP": (4000, 3000)}
@@ -137,14 +136,6 @@ def fresh_map(look: View) -> None:
     distortion.source(look)
 
 
-def forget_maps() -> None:
-    distortion.quadrant.cache_clear()
-    distortion._kept.cache_clear()
-    distortion._inverse_table.cache_clear()
-    distortion.undistorted_radius.cache_clear()
-    vignetting._fall_off_map.cache_clear()
-
-
 def calibrate() -> None:
     """Print the figures of `quizgen.camera.costs` and of every effect."""
     real = filters.opencv
@@ -226,161 +217,6 @@ def ideal(repeats: int) -> None:
     scene = Scene(image=picture(640, 480))
     time = best(lambda: plan_and_run(scene, Camera()), repeats)
     print(f"\nideal camera, 640x480: {time:.4f} ms for planning and running")
-
-
-TURNS = 3
-PHOTOS = ("astronaut", "camera", "cat", "coffee", "coins", "moon", "page", "text")
-"""Pictures that come with scikit-image."""
-
-
-def a_photo(source: np.random.Generator) -> Scene:
-    """A piece of a photograph, 640 x 480, in linear light."""
-    from skimage import data, transform
-
-    codes = np.atleast_3d(getattr(data, PHOTOS[source.integers(len(PHOTOS))])())[..., :3] / 255.0
-    left = int(source.integers(codes.shape[1] // 4))
-    piece = codes[:, left : left + codes.shape[1] * 3 // 4]
-    light = srgb_decode(np.clip(transform.resize(piece, (480, 640), anti_aliasing=True), 0, 1))
-    image = np.broadcast_to(light, (480, 640, 3)).astype(np.float32)
-    seed = int(source.integers(1 << 30))
-    return Scene(640, 480, image=image, depth=float(source.uniform(2, 20)), seed=seed)
-
-
-def a_camera(source: np.random.Generator, width: int) -> Camera:
-    """What people own: about ten effects, each of an ordinary size."""
-
-    def maybe(chance: float, low: float, high: float, otherwise: Any = 0.0) -> Any:
-        drawn = float(np.exp(source.uniform(np.log(low), np.log(high))))
-        return drawn if source.random() < chance else otherwise
-
-    sign = source.choice([-1.0, 1.0], 3)
-    return Camera(
-        float(source.uniform(0.024, 0.085)), 0.0236 / width,
-        f_number=maybe(0.8, 1.4, 22, None), focus_distance=float(source.uniform(2, 20)),
-        k1=float(sign[0]) * maybe(0.6, 0.001, 0.3), lateral_colour=maybe(0.4, 0.05, 1.0),
-        natural_vignetting=bool(source.random() < 0.5), mechanical_vignetting=maybe(0.3, 0.05, 0.5),
-        shutter=maybe(1.0, 0.001, 0.06), row_time=maybe(0.4, 1e-6, 3e-5),
-        velocity=(float(sign[1]) * maybe(0.5, 1, 200), 0.0),
-        exposure=float(sign[2]) * maybe(0.3, 0.1, 1.0), full_well=maybe(1.0, 5e3, 1e5),
-        read_noise=maybe(0.9, 1, 10), dark_current=maybe(0.5, 0.05, 5),
-        smear=maybe(0.1, 1e-4, 0.01),
-        bit_depth=int(source.integers(8, 15)), mosaic="RGGB" if source.random() < 0.3 else "",
-        white_balance=(maybe(0.4, 1, 2, 1.0), 1.0, maybe(0.4, 1, 2, 1.0)), gamma="srgb",
-    )  # fmt: skip
-
-
-def busy(work: Callable[[], Any]) -> tuple[float, Any]:
-    """Processor time of one run, s, and what it gives."""
-    forget_maps()
-    started = process_time()
-    found = work()
-    return process_time() - started, found
-
-
-def photos(count: int) -> None:
-    """What is skipped, what that saves with planning included, and whether promises are kept."""
-    budgets = (0.5, 2.0, 8.0)
-    shares, ratios = {b: [] for b in budgets}, {b: [] for b in budgets}
-    broken = refused = 0
-    for seed in range(count):
-        source = np.random.default_rng([seed, 12])
-        scene = a_photo(source)
-        camera = a_camera(source, scene.width)
-        prepared = Prepared(scene, camera)
-        ways = {0.0: lambda: run(prepared, everything(prepared))}  # noqa: B023
-        for budget in budgets:
-            ways[budget] = partial(simulate, scene, camera, budget=budget)
-        try:
-            turns = [{budget: busy(way) for budget, way in ways.items()} for _ in range(TURNS)]
-        except SceneError:
-            refused += 1  # the picture folds over
-            continue
-        spent = {budget: min(turn[budget][0] for turn in turns) for budget in ways}
-        whole = turns[0][0.0][1]
-        for budget in budgets:
-            photo = turns[0][budget][1]
-            left, ran = len(photo.plan.skipped), len(photo.plan.steps)
-            shares[budget].append(left / (left + ran))
-            ratios[budget].append(spent[0.0] / spent[budget])
-            broken += is_broken(photo, whole)
-    print(f"{count - refused} photographs ({refused} refused), {broken} broken promises")
-    for budget in budgets:
-        ratio = np.array(ratios[budget])
-        print(
-            f"  {budget:3g} DN: {np.mean(shares[budget]):6.1%} of the effects skipped, everything /"
-            f" planned x{np.exp(np.log(ratio).mean()):.2f} (CPU), slower in {(ratio < 0.98).sum()}"
-        )
-
-
-def oracle(count: int) -> None:
-    """Per effect: how often it could be left out, how often a plan does, and at what bound.
-
-    The oracle looks at what really changes: effects in the order of what each alone does, as long
-    as all together stay within the budget.
-    """
-    budgets = (0.5, 2.0)
-    rows: dict[str, list[tuple[float, ...]]] = {}
-    for seed in range(count):
-        source = np.random.default_rng([seed, 12])
-        scene = a_photo(source)
-        try:
-            prepared = Prepared(scene, a_camera(source, scene.width))
-            trial = _Trial(prepared)
-        except SceneError:
-            continue  # the picture folds over
-        free = [trial.leaves_out(budget) for budget in budgets]
-        left = [{one.effect for one in plan(prepared, budget=b).skipped} for b in budgets]
-        for unit, alone in trial.alone.items():
-            counts = [unit[0] in names for pair in zip(free, left, strict=True) for names in pair]
-            bounds = trial.bound[unit[0]], alone, sum(trial.whole.times[name] for name in unit)
-            rows.setdefault(" + ".join(unit), []).append((*counts, *bounds))
-    heads = ("photos", *(f"{who} {b:g} DN" for b in budgets for who in ("oracle", "plan")))
-    print(f"{'':31}" + "".join(f"{head:>15}" for head in (*heads, "bound DN", "real DN", "ms")))
-    for name, found in sorted(rows.items()):
-        figures = np.array(found, float)
-        *counts, bound, real, spent = (*figures[:, :4].sum(0), *np.median(figures[:, 4:], axis=0))
-        print(
-            f"{name:31}{len(found):15}"
-            + "".join(f"{int(count):15}" for count in counts)
-            + f"{bound:15.3g}{real:15.3g}{spent:15.2f}"
-        )
-    figures = np.concatenate([np.array(found, float) for found in rows.values()])
-    for column, head in enumerate(heads[1:]):
-        saved = figures[:, column] @ figures[:, 6] / figures[:, 6].sum()
-        print(f"{head}: {figures[:, column].mean():.1%} of the effects, {saved:.1%} of their time")
-
-
-class _Trial:
-    """What leaving effects out of one photograph really changes."""
-
-    def __init__(self, prepared: Prepared) -> None:
-        self.prepared = prepared
-        self.everything = everything(prepared)
-        self.whole = run(prepared, self.everything)
-        strict = plan(prepared, budget=0.0)
-        self.bound = {one.effect: one.bound_dn for one in (*strict.steps, *strict.skipped)}
-        units: dict[str, list[str]] = {}
-        for step in self.everything.steps:
-            key = effects.by_name(step.effect).pair or step.effect
-            units.setdefault(key, []).append(step.effect)
-        self.alone = {tuple(unit): self.change(frozenset(unit)) for unit in units.values()}
-
-    def change(self, names: frozenset[str]) -> float:
-        """Grey levels that leaving these out changes."""
-        kept = tuple(step for step in self.everything.steps if step.effect not in names)
-        left = tuple(Skipped(name, "", 0.0, 0.0) for name in sorted(names))
-        return difference_dn(
-            run(self.prepared, msgspec.structs.replace(self.everything, steps=kept, skipped=left)),
-            self.whole,
-        )
-
-    def leaves_out(self, budget: float) -> frozenset[str]:
-        left: frozenset[str] = frozenset()
-        for unit, change in sorted(self.alone.items(), key=lambda pair: pair[1]):
-            more = left.union(unit)
-            if change <= budget and self.change(more) <= budget:
-                left = more
-        return left
 
 
 def enlarged(text: str, times: float) -> str:

@@ -393,9 +393,8 @@ def test_our_own_deck_has_no_cell_that_a_spreadsheet_runs():
 
 
 def test_what_steers_a_terminal_is_named():
-    assert (
-        visible("a\x1b]0;x\x07\u202eb\x85")
-        == "a[U+001B control character]0;x".replace("]0", "]]0")
-        + "[U+0007 control character][U+202E RIGHT-TO-LEFT OVERRIDE]b[U+0085 control character]"
+    assert visible("a\x1b]0;x\x07\u202eb\x85") == (
+        "a[U+001B control character]]0;x[U+0007 control character]"
+        "[U+202E RIGHT-TO-LEFT OVERRIDE]b[U+0085 control character]"
     )
     assert visible("রহিম\n é") == "রহিম\n é"
