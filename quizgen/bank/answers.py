@@ -11,6 +11,7 @@ import msgspec
 
 from quizgen.bank.most import MOST_OPTIONS
 from quizgen.maths.constants import Scalar
+from quizgen.maths.tolerance import Tolerance
 
 Condition: TypeAlias = bool | str
 Formulas: TypeAlias = tuple[Scalar, Scalar]
@@ -24,17 +25,11 @@ class Answer(msgspec.Struct, kw_only=True, frozen=True, forbid_unknown_fields=Tr
     of: str | tuple[str, ...] | dict[str, str] = ()
 
 
-class Measured(Answer, frozen=True):
-    """How near an answer must be: at most one of the first five."""
+class Measured(Tolerance, kw_only=True, frozen=True, tag_field="kind"):
+    """The same, and how near an answer must be."""
 
-    decimals: int | None = None
-    sigfigs: int | None = None
-    rel: Scalar | None = None
-    abs: Scalar | None = None
-    exact: bool = False
-    within: Scalar = 1
-    accept: tuple[Scalar, Scalar] | None = None
-    strict: bool = False
+    of: str | tuple[str, ...] | dict[str, str] = ()
+    accept: tuple[Scalar, Scalar] | None = None  # type: ignore[assignment]
 
 
 class Numeric(Measured, kw_only=True, frozen=True):
@@ -89,15 +84,15 @@ class Table(Numeric, tag="table", frozen=True):
     """Numbers by their labels."""
 
     least, most = 2, MOST_OPTIONS
-    counts: dict[str, str | tuple[str, ...]] = {}
-    cells: dict[str, dict[str, bool | Scalar]] = {}
+    counts: dict[str, str | tuple[str, ...]] = msgspec.field(default_factory=dict)
+    cells: dict[str, dict[str, bool | Scalar]] = msgspec.field(default_factory=dict)
 
 
 class Interval(Measured, kw_only=True, tag="interval", frozen=True):
     """From one number to another."""
 
     value: str
-    traps: dict[str, str] = {}
+    traps: dict[str, str] = msgspec.field(default_factory=dict)
 
 
 class Expression(Answer, kw_only=True, tag="expression", frozen=True):
@@ -218,7 +213,7 @@ AnyAnswer: TypeAlias = (
     Number | Quantity | Angle | Point | Set | Table | Interval | Expression | Choice | Multi
     | Truth | Match | Order | Gap | Witness | Code | Text | Sketch
 )  # fmt: skip
-ANSWERS: dict[str, type[Answer]] = {
+ANSWERS: dict[str, type[Answer | Measured]] = {
     str(shape.__struct_config__.tag): shape for shape in get_args(AnyAnswer)
 }
 """Kind to what its answer may name."""
