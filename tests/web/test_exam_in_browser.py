@@ -48,7 +48,7 @@ def hand_in(page):
 
 def forgive(opened):
     """What browsers say of a server that is dead or out of reach."""
-    dead = re.compile("ERR_CONNECTION|ERR_CONTENT_LENGTH|ERR_EMPTY|ERR_INTERNET|Failed to fetch")
+    dead = re.compile("ERR_(CONNECTION|SOCKET|CONTENT_LENGTH|EMPTY|INTERNET)|Failed to fetch")
     opened.wrong[:] = [one for one in opened.wrong if not dead.search(one)]
 
 
