@@ -35,6 +35,9 @@ CERTAIN = 5.0
 """Standard deviations exceeded with probability 6e-7: where a random part decides what is clipped,
 or several values decide together, so that deviations can no longer be added in quadrature."""
 
+BEYOND_CERTAIN = 1e-6
+"""Share of values beyond `CERTAIN` deviations, clipped noise beside other noise included."""
+
 COLUMN = 6.5
 """Deviations by which the mean size of any column's normal values misses its expectation, times
 the root of their number: once in 10^9 columns."""
@@ -62,6 +65,12 @@ class Error(msgspec.Struct, frozen=True):
         Bound on what comes on top where both pictures are at least as bright as ``level``.
     level : float
         Infinite where nothing comes on top.
+    rare : float
+        Bound on what comes on top at few places, and nothing at all elsewhere.
+    share : float
+        Chance of that at each place, whatever the luck that comes later.
+    dither : float
+        Standard deviation of the normal luck that has come since, the same in both pictures.
 
     No error is ever negative; what cannot be computed is infinite.
     """
@@ -72,6 +81,9 @@ class Error(msgspec.Struct, frozen=True):
     beyond: float = 0.0
     bright: float = 0.0
     level: float = math.inf
+    rare: float = 0.0
+    share: float = 0.0
+    dither: float = 0.0
 
     def __post_init__(self) -> None:
         if self.sure >= 0.0 and self.sigma >= 0.0 and self.beyond >= 0.0 and self.bright >= 0.0:
@@ -84,14 +96,16 @@ class Error(msgspec.Struct, frozen=True):
     @property
     def total(self) -> float:
         """Difference exceeded by at most the share `EXCEEDED` of the values."""
-        if self.odd > ODD + (0.0 if self.sigma else _NORMAL):
+        allowed = ODD + (0.0 if self.sigma else _NORMAL)
+        if self.odd > allowed:
             return math.inf
-        return self.sure + self.beyond + self.bright + DEVIATIONS * self.sigma
+        rare = self.rare if self.odd + self.share > allowed else 0.0
+        return self.sure + self.beyond + self.bright + rare + DEVIATIONS * self.sigma
 
     @property
     def certain(self) -> float:
         """Difference that all but 6e-7 of the values keep, however they are mixed afterwards."""
-        return self.sure + self.beyond + self.bright + CERTAIN * self.sigma
+        return self.sure + self.beyond + self.bright + self.rare + CERTAIN * self.sigma
 
     def plus(self, other: Error) -> Error:
         """Both errors of different luck: random parts add in quadrature."""
@@ -103,8 +117,13 @@ class Error(msgspec.Struct, frozen=True):
 
     def _with(self, other: Error, sigma: float) -> Error:
         beyond, bright = self.beyond + other.beyond, self.bright + other.bright
+        sure, odd = self.sure + other.sure, self.odd + other.odd
         level = min(self.level, other.level)
-        return Error(self.sure + other.sure, sigma, self.odd + other.odd, beyond, bright, level)
+        if not self.rare and not other.rare:
+            return Error(sure, sigma, odd, beyond, bright, level)
+        rare, share = self.rare + other.rare, self.share + other.share
+        dither = min(error.dither for error in (self, other) if error.rare)
+        return Error(sure, sigma, odd, beyond, bright, level, rare, share, dither)
 
     def times(self, factor: float) -> Error:
         """Scaled by a factor >= 0, wherever it is."""
@@ -113,16 +132,22 @@ class Error(msgspec.Struct, frozen=True):
 
     def amplified(self, least: float, most: float) -> Error:
         """After gains >= 0: what is beyond 1 stays there if none of them makes anything darker."""
-        error = self if least >= 1.0 or not self.beyond else self.everywhere()
+        error = self if least >= 1.0 else self.within()
         sure, sigma, beyond = error.sure * most, error.sigma * most, error.beyond * most
         level = error.level * least if error.bright else math.inf
-        return Error(sure, sigma, error.odd, beyond, error.bright * most, level)
+        rare, dither = error.rare * most, error.dither * least
+        bright = error.bright * most
+        return Error(sure, sigma, error.odd, beyond, bright, level, rare, error.share, dither)
 
     def everywhere(self) -> Error:
-        """What may stand beyond 0 or 1, or in the light alone, counts like all else."""
-        if not self.beyond and not self.bright:
+        """What may stand beyond 0 or 1, in the light or at few places counts like all else."""
+        if not self.beyond and not self.bright and not self.rare:
             return self
-        return Error(self.sure + self.beyond + self.bright, self.sigma, self.odd)
+        return Error(self.sure + self.beyond + self.bright + self.rare, self.sigma, self.odd)
+
+    def within(self) -> Error:
+        """What may stand beyond 0 or 1 counts like all else."""
+        return replace(self, sure=self.sure + self.beyond, beyond=0.0) if self.beyond else self
 
     def clipped(self) -> Error:
         """After both pictures are clipped to [0, 1]."""
@@ -132,9 +157,10 @@ class Error(msgspec.Struct, frozen=True):
         """With what single precision adds where the pictures differ: equal values stay equal."""
         if self.sure or self.sigma:
             return replace(self, sure=self.sure + by)
+        error = replace(self, rare=self.rare + by) if self.rare else self
         if self.bright:
-            return replace(self, bright=self.bright + by)
-        return replace(self, beyond=self.beyond + by) if self.beyond else self
+            return replace(error, bright=self.bright + by)
+        return replace(error, beyond=self.beyond + by) if self.beyond else error
 
 
 def mean_size(sigma: float, count: int) -> float:

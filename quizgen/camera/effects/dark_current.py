@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 from msgspec.structs import replace
@@ -80,10 +81,37 @@ def _mean(view: View) -> Error:
 
 
 def skipped(facts: Facts, view: View) -> Error:
-    """Mean charge and its noise; a hot pixel may be anywhere."""
+    """Mean charge and its noise, or few electrons at few places; a hot pixel may be anywhere."""
     if view.camera[HOT_PIXELS]:
         return Error(math.inf)
-    return _mean(view).plus(_noise(view))
+    electrons, charge = dark_electrons(view), _mean(view).plus(_noise(view))
+    if electrons > _FEW:
+        return charge
+    largest, share = counted(electrons)
+    counts = Error(rare=largest / electrons_at_white(view), share=share)
+    return min(charge, counts, key=lambda error: error.certain)
+
+
+_FEW = 16.0
+
+
+@lru_cache(maxsize=64)
+def counted(mean: float) -> tuple[int, float]:
+    """Largest count in a table of `_poisson`, and the share that is not 0, of a mean up to 16.
+
+    Its last place is half a step below probability 1.
+    """
+    chance, count = math.exp(-mean), 0
+    reached, last = chance, 1.0 - 0.5 / WORDS + _SLACK
+    while reached <= last:
+        count += 1
+        chance *= mean / count
+        reached += chance
+    return count, min(1.0, 0.5 / WORDS - math.expm1(-mean))
+
+
+_SLACK = 1e-12
+"""Rounding of sums of chances."""
 
 
 def after(facts: Facts, view: View) -> Facts:

@@ -31,6 +31,11 @@ def skipped(facts: Facts, view: View) -> Error:
     return Error(odd=out.odd, beyond=facts.just_above(1.0) + out.sure)
 
 
+def carried(error: Error, facts: Facts, view: View) -> Error:
+    """No difference grows; the light ends at white."""
+    return replace(error, level=min(error.level, 1.0)) if error.bright else error
+
+
 def after(facts: Facts, view: View) -> Facts:
     """No more than 1; clipping may bend."""
     capped = replace(facts, high=min(facts.high, 1.0), low=min(facts.low, 1.0))
@@ -46,5 +51,7 @@ EFFECT = Effect(
     run=PointByPoint(work),
     cost=measured((0.524, 38.5)),
     skipped=skipped,
+    carried=carried,
+    knows_where=True,
     after=after,
 )

@@ -92,9 +92,11 @@ _SHORT = 2.0**-10
 def carried(error: Error, facts: Facts, view: View) -> Error:
     """The darkest values are spread most, of all or of those in the light; both are clipped."""
     error = error.clipped()
-    spread = _spread(replace(error, bright=0.0), facts.bottom - error.certain, view)
+    bottom = facts.bottom - error.certain
+    spread = _spread(replace(error, bright=0.0, rare=0.0), bottom, view)
     bright = _gap(error.bright, error.level, view) if error.bright else 0.0
-    return replace(spread, sure=spread.sure + bright, level=math.inf)
+    rare = _gap(error.rare, bottom, view) + CURVE_ERROR if error.rare else 0.0
+    return replace(spread, sure=spread.sure + bright, rare=rare, level=math.inf)
 
 
 def after(facts: Facts, view: View) -> Facts:

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import math
+
+from msgspec.structs import replace
+
 from quizgen.camera.blocks import Work
 from quizgen.camera.body import NEEDS_FULL_WELL
 from quizgen.camera.costs import measured
@@ -34,8 +38,12 @@ def carried(error: Error, facts: Facts, view: View) -> Error:
     """Noise takes white below 1 again, and with it part of what a full well would have held back.
 
     Only that limit stands before, so that what lies beyond is above 1. Luck ends before `REACH`.
+    What is rare has got luck of both pictures on it.
     """
-    far = REACH * _sigma(view)
+    sigma = _sigma(view)
+    if error.rare:
+        error = replace(error, dither=math.hypot(error.dither, sigma))
+    far = REACH * sigma
     if not error.beyond or not far:
         return error
     return error.plus(Error(bright=min(error.beyond, far), level=1.0 - far))
