@@ -1,9 +1,10 @@
 """Eager against planned photographs, and every effect beside the copy bandwidth of the same run.
 
-``python benchmarks/camera.py [--quick] [--chains] [--calibrate] [--photos [N]] [--oracle [N]]
-[--files]``; best of several runs, ms. ``--photos`` plans and runs N (60) ordinary photographs with
-ordinary cameras, best of three turns; ``--oracle`` tries what could be left out of N (12) of them;
-``--files`` photographs the shipped scenes at 12 megapixels from file to file.
+``python benchmarks/camera.py [--quick] [--chains] [--calibrate] [--photos [N]] [--large [N]]
+[--oracle [N]] [--files]``; best of several runs, ms. ``--photos`` plans and runs N (60) ordinary
+photographs of 640 x 480 with ordinary cameras, best of three turns, ``--large`` N (8) of
+4000 x 3000; ``--oracle`` tries what could be left out of N (12) of the small ones; ``--files``
+photographs the shipped scenes at 12 megapixels from file to file.
 """
 
 # ruff: noqa: SLF001 - caches are emptied between runs
@@ -260,6 +261,10 @@ def main() -> None:
     if "--oracle" in sys.argv:
         number = sys.argv[-1]
         oracle(int(number) if number.isdecimal() else 12)
+        return
+    if "--large" in sys.argv:
+        number = sys.argv[-1]
+        photos(int(number) if number.isdecimal() else 8, 3000)
         return
     if "--photos" in sys.argv:
         number = sys.argv[-1]

@@ -1,23 +1,41 @@
-"""Large pictures piece by piece, so that what lies in between stays in the processor's cache.
+"""Large pictures tile by tile, so that what lies in between stays in the processor's cache.
 
-One after the other: in so small a piece a call of NumPy takes microseconds, and threads that hand
+One after the other: in so small a tile a call of NumPy takes microseconds, and threads that hand
 over the interpreter's lock after each took twice as long as one, and four times the processor time.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from time import perf_counter
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 Image = NDArray[np.floating]
-Work = Callable[[Image, int], None]
-"""Changes a flat piece of a picture in place; also gets the piece's number."""
 
-BLOCK = 3 << 13
-"""Values per piece: whole colours, 96 KiB."""
+SIDES = 64, 128
+"""Rows and columns of a tile."""
+BLOCK = 3 * SIDES[0] * SIDES[1]
+"""Values of the largest tile: whole colours, 96 KiB."""
+
+
+class Tile(NamedTuple):
+    """A part of a picture: its number, and where it lies."""
+
+    number: int
+    place: tuple[slice, ...]
+
+    @property
+    def pixels(self) -> int:
+        """How many there are."""
+        return math.prod(part.stop - part.start for part in self.place)
+
+
+Work = Callable[[Image, Tile], None]
+"""Changes the values of a tile, which lie behind each other, in place."""
 
 
 def pieces(length: int, size: int) -> Iterator[tuple[int, int]]:
@@ -26,19 +44,37 @@ def pieces(length: int, size: int) -> Iterator[tuple[int, int]]:
         yield start, min(start + size, length)
 
 
+def tiles(shape: tuple[int, ...]) -> Iterator[Tile]:
+    """The tiles of a picture of shape (H, W, C), row by row, or pieces of a row of values."""
+    if len(shape) == 1:
+        for number, part in enumerate(pieces(shape[0], BLOCK)):
+            yield Tile(number, (slice(*part),))
+        return
+    rows, columns = (list(pieces(*sides)) for sides in zip(shape, SIDES, strict=False))
+    places = ((slice(*down), slice(*across)) for down in rows for across in columns)
+    for number, place in enumerate(places):
+        yield Tile(number, place)
+
+
 def in_turn(
-    values: Image, works: Sequence[Work], *, own: bool = False
+    values: Image,
+    works: Sequence[Work],
+    *,
+    into: Image | None = None,
+    among: Iterable[Tile] | None = None,
 ) -> tuple[Image, NDArray[np.float64]]:
-    """Change a picture piece by piece, every piece by all works while it is in the cache.
+    """Change a picture tile by tile, every tile by all works while it is in the cache.
 
     Parameters
     ----------
     values : numpy.ndarray
-        Any shape, float32 or float64.
+        A picture of shape (H, W, C), or of any other shape; float32 or float64.
     works : sequence of callable
         In this order.
-    own : bool
-        Whether nobody else needs the values, so that they may be written over.
+    into : numpy.ndarray, optional
+        Where the result is written, maybe over the values themselves.
+    among : iterable of Tile, optional
+        Where something is to be done, instead of everywhere.
 
     Returns
     -------
@@ -47,37 +83,42 @@ def in_turn(
     numpy.ndarray
         Seconds that each work took.
     """
-    flat = np.ascontiguousarray(values).reshape(-1)
-    result = flat if own else np.empty_like(flat)
-    clock: list[list[float]] = []
+    seen = values if values.ndim == 3 else np.ascontiguousarray(values).reshape(-1)
+    result = np.empty(seen.shape, seen.dtype) if into is None else into.reshape(seen.shape)
+    scratch, clock = np.empty(BLOCK, seen.dtype), np.zeros(len(works))
+    for tile in tiles(seen.shape) if among is None else among:
+        source = seen[tile.place]
+        part = scratch[: source.size]
+        part.reshape(source.shape)[...] = source
+        clock += _done(part, tile, works)
+        result[tile.place] = part.reshape(source.shape)
+    return result.reshape(values.shape), clock
 
-    for start, stop in pieces(flat.size, BLOCK):
-        piece, ticks = result[start:stop], [perf_counter()]
-        if not own:
-            piece[...] = flat[start:stop]
-        for work in works:
-            work(piece, start // BLOCK)
-            ticks.append(perf_counter())
-        clock.append(ticks)
-    return result.reshape(values.shape), np.diff(clock, axis=1).sum(axis=0)
+
+def _done(part: Image, tile: Tile, works: Sequence[Work]) -> NDArray[np.float64]:
+    """Do all of it, and say how long each took, s."""
+    ticks = [perf_counter()]
+    for work in works:
+        work(part, tile)
+        ticks.append(perf_counter())
+    return np.diff(ticks)
 
 
 def times(factor: float) -> Work:
     """Multiply everything."""
     scale = float(factor)  # a number of Python takes the precision of the picture
 
-    def work(part: Image, _: int) -> None:
+    def work(part: Image, _: Tile) -> None:
         part *= scale
 
     return work
 
 
 def at_pixels(factors: Image) -> Work:
-    """Multiply every pixel's three channels by a factor of its own."""
-    flat, pixels = factors.reshape(-1), BLOCK // 3
+    """Multiply every pixel's three channels by a factor of its own, shape (H, W, 1)."""
 
-    def work(part: Image, piece: int) -> None:
-        own = flat[piece * pixels :][: part.size // 3]
+    def work(part: Image, tile: Tile) -> None:
+        own = factors[tile.place].reshape(-1)
         for channel in range(3):
             part[channel::3] *= own
 

@@ -35,6 +35,8 @@ class Chain:
         Of the drawn layers, with their margin.
     seen : tuple of View, optional
         What each effect works on, if that is known.
+    arrived : Error
+        By how much two pictures differ before the first effect.
     """
 
     def __init__(
@@ -43,8 +45,9 @@ class Chain:
         view: View,
         facts: Facts,
         seen: tuple[View, ...] | None = None,
+        arrived: Error = NO_ERROR,
     ) -> None:
-        self.present, self.view, self.facts = present, view, facts
+        self.present, self.view, self.facts, self.arrived = present, view, facts, arrived
         self.views = views(present, view) if seen is None else seen
         self.before = _facts_along(present, self.views, facts)
         self._rounding = [_rounding(before) for before in self.before]
@@ -63,10 +66,13 @@ class Chain:
                 self._made[key] = rung.error(facts, view).plus(Error(self._rounding[index]))
         return self._made[key]
 
-    def error(self, choice: dict[int, str]) -> Error:
-        """Difference to running everything exactly; choices not given are exact."""
-        error = NO_ERROR
-        for index, effect in enumerate(self.present):
+    def error(self, choice: dict[int, str], before: int | None = None) -> Error:
+        """Difference to running everything exactly, in the end or before an effect.
+
+        Choices not given are exact.
+        """
+        error = self.arrived
+        for index, effect in enumerate(self.present[:before]):
             made = choice.get(index, EXACT)
             if made == SKIP:
                 lost = self.off(index, SKIP)

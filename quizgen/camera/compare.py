@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 import numpy as np
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from quizgen.camera import effects
 from quizgen.camera.chain import EXACT, GREY_LEVELS
 from quizgen.camera.codes import rounded
-from quizgen.camera.decision import Plan, Skipped, Step
+from quizgen.camera.decision import NO_LEVELS, Plan, Skipped, Step
 from quizgen.camera.plan import Prepared
 from quizgen.camera.simulate import Photo, difference_dn, run
 
@@ -42,11 +43,14 @@ def really(prepared: Prepared, photo: Photo, told: Callable[[str], None]) -> dic
     ----------
     prepared : Prepared
     photo : Photo
-        Taken by the plan.
+        Taken by the plan. What its bright tiles do without is put in: which those are could change
+        with any effect.
     told : callable
         Gets the name of each effect before it is tried.
     """
     found: dict[str, float] = {}
+    if photo.plan.levels.each:
+        photo = run(prepared, replace(photo.plan, levels=NO_LEVELS))
     for members in _units(photo.plan):
         told(members[0])
         other = run(prepared, _toggled(photo.plan, members))

@@ -36,6 +36,44 @@ class Skipped(msgspec.Struct, frozen=True):
     saved_ms: float
 
 
+class Level(msgspec.Struct, frozen=True):
+    """What is left out besides, or runs on a cheaper rung, where a tile is bright.
+
+    Parameters
+    ----------
+    above : float
+        Value below which no pixel of the tile lies, 1 = white.
+    ways : dict of str to str
+        By effect, a rung or ``skip``.
+    bound_dn : float
+        Bound on the difference in these tiles to running everything.
+    """
+
+    above: float
+    ways: dict[str, str]
+    bound_dn: float
+
+
+class Levels(msgspec.Struct, frozen=True):
+    """The same from dark to bright.
+
+    Parameters
+    ----------
+    since : str
+        The effect before which the picture is looked at.
+    around : int
+        How far around a pixel the effects from there on look, px.
+    each : tuple of Level
+    """
+
+    since: str
+    around: int
+    each: tuple[Level, ...]
+
+
+NO_LEVELS = Levels("", 0, ())
+
+
 class Plan(msgspec.Struct, frozen=True):
     """What to run.
 
@@ -50,7 +88,10 @@ class Plan(msgspec.Struct, frozen=True):
         Bound on the difference to running everything, in 8-bit grey levels before rounding; where
         noise is skipped, all but 1 in 10 000 values keep it.
     predicted_ms : float
+        Of what is run everywhere.
     budget : float
+    levels : Levels
+        What bright tiles do without.
     """
 
     steps: tuple[Step, ...]
@@ -59,6 +100,7 @@ class Plan(msgspec.Struct, frozen=True):
     predicted_error_dn: float
     predicted_ms: float
     budget: float
+    levels: Levels = NO_LEVELS
 
 
 class Unit(msgspec.Struct, frozen=True):
@@ -80,6 +122,7 @@ class Decision(msgspec.Struct, frozen=True, dict=True):
     units : tuple of Unit
     absent : tuple of str
     budget : float
+    levels : Levels
     """
 
     chain: Chain
@@ -87,6 +130,7 @@ class Decision(msgspec.Struct, frozen=True, dict=True):
     units: tuple[Unit, ...]
     absent: tuple[str, ...]
     budget: float
+    levels: Levels = NO_LEVELS
 
     @property
     def steps(self) -> tuple[Chosen, ...]:
@@ -131,7 +175,8 @@ def _report(made: Decision) -> Plan:
                 steps.append((index, Step(name, how, reason, alone, time[how])))
     ran = tuple(step for _, step in sorted(steps, key=lambda pair: pair[0]))
     spent = sum(step.predicted_ms for step in ran)
-    return Plan(ran, tuple(skipped), absent, chain.dn(choice), spent, made.budget)
+    error = max(chain.dn(choice), *(level.bound_dn for level in made.levels.each), 0.0)
+    return Plan(ran, tuple(skipped), absent, error, spent, made.budget, made.levels)
 
 
 def _alone(chain: Chain, choice: dict[int, str], units: tuple[Unit, ...]) -> list[float]:

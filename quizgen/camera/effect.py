@@ -149,6 +149,9 @@ class Effect(msgspec.Struct, frozen=True, kw_only=True):
         Whether it draws random numbers.
     outside : callable
         How far outside a view the light of its pixels can come from, across and down, px.
+    looks : int, optional
+        How far around a pixel everything lies that its value is made of, px, where that is known
+        of an effect that does not go point by point.
     check : callable
         Raises `SceneError` if it cannot be computed for a camera before a picture of this size.
     prepare : callable, optional
@@ -174,7 +177,13 @@ class Effect(msgspec.Struct, frozen=True, kw_only=True):
     pair: str = ""
     random: bool = False
     outside: Outside = nothing_outside
+    looks: int | None = None
     check: Check = _possible
     prepare: Callable[[Scene, View], Scene] | None = None
     reason: str = ""
     needs: str = ""
+
+    @property
+    def around(self) -> int | None:
+        """How far around a pixel it looks, px; None where that may be anywhere."""
+        return 0 if isinstance(self.run, PointByPoint) else self.looks

@@ -12,7 +12,7 @@ from types import ModuleType
 import numpy as np
 from numpy.typing import DTypeLike
 
-from quizgen.camera.blocks import BLOCK, Work, in_turn
+from quizgen.camera.blocks import BLOCK, Tile, Work, in_turn
 from quizgen.camera.filters import opencv
 from quizgen.camera.scene import Image
 
@@ -29,10 +29,10 @@ def rgb_to_hsv(image: Image) -> Image:
     if cv2 is not None:
         return np.asarray(cv2.cvtColor(np.ascontiguousarray(image), cv2.COLOR_RGB2HSV))
 
-    def work(part: Image, _: int) -> None:
+    def work(part: Image, _: Tile) -> None:
         part.reshape(-1, 3)[...] = _hsv_part(part.reshape(-1, 3))
 
-    return in_turn(image, [work])[0]
+    return in_turn(image.reshape(-1), [work])[0].reshape(image.shape)
 
 
 def _of_opencv(image: Image) -> ModuleType | None:

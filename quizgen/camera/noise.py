@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from numpy.typing import DTypeLike, NDArray
 
 from quizgen.arrays.gaussian import inverse_tail
-from quizgen.camera.blocks import Work
+from quizgen.camera.blocks import Tile, Work
 from quizgen.camera.body import FULL_WELL
 from quizgen.camera.facts import REACH, Error, Facts
 from quizgen.camera.scene import Image
@@ -29,33 +29,33 @@ _NEVER = 9.8e-10
 
 
 class Luck(msgspec.Struct, frozen=True):
-    """Random numbers of one effect: every piece of a picture has its own, whoever works on it.
+    """Random numbers of one effect: every tile of a picture has its own, whoever works on it.
 
-    Philox counts: the seed is the key, the number of the piece the upper part of the counter.
+    Philox counts: the seed is the key, the number of the tile the upper part of the counter.
     """
 
     key: int
 
-    def _words(self, piece: int, count: int) -> NDArray[np.uint16]:
+    def _words(self, tile: int, count: int) -> NDArray[np.uint16]:
         """Whole numbers below 2^16, each as likely."""
-        source = np.random.Philox(key=self.key, counter=piece << 64)
+        source = np.random.Philox(key=self.key, counter=tile << 64)
         raw: NDArray[np.uint64] = source.random_raw(-(-count // 4)).astype("<u8", copy=False)
         return raw.view("<u2")[:count]
 
-    def pick(self, table: Image, piece: int, count: int) -> Image:
+    def pick(self, table: Image, tile: int, count: int) -> Image:
         """Values of a table of 2^16, each as likely."""
-        return np.take(table, self._words(piece, count), mode="clip")
+        return np.take(table, self._words(tile, count), mode="clip")
 
-    def normal(self, piece: int, count: int, kind: DTypeLike = np.float32) -> Image:
+    def normal(self, tile: int, count: int, kind: DTypeLike = np.float32) -> Image:
         """Standard normal values; their distribution function is within 8e-6 of the normal one.
 
         The same luck in every precision, rounded to it.
         """
-        return self.pick(_normals(np.dtype(kind)), piece, count)
+        return self.pick(_normals(np.dtype(kind)), tile, count)
 
-    def uniform(self, piece: int, count: int) -> NDArray[np.float64]:
+    def uniform(self, tile: int, count: int) -> NDArray[np.float64]:
         """Values in [0, 1), multiples of 2^-32."""
-        return self._words(piece, 2 * count).view("<u4") * 2.0**-32
+        return self._words(tile, 2 * count).view("<u4") * 2.0**-32
 
 
 WORDS = 1 << 16
@@ -114,8 +114,8 @@ def normal_noise(sigma: float, source: Luck) -> Work:
     """Add normal noise."""
     scale = float(sigma)
 
-    def work(part: Image, piece: int) -> None:
-        spread = source.normal(piece, part.size, part.dtype)
+    def work(part: Image, tile: Tile) -> None:
+        spread = source.normal(tile.number, part.size, part.dtype)
         spread *= scale
         part += spread
 

@@ -14,7 +14,7 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
-from quizgen.camera.blocks import in_turn
+from quizgen.camera.blocks import Tile, in_turn
 from quizgen.camera.camera import Camera
 from quizgen.camera.codes import histogram, rounded
 from quizgen.camera.draw import Box, blend, content, draw
@@ -124,7 +124,7 @@ def _focused(
         blend(light[part], keep, colour)
         top, bottom = min(top, part[0].start), max(bottom, part[0].stop)
     rows = light[top:bottom]
-    encode(rows.reshape(-1), 0)
+    encode(rows.reshape(-1), Tile(0, (slice(top, bottom),)))
     seen[top:bottom] = codes(rows)
     return seen
 

@@ -23,6 +23,7 @@ from quizgen.camera.decision import Decision, Plan, Step, Unit, cost_table
 from quizgen.camera.draw import Stack, draw
 from quizgen.camera.effect import Effect, same_error
 from quizgen.camera.filters import opencv
+from quizgen.camera.levels import by_brightness
 from quizgen.camera.look import coarse, filled, glimpsed, measured
 from quizgen.camera.margins import views
 from quizgen.camera.scene import Scene, SceneError
@@ -102,7 +103,17 @@ def _spend(
     choice = {i: EXACT if unit.fixed else SKIP for unit in units for i in unit.members}
     if all(unit.fixed or _is_within(chain, choice, unit, budget) for unit in units):
         return choice
-    choice = dict.fromkeys(choice, EXACT)
+    return _spend_more(chain, units, costs, dict.fromkeys(choice, EXACT), budget)
+
+
+def _spend_more(
+    chain: Chain,
+    units: tuple[Unit, ...],
+    costs: list[dict[str, float]],
+    choice: dict[int, str],
+    budget: float,
+) -> dict[int, str]:
+    """The same, beginning with what is already left out."""
     while True:
         possible = list(_affordable(chain, units, choice, budget))
         more = _greedily(chain, possible, costs, choice, budget)
@@ -180,11 +191,10 @@ def _opened(
 
 
 def _best(
-    prepared: Prepared, present: tuple[Effect, ...], units: tuple[Unit, ...], budget: float
+    prepared: Prepared, units: tuple[Unit, ...], costs: list[dict[str, float]], budget: float
 ) -> tuple[Chain, dict[int, str]]:
     """Decide from colours alone; look at the pixels only where that can still save time."""
-    view, seen = prepared.view, prepared.views
-    costs = cost_table(present, seen, opencv_used=False)
+    view, seen, present = prepared.view, prepared.views, prepared.present
     chain = Chain(present, view, coarse(view), seen)
     choice = _spend(chain, units, costs, budget)
     if all(unit.fixed or choice[unit.members[0]] == SKIP for unit in units):
@@ -273,8 +283,10 @@ def decided(
     with located(given.scene.file):
         present, absent = prepared.present, _absent(prepared)
         units = _units(present, asked)
-        chain, choice = _best(prepared, present, units, limit)
-        return Decision(chain, choice, units, absent, limit)
+        costs = cost_table(present, prepared.views, opencv_used=False)
+        chain, choice = _best(prepared, units, costs, limit)
+        levels = by_brightness(chain, choice, units, costs, limit, _spend_more)
+        return Decision(chain, choice, units, absent, limit, levels)
 
 
 def everything(scene: Scene | Prepared, camera: Camera | None = None, timed: bool = True) -> Plan:

@@ -15,7 +15,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from quizgen.camera.blocks import Work, in_turn
+from quizgen.camera.blocks import Tile, Work, in_turn
 from quizgen.camera.scene import Precision
 
 Image = NDArray[np.floating]
@@ -80,7 +80,7 @@ def by_lines(gamma: str | float) -> Work:
         return _clip
     offsets, slopes = _curve(gamma)
 
-    def work(part: Image, _: int) -> None:
+    def work(part: Image, _: Tile) -> None:
         values = np.clip(part, 0.0, 1.0)
         cell = np.right_shift(values.view(np.int32), _SHIFT).astype(np.intp)
         np.take(slopes, cell, out=part, mode="wrap")
@@ -91,7 +91,7 @@ def by_lines(gamma: str | float) -> Work:
     return work
 
 
-def _clip(part: Image, _: int) -> None:
+def _clip(part: Image, _: Tile) -> None:
     np.clip(part, 0.0, 1.0, out=part)
 
 
@@ -100,7 +100,7 @@ def by_powers(gamma: str | float) -> Work:
     if gamma == "linear":
         return _clip
 
-    def work(part: Image, _: int) -> None:
+    def work(part: Image, _: Tile) -> None:
         np.clip(part, 0.0, 1.0, out=part)
         if gamma != "srgb":
             np.power(part, 1.0 / float(gamma), out=part)
@@ -144,7 +144,7 @@ def by_table(gamma: str | float, precision: Precision = "float32") -> Work:
     """`encode` after rounding the linear values to 16 bits."""
     table = _tone_table(gamma, precision)
 
-    def work(part: Image, _: int) -> None:
+    def work(part: Image, _: Tile) -> None:
         scaled = np.clip(part, 0.0, 1.0)
         scaled *= TABLE
         scaled += 0.5

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
 from itertools import groupby
 from time import perf_counter
 
@@ -12,15 +12,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quizgen.camera import effects
-from quizgen.camera.blocks import BLOCK, in_turn, pieces
+from quizgen.camera.blocks import BLOCK, Tile, Work, in_turn, pieces, tiles
 from quizgen.camera.camera import Camera
-from quizgen.camera.chain import GREY_LEVELS
+from quizgen.camera.chain import GREY_LEVELS, SKIP
 from quizgen.camera.codes import rounded
-from quizgen.camera.decision import Chosen, Decision, Plan
+from quizgen.camera.decision import Chosen, Decision, Levels, Plan
 from quizgen.camera.draw import Layer, Sheet, Stack, composite, lay_over, sheets
 from quizgen.camera.effect import Effect, LayerByLayer, PointByPoint
 from quizgen.camera.facts import EXCEEDED
 from quizgen.camera.filters import warm_up
+from quizgen.camera.levels import by_level
 from quizgen.camera.margins import cropped, moved_together
 from quizgen.camera.plan import Prepared, decided, everything
 from quizgen.camera.scene import Image, Scene
@@ -42,17 +43,25 @@ class Photo(msgspec.Struct, frozen=True):
         Measured ms per effect that ran.
     drawn_ms : float
         Time for drawing the scene, which is no effect.
+    shares : tuple of float
+        Share of the pixels that is darker than the first of the plan's levels, and that of each.
     """
 
     values: Image
     what: Plan | Decision
     times: dict[str, float]
     drawn_ms: float
+    shares: tuple[float, ...] = (1.0,)
 
     @property
     def plan(self) -> Plan:
         """What was run and what was left out, with reasons."""
         return self.what if isinstance(self.what, Plan) else self.what.plan
+
+    def share(self, effect: str) -> float:
+        """Share of the pixels that an effect which ran anywhere has changed."""
+        there = zip(self.shares[1:], self.what.levels.each, strict=True)
+        return 1.0 - sum(share for share, level in there if level.ways.get(effect) == SKIP)
 
     @property
     def measured_ms(self) -> float:
@@ -106,26 +115,40 @@ class _Run:
         self.times = dict(prepared.prepared_ms)
         self.stack = list(prepared.stack)
         self.drawn_ms = prepared.drawn_ms
+        self.places: list[list[Tile]] = []
         self.kept = [self.frame.scene.image, *(() if last else (x.colour for x in self.stack))]
         if last:
             del prepared.stack
 
     def photo(self, what: Plan | Decision) -> Photo:
         done = 0
-        for kind, group in groupby(what.steps, key=_kind):
+        for (kind, later), group in groupby(what.steps, _ways(what.levels)):
             steps = tuple(group)
             done += len(steps)
+            if later and not self.places:
+                self._look(what.levels)
             if kind is LayerByLayer:
                 then = (self._view(step) for step in what.steps[done:])
                 self._layer_by_layer(steps, next(then, self.frame))
             elif kind is PointByPoint:
-                self._in_one_pass(steps)
+                self._in_one_pass(steps, what.levels)
             else:
                 for step in steps:
                     self._one(step)
         self._crop(self.frame)
         times = {step.effect: self.times.get(step.effect, 0.0) for step in what.steps}
-        return Photo(composite(tuple(self.stack)), what, times, self.drawn_ms)
+        return Photo(composite(tuple(self.stack)), what, times, self.drawn_ms, self._shares())
+
+    def _look(self, levels: Levels) -> None:
+        """Sort the tiles of the picture by brightness."""
+        self._crop(self.frame)
+        picture = composite(tuple(self.stack))
+        self.stack, self.places = [Layer(picture)], by_level(picture, levels)
+
+    def _shares(self) -> tuple[float, ...]:
+        """Share of the pixels at each level."""
+        sizes = [sum(tile.pixels for tile in among) for among in self.places]
+        return tuple(size / sum(sizes) for size in sizes) or (1.0,)
 
     def _count(self, step: Chosen, started: float) -> None:
         spent = (perf_counter() - started) * 1e3
@@ -173,29 +196,44 @@ class _Run:
         others = (other for other in self.kept if other is not None)
         return not any(np.may_share_memory(picture, other) for other in others)
 
-    def _in_one_pass(self, steps: tuple[Chosen, ...]) -> None:
-        """Effects that look at one pixel only, while a piece of the picture is at hand."""
+    def _in_one_pass(self, steps: tuple[Chosen, ...], levels: Levels) -> None:
+        """Effects that look at one pixel only, while a tile of the picture is at hand."""
         self.told(_names(steps))
         started, view = perf_counter(), self._view(steps[-1])
         self._crop(view)
         picture = composite(tuple(self.stack))
         self.stack = []
-        runs = [(_effect(step).run, step.rung) for step in steps]
-        works = [run.work(view, rung) for run, rung in runs if isinstance(run, PointByPoint)]
-        result, clock = in_turn(picture, works, own=self._ours(picture))
-        spent = (perf_counter() - started) * 1e3
-        shares = clock / clock.sum()
-        names = (step.effect for step in steps)
-        self.times.update(zip(names, (spent * shares).tolist(), strict=True))
+        own = picture.flags.c_contiguous and self._ours(picture)
+        result, clock = picture if own else np.empty_like(picture), dict.fromkeys(steps, 0.0)
+        for level, among in enumerate(self.places or [list(tiles(picture.shape))]):
+            works = dict(_works(steps, levels.each[level - 1].ways if level else {}, view))
+            _, spent = in_turn(picture, list(works.values()), into=result, among=among)
+            for step, took in zip(works, spent.tolist(), strict=True):
+                clock[step] += took
+        each = (perf_counter() - started) * 1e3 / (sum(clock.values()) or 1.0)
+        self.times.update((step.effect, each * took) for step, took in clock.items())
         self.stack = [Layer(result)]
+
+
+def _works(
+    steps: tuple[Chosen, ...], ways: Mapping[str, str], view: View
+) -> Iterator[tuple[Chosen, Work]]:
+    """What is done at one level."""
+    for step in steps:
+        run, way = _effect(step).run, ways.get(step.effect, step.rung)
+        if isinstance(run, PointByPoint) and way != SKIP:
+            yield step, run.work(view, way)
+
+
+def _ways(levels: Levels) -> Callable[[Chosen], tuple[type, bool]]:
+    """How an effect is run, and whether brightness may decide about it."""
+    order = {effect.name: place for place, effect in enumerate(effects.EFFECTS)}
+    since = order.get(levels.since, len(order))
+    return lambda step: (type(_effect(step).run), bool(levels.each) and order[step.effect] >= since)
 
 
 def _effect(step: Chosen) -> Effect:
     return effects.by_name(step.effect)
-
-
-def _kind(step: Chosen) -> type:
-    return type(_effect(step).run)
 
 
 def _names(steps: tuple[Chosen, ...]) -> str:
@@ -308,5 +346,6 @@ def _rarity(beyond: int, count: int) -> float:
 def _random_differs(what: Plan) -> bool:
     """Whether noise was skipped, or runs on a signal that is not exactly the same."""
     names = {item.effect for item in what.skipped} | {s.effect for s in what.steps if s.rung}
+    names.update(name for level in what.levels.each for name in level.ways)
     there = {step.effect for step in what.steps} | names
     return bool(names) and any(effects.by_name(name).random for name in there)

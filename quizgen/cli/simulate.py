@@ -214,6 +214,10 @@ def summary(shot: Shot) -> dict[str, Any]:
         "rungs": {step.effect: step.rung for step in what.steps if step.rung},
         "steps": [_step(step, shot) for step in what.steps],
         "skipped": [_skip(item, shot) for item in what.skipped],
+        "levels": [
+            {"above": level.above, "share": share, "ways": level.ways, "bound_dn": level.bound_dn}
+            for share, level in zip(photo.shares[1:], what.levels.each, strict=True)
+        ],
         "absent": list(what.absent),
         "idle": shot.idle,
         "exif": shot.exif,
@@ -239,6 +243,7 @@ def _step(step: Step, shot: Shot) -> dict[str, Any]:
     return {
         "effect": step.effect,
         "rung": step.rung,
+        "share": shot.photo.share(step.effect),
         "reason": step.reason,
         "bound_dn": step.bound_dn,
         "predicted_ms": step.predicted_ms,
@@ -280,15 +285,30 @@ def _rows(shot: Shot) -> Iterator[tuple[str, ...]]:
         off = step.reason.partition("this rung is ")[2].removesuffix(" at most")
         rung = f"{step.rung}, {off}"
         why = rung if step.rung else "" if step.reason.startswith("may change") else step.reason
-        yield *cells(step.effect, "ran", step.bound_dn), *times, why
+        share = shot.photo.share(step.effect)
+        ran = "ran" if share == 1.0 else f"ran in {share:.0%}"
+        yield *cells(step.effect, ran, step.bound_dn), *times, why
     for item in shot.photo.plan.skipped:
         yield *cells(item.effect, "skipped", item.bound_dn), f"{item.saved_ms:.2f}", "", ""
+
+
+def _level(above: float, share: float, ways: dict[str, str], bound_dn: float) -> str:
+    """What a part of the picture does without."""
+    without = ["no " + name for name, way in ways.items() if way == "skip"]
+    cheaper = [f"{name} {way}" for name, way in ways.items() if way != "skip"]
+    return (
+        f"tiles with no value below {above:.3g} ({share:.0%} of the picture): "
+        f"{', '.join(without + cheaper)}; {bound_dn:.3g} DN at most"
+    )
 
 
 def _print_totals(shot: Shot, report: dict[str, Any]) -> None:
     what, whole = shot.photo.plan, shot.whole
     if not what.steps and not what.skipped:
         tell("nothing is called for: the picture is the scene")
+    for level in report["levels"]:
+        if level["share"]:
+            tell(_level(**level))
     tell(
         f"error at most {report['predicted_error_dn']:.3g} DN of {report['budget_dn']:g} allowed; "
         f"effects {report['predicted_ms']:.1f} ms predicted, {report['measured_ms']:.1f} ms taken"

@@ -15,7 +15,7 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from quizgen.arrays.luminosity import efficiency
-from quizgen.camera.blocks import Work
+from quizgen.camera.blocks import Tile, Work
 from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, PointByPoint, Rung
 from quizgen.camera.facts import Error, Facts
@@ -108,7 +108,7 @@ def work(view: View, rung: str = "") -> Work:
         matrix = np.diag(matrix.sum(axis=1))
     weights = matrix.astype(view.precision)
 
-    def mixed(part: Image, _: int) -> None:
+    def mixed(part: Image, _: Tile) -> None:
         scene = [part[channel::3].copy() for channel in range(3)]
         for channel, row in enumerate(weights):
             terms = [colour * weight for colour, weight in zip(scene, row, strict=True) if weight]

@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 from msgspec.structs import replace
 
-from quizgen.camera.blocks import Work
+from quizgen.camera.blocks import Tile, Work
 from quizgen.camera.body import NEEDS_FULL_WELL, SHUTTER
 from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, PointByPoint
@@ -60,11 +60,11 @@ def work(view: View, rung: str = "") -> Work:
     electrons, share = dark_electrons(view), view.camera[HOT_PIXELS]
     signals = _poisson(electrons, view.precision) * (1.0 / electrons_at_white(view))
 
-    def darkened(part: Image, piece: int) -> None:
+    def darkened(part: Image, tile: Tile) -> None:
         if electrons:
-            part += charge.pick(signals, piece, part.size)
+            part += charge.pick(signals, tile.number, part.size)
         if share:
-            part.reshape(-1, 3)[stuck.uniform(piece, part.size // 3) < share] = 1.0
+            part.reshape(-1, 3)[stuck.uniform(tile.number, part.size // 3) < share] = 1.0
 
     return darkened
 

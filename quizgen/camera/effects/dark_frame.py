@@ -47,7 +47,8 @@ def master(shape: tuple[int, ...], view: View) -> Image:
     dark = dark_electrons(view) / electrons_at_white(view)
     left = normal_noise(_left(view), luck(view, "dark frame"))
     works = [fixed_pattern.work(view), times(gain(view)), left]
-    return in_turn(np.full((*shape[:2], 3), dark, view.precision), works, own=True)[0]
+    even = np.full((*shape[:2], 3), dark, view.precision)
+    return in_turn(even, works, into=even)[0]
 
 
 def run(image: Image, view: View, rung: str = "") -> Image:
@@ -75,6 +76,7 @@ EFFECT = Effect(
     settings=(DARK_FRAMES,),
     present=lambda view: view.camera[DARK_FRAMES] > 0,
     run=on_picture(run),
+    looks=0,
     cost=measured((5.67, 245)),
     skipped=skipped,
     after=after,

@@ -114,6 +114,7 @@ EFFECT = Effect(
     decides=("bayer", "demosaicing", "moire"),
     present=lambda view: view.camera[MOSAIC] != "",
     run=on_picture(run),
+    looks=1,
     cost=measured((1.78, 76)),
     skipped=skipped,
     carried=carried,

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import msgspec
 
-from quizgen.camera.blocks import Work
+from quizgen.camera.blocks import Tile, Work
 from quizgen.camera.body import NEEDS_FULL_WELL
 from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, PointByPoint
@@ -34,10 +34,10 @@ def work(view: View, rung: str = "") -> Work:
     sigma = view.camera[FIXED_PATTERN] / electrons_at_white(view)
     spread, bias = normal_noise(sigma, luck(camera, "fixed pattern")), level(view)
 
-    def lifted(part: Image, piece: int) -> None:
+    def lifted(part: Image, tile: Tile) -> None:
         part += bias
         if sigma:
-            spread(part, piece)
+            spread(part, tile)
 
     return lifted
 

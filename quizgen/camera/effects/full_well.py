@@ -7,7 +7,7 @@ import math
 import numpy as np
 from msgspec.structs import replace
 
-from quizgen.camera.blocks import Work
+from quizgen.camera.blocks import Tile, Work
 from quizgen.camera.body import FULL_WELL
 from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, PointByPoint
@@ -19,7 +19,7 @@ from quizgen.camera.view import View
 def work(view: View, rung: str = "") -> Work:
     """A photosite holds no more than its full well."""
 
-    def full(part: Image, _: int) -> None:
+    def full(part: Image, _: Tile) -> None:
         np.minimum(part, 1.0, out=part)
 
     return full

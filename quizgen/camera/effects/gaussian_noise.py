@@ -7,7 +7,7 @@ import math
 import numpy as np
 from msgspec.structs import replace
 
-from quizgen.camera.blocks import Work
+from quizgen.camera.blocks import Tile, Work
 from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, PointByPoint
 from quizgen.camera.facts import Error, Facts
@@ -35,8 +35,8 @@ def gaussian(sigma: float, source: Luck) -> Work:
     """
     add = normal_noise(sigma, source)
 
-    def work(part: Image, piece: int) -> None:
-        add(part, piece)
+    def work(part: Image, tile: Tile) -> None:
+        add(part, tile)
         np.clip(part, 0.0, 1.0, out=part)
 
     return work

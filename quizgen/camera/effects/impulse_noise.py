@@ -6,7 +6,7 @@ import math
 
 from msgspec.structs import replace
 
-from quizgen.camera.blocks import Work
+from quizgen.camera.blocks import Tile, Work
 from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, PointByPoint
 from quizgen.camera.facts import Error, Facts
@@ -32,8 +32,8 @@ def impulses(share: float, source: Luck) -> Work:
     if not 0.0 <= share <= 1.0:
         raise ValueError("the share of impulses lies in [0, 1]")
 
-    def work(part: Image, piece: int) -> None:
-        draw = source.uniform(piece, part.size // 3)
+    def work(part: Image, tile: Tile) -> None:
+        draw = source.uniform(tile.number, part.size // 3)
         pixels = part.reshape(-1, 3)
         pixels[draw < share / 2] = 0.0
         pixels[draw >= 1.0 - share / 2] = 1.0

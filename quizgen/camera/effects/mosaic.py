@@ -46,6 +46,7 @@ EFFECT = Effect(
     settings=(MOSAIC,),
     present=lambda view: view.camera[MOSAIC] != "",
     run=on_picture(run),
+    looks=0,
     cost=measured((0.137, 22)),
     skipped=no_bound,  # what it loses shows after demosaicing
     knows_where=True,

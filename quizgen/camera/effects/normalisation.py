@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from quizgen.camera.blocks import Work
+from quizgen.camera.blocks import Tile, Work
 from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, PointByPoint
 from quizgen.camera.facts import Error, Facts
@@ -55,7 +55,7 @@ def work(view: View, rung: str = "") -> Work:
     """`stretch_range` with the camera's limits."""
     ends = _ends(view)
 
-    def stretched(part: Image, _: int) -> None:
+    def stretched(part: Image, _: Tile) -> None:
         part[...] = stretch_range(part, *ends)
 
     return stretched

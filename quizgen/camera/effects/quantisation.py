@@ -7,7 +7,7 @@ import math
 import numpy as np
 from msgspec.structs import replace
 
-from quizgen.camera.blocks import Work
+from quizgen.camera.blocks import Tile, Work
 from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, PointByPoint
 from quizgen.camera.facts import BEYOND_CERTAIN, REACH, Error, Facts, LayerFacts
@@ -28,7 +28,7 @@ def work(view: View, rung: str = "") -> Work:
     """Clip to [0, 1] and round to the converter's codes, halves upward."""
     top = float(_largest_code(view))
 
-    def coded(part: Image, _: int) -> None:
+    def coded(part: Image, _: Tile) -> None:
         part *= top
         part += 0.5
         np.floor(part, out=part)

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from quizgen.camera.blocks import Work
+from quizgen.camera.blocks import Tile, Work
 from quizgen.camera.body import FULL_WELL
 from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, PointByPoint, Rung
@@ -107,15 +107,15 @@ def work(view: View, rung: str = "") -> Work:
     source, well = luck(view, "shot noise"), electrons_at_white(view)
     to_electrons, to_signal = float(well), 1.0 / well
 
-    def counted(part: Image, piece: int) -> None:
+    def counted(part: Image, tile: Tile) -> None:
         np.maximum(part, 0.0, out=part)
         part *= to_electrons
-        part[...] = poisson_quantiles(part, source.normal(piece, part.size, part.dtype))
+        part[...] = poisson_quantiles(part, source.normal(tile.number, part.size, part.dtype))
         part *= to_signal
 
-    def spread(part: Image, piece: int) -> None:
+    def spread(part: Image, tile: Tile) -> None:
         np.maximum(part, 0.0, out=part)
-        part += np.sqrt(part * to_signal) * source.normal(piece, part.size, part.dtype)
+        part += np.sqrt(part * to_signal) * source.normal(tile.number, part.size, part.dtype)
 
     return spread if rung == "gaussian" else counted
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from quizgen.camera.blocks import BLOCK, Work
+from quizgen.camera.blocks import BLOCK, Tile, Work
 from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, PointByPoint
 from quizgen.camera.facts import Error, Facts
@@ -28,7 +28,7 @@ def work(view: View, rung: str = "") -> Work:
     """Multiply the channels by their gains."""
     gains = np.tile(np.asarray(view.camera[WHITE_BALANCE], view.precision), BLOCK // 3)
 
-    def balanced(part: Image, _: int) -> None:
+    def balanced(part: Image, _: Tile) -> None:
         part *= gains[: part.size]
 
     return balanced
