@@ -331,6 +331,8 @@ def draw(view: View) -> Stack:
 def _draw_sheet(sheet: Sheet, view: View) -> Layer:
     """One piece after the other, each with all that it shows."""
     layer, boxes = _bare(sheet, view), [_box(thing, view) for thing in sheet.things]
+    if view.scene.image is not None and not sheet.things:
+        return layer
     line = np.empty((_TILE[1], 3), view.precision)
     line[...] = view.scene.background
     for tile in _tiles(view):

@@ -266,6 +266,10 @@ class Facts(msgspec.Struct, frozen=True):
 
     def flat(self) -> Facts:
         """Facts of the flattened stack."""
+        if len(self.layers) == 1:
+            (across, down), bend = self.layers[0].jump, self.layers[0].bend
+            if max(across, down) <= self.span and bend[0] <= 2 * across and bend[1] <= 2 * down:
+                return self
         return replace(self, layers=(LayerFacts(self.jump, self.bend),))
 
     def stepped(self, x: float, y: float) -> Facts:
