@@ -37,6 +37,9 @@ class Chain:
         What each effect works on, if that is known.
     arrived : Error
         By how much two pictures differ before the first effect.
+    like : Chain, optional
+        The same effects for a picture of the same range with other steps. What looks at no
+        neighbour is taken from there: none of its bounds depends on steps.
     """
 
     def __init__(
@@ -46,25 +49,41 @@ class Chain:
         facts: Facts,
         seen: tuple[View, ...] | None = None,
         arrived: Error = NO_ERROR,
+        like: Chain | None = None,
     ) -> None:
         self.present, self.view, self.facts, self.arrived = present, view, facts, arrived
         self.views = views(present, view) if seen is None else seen
-        self.before = _facts_along(present, self.views, facts)
-        self._rounding = [_rounding(before) for before in self.before]
         self._made: dict[tuple[int, str], Error] = {}
         self._known: dict[frozenset[tuple[int, str]], float] = {}
+        if like is None:
+            self.before = _facts_along(present, self.views, facts)
+            self._rounding = [_rounding(before) for before in self.before]
+        else:
+            self._borrow(like)
+
+    def _borrow(self, like: Chain) -> None:
+        """Follow the facts as far as an effect looks at neighbours, and take all else."""
+        beside = [index for index, effect in enumerate(self.present) if effect.around != 0]
+        count = beside[-1] + 1 if beside else 0
+        facts = _facts_along(self.present[:count], self.views[:count], self.facts)
+        self.before, self._rounding = like.before.copy(), like._rounding
+        for index in beside:
+            self.before[index] = facts[index]
+        self._made.update({key: off for key, off in like._made.items() if key[0] not in beside})
 
     def off(self, index: int, made: str) -> Error:
         """Error of a choice other than exact, worked out when first asked for."""
-        key = index, made
-        if key not in self._made:
-            effect, facts, view = self.present[index], self.before[index], self.views[index]
-            if made == SKIP:
-                self._made[key] = self._lost(index)
-            else:
-                rung = next(rung for rung in effect.rungs if rung.name == made)
-                self._made[key] = rung.error(facts, view).plus(Error(self._rounding[index]))
-        return self._made[key]
+        found = self._made.get((index, made))
+        if found is None:
+            found = self._made[index, made] = self._off(index, made)
+        return found
+
+    def _off(self, index: int, made: str) -> Error:
+        effect, facts, view = self.present[index], self.before[index], self.views[index]
+        if made == SKIP:
+            return self._lost(index)
+        rung = next(rung for rung in effect.rungs if rung.name == made)
+        return rung.error(facts, view).plus(Error(self._rounding[index]))
 
     def error(self, choice: dict[int, str], before: int | None = None) -> Error:
         """Difference to running everything exactly, in the end or before an effect.
@@ -102,10 +121,11 @@ class Chain:
 
     def dn(self, choice: dict[int, str]) -> float:
         """The same in grey levels."""
-        key = frozenset(pair for pair in choice.items() if pair[1] != EXACT)
-        if key not in self._known:
-            self._known[key] = GREY_LEVELS * self.error(choice).total
-        return self._known[key]
+        key = frozenset([pair for pair in choice.items() if pair[1] != EXACT])
+        found = self._known.get(key)
+        if found is None:
+            found = self._known[key] = GREY_LEVELS * self.error(choice).total
+        return found
 
     def hopeless(self, indices: tuple[int, ...], made: str, budget: float) -> bool:
         """Whether a choice alone loses so much that following it to the end is a waste of time."""

@@ -146,16 +146,25 @@ class Decision(msgspec.Struct, frozen=True, dict=True):
         return _report(self)
 
 
+class _Costs(dict[str, float]):
+    """Ways to run an effect with their ms, each worked out when first asked for."""
+
+    def __init__(self, effect: Effect, view: View, *, opencv_used: bool) -> None:
+        super().__init__({SKIP: 0.0})
+        self._of = effect, view, opencv_used
+
+    def __missing__(self, rung: str) -> float:
+        effect, view, opencv_used = self._of
+        self[rung] = effect.cost(view, rung, opencv_used)
+        return self[rung]
+
+
 def cost_table(
     present: tuple[Effect, ...], seen: tuple[View, ...], *, opencv_used: bool
 ) -> list[dict[str, float]]:
     """By effect and way, ms."""
-
-    def one(effect: Effect, view: View) -> dict[str, float]:
-        rungs = (EXACT, *(rung.name for rung in effect.rungs))
-        return {**{rung: effect.cost(view, rung, opencv_used) for rung in rungs}, SKIP: 0.0}
-
-    return [one(effect, view) for effect, view in zip(present, seen, strict=True)]
+    pairs = zip(present, seen, strict=True)
+    return [_Costs(effect, view, opencv_used=opencv_used) for effect, view in pairs]
 
 
 def _report(made: Decision) -> Plan:

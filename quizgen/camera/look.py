@@ -60,17 +60,21 @@ def _with_margin(part: slice) -> slice:
     return slice(max(part.start - 2, 0), max(part.stop + 2, 3))
 
 
-def glimpsed(stack: Stack, view: View, every: int) -> Facts:
+def glimpsed(stack: Stack, view: View, every: int, *, columns: bool = True) -> Facts:
     """Facts of every n-th row and column only: never above the true ones, so a hint, no bound."""
     low, high = view.scene.range
-    middle = (low + high) / 2
-    return Facts(low, high, tuple(_measure(layer, middle, high - low, every) for layer in stack))
+    middle, span = (low + high) / 2, high - low
+    seen = (_measure(layer, middle, span, every, columns=columns) for layer in stack)
+    return Facts(low, high, tuple(seen))
 
 
-def _measure(layer: Layer, middle: float, span: float, every: int) -> LayerFacts:
-    cover = layer.cover
-    along_x = _differences(layer.colour, cover, middle, span, every, axis=1)
-    along_y = _differences(layer.colour, cover, middle, span, every, axis=0)
+def _measure(
+    layer: Layer, middle: float, span: float, every: int, *, columns: bool = True
+) -> LayerFacts:
+    along_x = _differences(layer.colour, layer.cover, middle, span, every, axis=1)
+    along_y = 0.0, 0.0
+    if columns:
+        along_y = _differences(layer.colour, layer.cover, middle, span, every, axis=0)
     return LayerFacts((along_x[0], along_y[0]), (along_x[1], along_y[1]))
 
 

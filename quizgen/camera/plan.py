@@ -33,8 +33,9 @@ from quizgen.outside import located
 BUDGETS = {"same": 0.5, "visible": 2.0, "sketch": 8.0}
 """Named budgets in 8-bit grey levels."""
 
-GLIMPSES = 64, 16
-"""How far apart lines are that are looked at: most pictures show at once what they are."""
+GLIMPSES = (128, False), (64, True), (16, True)
+"""How far apart lines are that are looked at, and whether columns are, too: a few rows, read at
+once, show of most pictures what they are."""
 
 
 class Prepared:
@@ -101,7 +102,9 @@ def _spend(
 ) -> dict[int, str]:
     """Take the affordable choice that saves most per grey level, again and again."""
     choice = {i: EXACT if unit.fixed else SKIP for unit in units for i in unit.members}
-    if all(unit.fixed or _is_within(chain, choice, unit, budget) for unit in units):
+    free = [unit.members for unit in units if not unit.fixed]
+    hopeless = any(chain.hopeless(members, SKIP, budget) for members in free)
+    if not hopeless and chain.dn(choice) <= budget:
         return choice
     return _spend_more(chain, units, costs, dict.fromkeys(choice, EXACT), budget)
 
@@ -130,17 +133,22 @@ def _greedily(
     budget: float,
 ) -> dict[int, str]:
     while True:
-        now, best = chain.dn(choice), (0.0, choice)
+        now, best, most = chain.dn(choice), choice, 0.0
         for unit, made in possible:
+            if made == choice[unit.members[0]]:
+                continue
+            saved = sum(costs[i][choice[i]] - costs[i][made] for i in unit.members)
+            if saved <= 0.0:
+                continue
             trial = {**choice, **dict.fromkeys(unit.members, made)}
-            saved = sum(costs[i][choice[i]] - costs[i][trial[i]] for i in unit.members)
-            error = chain.dn(trial) if saved > 0.0 else math.inf
+            error = chain.dn(trial)
             if error <= budget:
                 score = saved / (max(error - now, 0.0) + 1e-6)
-                best = max(best, (score, trial), key=lambda pair: pair[0])
-        if best[0] == 0.0:
+                if score > most:
+                    best, most = trial, score
+        if not most:
             return choice
-        choice = best[1]
+        choice = best
 
 
 def _affordable(
@@ -171,21 +179,26 @@ def _total(costs: list[dict[str, float]], choice: dict[int, str]) -> float:
     return sum(costs[index][made] for index, made in choice.items())
 
 
+def _may_gain(chain: Chain, unit: Unit, choice: dict[int, str]) -> bool:
+    """Whether a look at steps may afford what was kept; it tells nothing of single pixels."""
+    if unit.fixed or choice[unit.members[0]] == SKIP:
+        return False
+    return any(chain.present[index].around != 0 for index in unit.members)
+
+
 def _opened(
     units: tuple[Unit, ...], chains: tuple[Chain, Chain], choice: dict[int, str], budget: float
 ) -> bool:
     """Whether a second look affords a unit that a first has kept; what looks the same is passed."""
     first, second = chains
     for unit in units:
-        if unit.fixed or choice[unit.members[0]] == SKIP:
-            continue
         for made in unit.choices[1:]:
             alone = dict.fromkeys(unit.members, made)
             if all(first.off(index, made) == second.off(index, made) for index in unit.members):
                 continue
-            if _is_within(second, alone, unit, budget):
-                return True
-            if _is_within(second, {**choice, **alone}, unit, budget):
+            if second.hopeless(unit.members, made, budget):
+                continue
+            if second.dn(alone) <= budget or second.dn({**choice, **alone}) <= budget:
                 return True
     return False
 
@@ -197,12 +210,14 @@ def _best(
     view, seen, present = prepared.view, prepared.views, prepared.present
     chain = Chain(present, view, coarse(view), seen)
     choice = _spend(chain, units, costs, budget)
-    if all(unit.fixed or choice[unit.members[0]] == SKIP for unit in units):
+    hopes = tuple(unit for unit in units if _may_gain(chain, unit, choice))
+    if not hopes:
         return chain, choice
     stack = filled(prepared.stack)
-    for apart in GLIMPSES:
-        hopeful = Chain(present, view, glimpsed(stack, view, apart), seen)
-        if not _opened(units, (chain, hopeful), choice, budget):
+    for apart, columns in GLIMPSES:
+        glimpse = glimpsed(stack, view, apart, columns=columns)
+        hopeful = Chain(present, view, glimpse, seen, like=chain)
+        if not _opened(hopes, (chain, hopeful), choice, budget):
             return chain, choice
     gain = _total(costs, choice) - _total(costs, _spend(hopeful, units, costs, budget))
     if gain <= FACTS_PER_MEGAPIXEL * view.megapixels:
@@ -221,9 +236,8 @@ def wanted(question: str | tuple[str, ...] | None, scene: Scene) -> frozenset[st
     """
     kinds = scene.question if question is None else question
     asked = frozenset((kinds,) if isinstance(kinds, str) else kinds)
-    known = effects.questions()
-    for kind in sorted(asked.difference(known)):
-        raise SceneError(f"unknown question {kind!r}; one of {', '.join(known)}")
+    for kind in sorted(asked.difference(effects.questions())) if asked else ():
+        raise SceneError(f"unknown question {kind!r}; one of {', '.join(effects.questions())}")
     return asked
 
 

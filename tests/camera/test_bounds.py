@@ -104,9 +104,31 @@ def test_bounds_are_not_merely_large():
         assert apart(photo, whole) > 0.9 * chain.dn({len(present) - 1: SKIP}), camera
 
 
+def test_steps_tell_nothing_of_effects_that_look_at_no_neighbour():
+    """Chains that take their bounds from another one predict what they would on their own."""
+    for seed in range(100):
+        source = np.random.default_rng([seed, 5])
+        prepared = Prepared(at_random.scene(source), at_random.camera(source, noise=True))
+        try:
+            present, view, seen = prepared.present, prepared.view, prepared.views
+            coarsely = Chain(present, view, coarse(view), seen)
+        except SceneError:
+            continue
+        facts = measured(prepared.stack, view)
+        alone, alike = (
+            Chain(present, view, facts, seen),
+            Chain(present, view, facts, seen, like=coarsely),
+        )
+        for choice in _chosen(_units(present, frozenset()), source):
+            assert alike.error(choice) == alone.error(choice), (seed, choice)
+
+
 def test_a_glimpse_never_exceeds_the_facts_nor_a_closer_one():
     for _, _, prepared, _ in photographs(0, 40, noise=False):
-        looks = [glimpsed(prepared.stack, prepared.view, apart) for apart in GLIMPSES]
+        looks = [
+            glimpsed(prepared.stack, prepared.view, apart, columns=columns)
+            for apart, columns in GLIMPSES
+        ]
         looks.append(measured(prepared.stack, prepared.view))
         for less, more in pairwise(looks):
             for every, whole in zip(less.layers, more.layers, strict=True):
