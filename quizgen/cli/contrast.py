@@ -42,7 +42,11 @@ def check(target: Path | None) -> None:
 
 
 def contents(
-    target: Path, title: str, photos: tuple[Photo, Photo], told: tuple[Sequence[str], ...]
+    target: Path,
+    title: str,
+    photos: tuple[Photo, Photo],
+    told: tuple[Sequence[str], ...],
+    notes: Iterable[str] = (),
 ) -> bytes:
     """A file that shows what a plan leaves out.
 
@@ -56,6 +60,8 @@ def contents(
         As planned, and with everything.
     told : tuple of sequence of str
         Head and rows of the table.
+    notes : iterable of str
+        Sentences below it.
     """
     from quizgen.camera.codecs import WRITERS
     from quizgen.camera.compare import GAIN, difference, side_by_side
@@ -65,22 +71,26 @@ def contents(
     if target.suffix.lower() != ".html":
         return WRITERS[target.suffix.lower()](side_by_side(*pictures))
     names = "as planned", "everything", f"difference × {GAIN:g}"
-    return _page(title, zip(names, pictures, strict=True), told).encode()
+    return _page(title, zip(names, pictures, strict=True), told, notes).encode()
 
 
 def _page(
-    title: str, pictures: Iterable[tuple[str, Codes]], told: tuple[Sequence[str], ...]
+    title: str,
+    pictures: Iterable[tuple[str, Codes]],
+    told: tuple[Sequence[str], ...],
+    notes: Iterable[str],
 ) -> str:
     head, *rows = told
     figures = "".join(_figure(name, codes) for name, codes in pictures)
     body = "".join(_row("td", row) for row in rows)
+    below = "".join(f"<p>{escape(note)}</p>\n" for note in notes)
     return (
         f'<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         f'<meta name="viewport" content="width=device-width">\n'
         f"<title>{escape(title)}</title>\n<style>{_STYLE}</style>\n</head>\n<body>\n"
         f'<h1>{escape(title)}</h1>\n<div class="pictures">\n{figures}</div>\n'
         f'<div class="table">\n<table>\n<thead>{_row("th", head)}</thead>\n'
-        f"<tbody>\n{body}</tbody>\n</table>\n</div>\n</body>\n</html>\n"
+        f"<tbody>\n{body}</tbody>\n</table>\n</div>\n{below}</body>\n</html>\n"
     )
 
 

@@ -172,7 +172,7 @@ def _write(shot: Shot, options: Options, encode: Callable[[NDArray[np.uint8]], b
             write_all(out.parent, {out.name: encode(shot.photo.pixels())})
     if beside is not None and shot.whole is not None:
         photos, told = (shot.photo, shot.whole), (REALLY, *_rows(shot))
-        page = contrast.contents(beside, shot.title, photos, told)
+        page = contrast.contents(beside, shot.title, photos, told, _in_parts(shot))
         write_all(beside.parent, {beside.name: page})
 
 
@@ -292,23 +292,25 @@ def _rows(shot: Shot) -> Iterator[tuple[str, ...]]:
         yield *cells(item.effect, "skipped", item.bound_dn), f"{item.saved_ms:.2f}", "", ""
 
 
-def _level(above: float, share: float, ways: dict[str, str], bound_dn: float) -> str:
-    """What a part of the picture does without."""
-    without = ["no " + name for name, way in ways.items() if way == "skip"]
-    cheaper = [f"{name} {way}" for name, way in ways.items() if way != "skip"]
-    return (
-        f"tiles with no value below {above:.3g} ({share:.0%} of the picture): "
-        f"{', '.join(without + cheaper)}; {bound_dn:.3g} DN at most"
-    )
+def _in_parts(shot: Shot) -> Iterator[str]:
+    """What bright tiles of the picture do without."""
+    photo = shot.photo
+    for share, level in zip(photo.shares[1:], photo.what.levels.each, strict=True):
+        without = [f"no {name}" for name, way in level.ways.items() if way == "skip"]
+        cheaper = [f"{name} {way}" for name, way in level.ways.items() if way != "skip"]
+        if share:
+            yield (
+                f"tiles with no value below {level.above:.3g} ({share:.0%} of the picture): "
+                f"{', '.join(without + cheaper)}; {level.bound_dn:.3g} DN at most"
+            )
 
 
 def _print_totals(shot: Shot, report: dict[str, Any]) -> None:
     what, whole = shot.photo.plan, shot.whole
     if not what.steps and not what.skipped:
         tell("nothing is called for: the picture is the scene")
-    for level in report["levels"]:
-        if level["share"]:
-            tell(_level(**level))
+    for line in _in_parts(shot):
+        tell(line)
     tell(
         f"error at most {report['predicted_error_dn']:.3g} DN of {report['budget_dn']:g} allowed; "
         f"effects {report['predicted_ms']:.1f} ms predicted, {report['measured_ms']:.1f} ms taken"
