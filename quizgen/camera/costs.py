@@ -59,9 +59,14 @@ def measured(exact: Pair, *, opencv: Pair | None = None, **rungs: Pair) -> Cost:
 
 
 def at_least_a_call(cost: Cost) -> Cost:
-    """A cost that may be nothing, such as a blur of no width: calling takes time too."""
+    """A cost that may be nothing, such as a blur of no width: calling takes time too.
+
+    What is even all over is not worked on.
+    """
 
     def more(view: View, rung: str, opencv_used: bool) -> float:
+        if view.scene.image is None and not view.scene.things:
+            return _CALL
         return max(_CALL, cost(view, rung, opencv_used))
 
     return more
@@ -77,9 +82,14 @@ def convolution(kernel: Kernel, view: View, opencv_used: bool) -> float:
             return 0.1 + at_size(TAP_OPENCV, view.megapixels) * float(20 + height * width)
         if goes_by_slabs(kernel):
             return at_size(SLAB_TAP_OPENCV, view.megapixels) * taps
-        return at_size(FOURIER_OPENCV, view.megapixels)
+        return wide_convolution(view, opencv_used)
     few = taps <= 49
-    return at_size(TAP, view.megapixels) * taps if few else at_size(FOURIER, view.megapixels)
+    return at_size(TAP, view.megapixels) * taps if few else wide_convolution(view, opencv_used)
+
+
+def wide_convolution(view: View, opencv_used: bool) -> float:
+    """The same of a kernel with so many taps that it goes by transforms: it need not be made."""
+    return at_size(FOURIER_OPENCV if opencv_used else FOURIER, view.megapixels)
 
 
 def sampling(view: View, opencv_used: bool) -> float:

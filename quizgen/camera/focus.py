@@ -13,8 +13,9 @@ import numpy as np
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
+from quizgen.camera import kernels
 from quizgen.camera.blocks import pieces
-from quizgen.camera.costs import convolution
+from quizgen.camera.costs import convolution, wide_convolution
 from quizgen.camera.draw import Box, Layer, Sheet, blend, content, sheets
 from quizgen.camera.facts import Error, Facts, LayerFacts
 from quizgen.camera.filters import convolve
@@ -132,16 +133,26 @@ def outside(view: View, shifts: tuple[float, ...]) -> tuple[float, float]:
     """Discs bring light from as far as their radius."""
 
     def reach(sheet: Sheet) -> tuple[float, float]:
-        circle = view.blur_diameter(math.inf if sheet.depth is None else sheet.depth)
-        radius = max(abs(circle + shift) / 2.0 for shift in shifts)
+        radius = max(abs(_diameter(sheet, view) + shift) / 2.0 for shift in shifts)
         return radius + bool(radius), radius + bool(radius)
 
     return farthest(view, reach)
 
 
+def check(view: View) -> None:
+    """No disc may be too wide."""
+    for sheet in sheets(view):
+        if not by_depth(sheet, view):
+            kernels.check(_diameter(sheet, view))
+
+
 def disc_of(sheet: Sheet, view: View, shift: float = 0.0) -> Kernel:
     """Blur of a sheet at one depth."""
-    return disc(view.blur_diameter(math.inf if sheet.depth is None else sheet.depth) + shift)
+    return disc(_diameter(sheet, view) + shift)
+
+
+def _diameter(sheet: Sheet, view: View) -> float:
+    return view.blur_diameter(math.inf if sheet.depth is None else sheet.depth)
 
 
 def by_depth(sheet: Sheet, view: View) -> bool:
@@ -190,9 +201,19 @@ def cost(view: View, rung: str, opencv_used: bool, shift: float = 0.0) -> float:
     total = 0.0
     for sheet in sheets(view):
         if sheet.depth is None and sheet.opaque:
-            kernels = [disc(float(c)) for c in map_slices(view, shift, rung)]
-            total += sum(convolution(kernel, view, opencv_used) for kernel in kernels) * 1.5
+            discs = map_slices(view, shift, rung).tolist()
+            total += sum(_cost(diameter, view, opencv_used) for diameter in discs) * 1.5
         else:
             share = 1.0 if sheet.opaque else 4.0 / 3.0
-            total += share * convolution(disc_of(sheet, view, shift), view, opencv_used)
+            total += share * _cost(_diameter(sheet, view) + shift, view, opencv_used)
     return total
+
+
+_WIDE = 20.0
+"""Discs from this diameter on, px, have so many taps that they go by transforms."""
+
+
+def _cost(diameter: float, view: View, opencv_used: bool) -> float:
+    if abs(diameter) >= _WIDE:
+        return wide_convolution(view, opencv_used)
+    return convolution(disc(diameter), view, opencv_used)

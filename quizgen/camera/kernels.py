@@ -24,7 +24,14 @@ LARGEST_BLUR = 800.0
 """Pixels of the widest blur: a kernel needs memory by its square."""
 
 
-def _bounded(size: float) -> None:
+def check(size: float) -> None:
+    """Refuse a blur that is too wide.
+
+    Raises
+    ------
+    SceneError
+        If it is wider than `LARGEST_BLUR`, px.
+    """
     if not abs(size) <= LARGEST_BLUR:
         raise SceneError(f"a blur of {size:.3g} px is more than {LARGEST_BLUR:g} px")
 
@@ -47,19 +54,6 @@ def _disc_area_below(x: Kernel, y: Kernel) -> Kernel:
         - chord(-corner)
         + caps * (chord(right) - chord(corner))
     )
-
-
-@lru_cache(maxsize=8)
-def _disc_cells(count: int) -> Kernel:
-    """Exact area of a unit disc inside each cell of a count x count grid on [-1, 1]^2."""
-    edges = np.linspace(-1.0, 1.0, count + 1)
-    cells = np.empty((count, count))
-    for start in range(0, count, _ROWS):
-        rows = edges[start : start + _ROWS + 1]
-        below = _disc_area_below(*np.meshgrid(edges, rows))
-        area = np.diff(np.diff(below, axis=0), axis=1)
-        np.maximum(area, 0.0, out=cells[start : start + _ROWS])
-    return cells
 
 
 def _tents(positions: Kernel) -> Kernel:
@@ -103,7 +97,7 @@ def disc(diameter: float) -> Kernel:
     numpy.ndarray
         Odd-sized square kernel, sums to 1, symmetric in both axes.
     """
-    _bounded(diameter)
+    check(diameter)
     radius = abs(diameter) / 2.0
     if radius == 0.0:
         return np.ones((1, 1))
@@ -119,8 +113,19 @@ def _centres(count: int) -> Kernel:
 
 @lru_cache(maxsize=8)
 def _disc_quarter(count: int) -> Kernel:
+    """Exact area of a unit disc inside each cell of a count x count grid on [-1, 1]^2.
+
+    One quarter: the cells of [0, 1]^2.
+    """
     half = count // 2
-    return np.ascontiguousarray(_disc_cells(count)[half:, half:])
+    edges = np.linspace(-1.0, 1.0, count + 1)[half:]
+    cells = np.empty((half, half))
+    for start in range(0, half, _ROWS):
+        rows = edges[start : start + _ROWS + 1]
+        below = _disc_area_below(*np.meshgrid(edges, rows))
+        area = np.diff(np.diff(below, axis=0), axis=1)
+        np.maximum(area, 0.0, out=cells[start : start + _ROWS])
+    return cells
 
 
 def _splatted(cells: Kernel, centres: Kernel) -> Kernel:
@@ -171,7 +176,7 @@ def airy(scale: float) -> Kernel:
         Odd-sized square kernel, sums to 1, symmetric in both axes.
     """
     radius = airy_radius(scale)
-    _bounded(2.0 * radius)
+    check(2.0 * radius)
     if radius < 1e-6:
         return np.ones((1, 1))
     count = max(2 * SAMPLES, min(16 * math.ceil(radius), 1024), 2 * math.ceil(2.0 * radius))
@@ -196,7 +201,7 @@ def line(across: float, down: float) -> Kernel:
         Odd-sized kernel (height, width), sums to 1, symmetric about its centre. The variance along
         the path is L^2/12 plus that of the pixel grid (errata E40: a box, not a Gaussian).
     """
-    _bounded(max(abs(across), abs(down)))
+    check(max(abs(across), abs(down)))
     count = max(SAMPLES, 16 * math.ceil(max(abs(across), abs(down))))
     times = (np.arange(count) + 0.5) / count - 0.5
     kernel = _tents(down * times) @ _tents(across * times).T / count

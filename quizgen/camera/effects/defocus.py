@@ -38,7 +38,7 @@ def skipped(facts: Facts, view: View) -> Error:
     for layer, sheet, most in each(facts, view):
         if focus.by_depth(sheet, view):
             total += focus.map_error(layer, view)
-        else:
+        elif any(layer.jump):
             total += change(focus.disc_of(sheet, view), layer.jump, layer.bend, most)
     return within(total, facts)
 
@@ -52,6 +52,7 @@ EFFECT = Effect(
     stage="optics",
     decides=("defocus", "depth of field", "aperture", "artefacts"),
     present=lambda view: aperture(view.camera) is not None,
+    check=focus.check,
     run=LayerByLayer(work),
     cost=at_least_a_call(focus.cost),
     skipped=skipped,
