@@ -163,6 +163,11 @@ class Error(msgspec.Struct, frozen=True):
         return replace(error, beyond=self.beyond + by) if self.beyond else error
 
 
+def _share_beyond(room: float, noise: float) -> float:
+    """Share of normal values above a limit, which is 0 at least."""
+    return math.erfc(max(0.0, room) / noise / math.sqrt(2.0)) / 2.0 if noise else float(room < 0.0)
+
+
 def mean_size(sigma: float, count: int) -> float:
     """Bound on the mean size of so many normal values: their expectation, and by how much more.
 
@@ -209,6 +214,9 @@ class Facts(msgspec.Struct, frozen=True):
         what noise came later is in it.
     rounded : float
         Share by which single precision may have carried a value beyond all this.
+    dip : (float, float), optional
+        As ``tail`` and ``noise``, of how far below ``low`` a value is carried: what is brighter
+        may be noisier, but gets no lower. The same as above where nothing is known.
     """
 
     low: float
@@ -218,6 +226,7 @@ class Facts(msgspec.Struct, frozen=True):
     tail: float = 0.0
     limits: Limits = UNLIMITED
     rounded: float = 0.0
+    dip: tuple[float, float] | None = None
 
     @property
     def span(self) -> float:
@@ -230,6 +239,11 @@ class Facts(msgspec.Struct, frozen=True):
         return self.tail + REACH * self.noise
 
     @property
+    def down(self) -> tuple[float, float]:
+        """Tail and deviation by which noise carries values below the smallest."""
+        return (self.tail, self.noise) if self.dip is None else self.dip
+
+    @property
     def top(self) -> float:
         """Largest value including noise."""
         return max(min(self.high + self.reach, self.limits[1]), self.limits[0])
@@ -237,7 +251,8 @@ class Facts(msgspec.Struct, frozen=True):
     @property
     def bottom(self) -> float:
         """Smallest value including noise."""
-        return min(max(self.low - self.reach, self.limits[0]), self.limits[1])
+        tail, noise = self.down
+        return min(max(self.low - tail - REACH * noise, self.limits[0]), self.limits[1])
 
     @property
     def size(self) -> float:
@@ -287,7 +302,9 @@ class Facts(msgspec.Struct, frozen=True):
         )
         ends = self.low * factor, self.high * factor
         limits = self.limits[0] * factor, self.limits[1] * factor
-        return Facts(*ends, layers, self.noise * factor, self.tail * factor, limits)
+        noise, tail = self.noise * factor, self.tail * factor
+        dip = None if self.dip is None else (self.dip[0] * factor, self.dip[1] * factor)
+        return Facts(*ends, layers, noise, tail, limits, dip=dip)
 
     def gained(self, least: float, most: float) -> Facts:
         """Every channel times a factor of its own, >= 0, between the least and the most."""
@@ -306,9 +323,9 @@ class Facts(msgspec.Struct, frozen=True):
         far = max(self.top - high, low - self.bottom, 0.0)
         if not far or not self.noise:
             return Error(far)
-        above, below = high - self.high - self.tail, self.low - self.tail - low
-        apart = (max(0.0, room) / self.noise / math.sqrt(2.0) for room in (above, below))
-        odd = sum(math.erfc(room) / 2.0 for room in apart)
+        tail, noise = self.down
+        odd = _share_beyond(high - self.high - self.tail, self.noise)
+        odd += _share_beyond(min(self.low - tail - low, REACH * noise), noise)
         return Error(odd=odd) if odd < ODD else Error(far)
 
     def just_above(self, limit: float) -> float:

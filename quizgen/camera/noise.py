@@ -103,11 +103,16 @@ def poisson_gap(mean: float) -> float:
     return gap
 
 
-def noisier(facts: Facts, more: Error) -> Facts:
-    """Facts with more of the random part."""
+def noisier(facts: Facts, more: Error, dip: tuple[float, float] | None = None) -> Facts:
+    """Facts with more of the random part; where that is known, with less of it below."""
     noise, far = math.hypot(facts.noise, more.sigma), more.sure + REACH * more.sigma
     limits = facts.limits[0] - far, facts.limits[1] + far
-    return replace(facts, noise=noise, tail=facts.tail + more.sure, limits=limits)
+    if dip is None and facts.dip is not None:
+        dip = more.sure, more.sigma
+    if dip is not None:
+        tail, deviation = facts.down
+        dip = tail + dip[0], math.hypot(deviation, dip[1])
+    return replace(facts, noise=noise, tail=facts.tail + more.sure, limits=limits, dip=dip)
 
 
 def normal_noise(sigma: float, source: Luck) -> Work:

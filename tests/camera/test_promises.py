@@ -17,6 +17,7 @@ from quizgen.camera.effects import (
     distortion,
     full_well,
     lateral_colour,
+    read_noise,
     rolling_shutter,
     shot_noise,
 )  # fmt: skip
@@ -319,3 +320,40 @@ def test_what_a_full_well_holds_back_shows_in_the_light_alone(mosaic):
         assert bound < 5 * codes * steepest
     else:
         assert bound < 1.02 * codes * steepest
+
+
+@pytest.mark.parametrize("electrons", [0.0, 0.3, 2.0, 7.0, 30.0, 100.0, 3000.0])
+@pytest.mark.parametrize("read", [0.0, 0.5, 3.0, 20.0])
+def test_no_place_gets_darker_than_the_bottom(electrons, read):
+    """Whatever is brighter than the darkest place: exact counts, with read noise beside them."""
+    well = 1e4
+    look = View(Scene(), Camera(full_well=well, read_noise=read, shutter=1.0, dark_current=2.0))
+    facts = shot_noise.after(Facts(electrons / well, 1.0, ()), look)
+    facts = read_noise.after(dark_current.after(facts, look), look)
+    for mean in electrons + np.append(0.0, np.geomspace(0.1, 3000.0, 40)):
+        counts = np.arange(int(mean + 12 * math.sqrt(mean) + 30))
+        below = facts.bottom * well - counts
+        share = stats.norm.cdf(below / read) if read else below > 0
+        assert stats.poisson.pmf(counts, mean) @ share < 7e-6, mean
+    if electrons > 1000 and read < 5:
+        assert facts.bottom * well > electrons - 5.5 * math.sqrt(electrons)
+
+
+def test_counts_lie_less_than_an_electron_below_what_the_normal_law_says():
+    luck = np.linspace(-6, 0, 121)
+    for mean in np.geomspace(1e-3, 1e6, 400):
+        gap = mean + luck * math.sqrt(mean) - stats.poisson.ppf(stats.norm.cdf(luck), mean)
+        assert gap.max() < 1.0
+
+
+def test_what_the_converter_would_clip_is_no_more_than_the_darkest_places_noise():
+    """Light from a tenth to all of the well: far from black, though white is noisy."""
+    camera = Camera(full_well=1000.0, read_noise=5.0, bit_depth=12, gamma="srgb")
+    image = np.broadcast_to(np.linspace(0.1, 0.5, 64, dtype=np.float32)[:, None, None], (64, 64, 3))
+    prepared = Prepared(Scene(64, 64, image=image.copy()), camera)
+    present = tuple(effect for effect in EFFECTS if effect.present(prepared.given))
+    chain = Chain(present, prepared.view, measured(prepared.stack, prepared.view))
+    facts = chain.before[[effect.name for effect in present].index("quantisation")]
+    exact = stats.norm.ppf(7e-6, 100, math.hypot(math.sqrt(100), 5)) / 1000
+    assert exact - 3 / 1000 < facts.bottom < exact
+    assert facts.outside(0.0, 2.0).total == 0.0

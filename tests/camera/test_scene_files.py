@@ -219,7 +219,7 @@ EXPECTED = {
     "pinhole": [],
     "fisheye": ["distortion"],
     "flat": ["shot noise", "read noise", "gamma"],
-    "landscape": ["shot noise", "read noise", "gamma"],
+    "landscape": ["shot noise", "gamma"],
     "propeller": ["motion blur", "rolling shutter", "gamma"],
 }
 
@@ -310,7 +310,7 @@ def test_a_page_shows_the_pictures_and_the_table(tmp_path):
     sizes = {png.decode(b64decode(source.partition("base64,")[2])).shape for source in images}
     assert sizes == {(480, 640, 3)}
     cells = [[cell.text or "" for cell in row] for row in tree.iter("tr")]
-    assert [row[0] for row in cells][1:4] == ["shot noise", "read noise", "gamma"]
+    assert [row[0] for row in cells][1:3] == ["shot noise", "gamma"]
     assert all(len(row) == 7 for row in cells)
     assert [caption.text for caption in tree.iter("figcaption")] == [
         "as planned",

@@ -118,7 +118,7 @@ def after(facts: Facts, view: View) -> Facts:
     """Brighter and noisier; hot pixels are steps of the whole range."""
     mean, (low, high) = _mean(view).sure, facts.limits
     lifted = replace(facts, high=facts.high + mean, limits=(low, high + mean))
-    lifted = noisier(lifted, _noise(view))
+    lifted = noisier(lifted, _noise(view), (0.0, 0.0))  # no charge makes anything darker
     if not view.camera[HOT_PIXELS]:
         return lifted
     low, high = lifted.limits

@@ -56,7 +56,7 @@ def after(facts: Facts, view: View) -> Facts:
     """Noisier and clipped."""
     low, high = min(max(facts.low, 0.0), 1.0), max(0.0, min(facts.high, 1.0))
     noise = math.hypot(facts.noise, view.camera[GAUSSIAN_NOISE])
-    noisy = replace(facts, noise=noise, low=low, high=high, limits=(0.0, 1.0))
+    noisy = replace(facts, noise=noise, low=low, high=high, limits=(0.0, 1.0), dip=None)
     return noisy.with_jump(facts.jump)
 
 

@@ -11,7 +11,7 @@ from quizgen.camera.blocks import Tile, Work
 from quizgen.camera.body import FULL_WELL
 from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, PointByPoint, Rung
-from quizgen.camera.facts import ODD, Error, Facts
+from quizgen.camera.facts import ODD, REACH, Error, Facts
 from quizgen.camera.noise import POISSON_GAP, electrons_at_white, luck, noisier, poisson_gap
 from quizgen.camera.scene import Image
 from quizgen.camera.settings import Setting
@@ -151,7 +151,19 @@ def gaussian(facts: Facts, view: View) -> Error:
 
 def after(facts: Facts, view: View) -> Facts:
     """Noisier; never below zero electrons."""
-    return noisier(facts, skipped(facts, view)).between(0.0, math.inf)
+    noisy = noisier(facts, skipped(facts, view), _dip(facts.low, electrons_at_white(view)))
+    return noisy.between(0.0, math.inf)
+
+
+def _dip(low: float, well: float) -> tuple[float, float]:
+    """How far counts are carried below the darkest place, by those of every brighter one.
+
+    The mean less up to z = `REACH` roots of it grows from z^2/4 electrons on, where it is lowest.
+    Counts are skew: no quantile lies as far as one electron below what the normal law says.
+    """
+    electrons, lowest = max(low, 0.0) * well, REACH**2 / 4.0
+    root = math.sqrt(electrons) if electrons > lowest else (electrons + lowest) / REACH
+    return 1.0 / well, root / well
 
 
 EFFECT = Effect(
