@@ -273,10 +273,17 @@ def _widened(kernel: Kernel, size: int) -> Kernel:
 
 def _paired(kernel: Kernel, jump: tuple[float, float], bend: tuple[float, float]) -> Kernel:
     """How far each tap, together with the opposite ones, can carry a pixel's value."""
-    down, across = offsets(kernel)
-    over_x = np.minimum(across**2 * bend[0], 2.0 * across * jump[0]) / 2.0
-    over_y = np.minimum(down**2 * bend[1], 2.0 * down * jump[1]) / 2.0
-    paired = over_x + over_y
-    if not np.array_equal(kernel, kernel[::-1]):
-        paired = np.where((down > 0) & (across > 0), across * jump[0] + down * jump[1], paired)
+    down, across = (_distances(count) for count in kernel.shape)
+    over_x = np.minimum(across * across * bend[0], 2.0 * across * jump[0]) / 2.0
+    over_y = np.minimum(down * down * bend[1], 2.0 * down * jump[1]) / 2.0
+    paired = over_x + over_y[:, None]
+    if len(down) > 1 and not (kernel == kernel[::-1]).all():
+        aslant = across * jump[0] + (down * jump[1])[:, None]
+        paired = np.where((across > 0) & (down > 0)[:, None], aslant, paired)
     return np.asarray(paired)
+
+
+@lru_cache(maxsize=64)
+def _distances(count: int) -> Kernel:
+    """How far each of so many taps in a row is from the middle one, px."""
+    return np.abs(np.arange(count, dtype=np.float64) - count // 2)
