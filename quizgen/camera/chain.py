@@ -54,6 +54,7 @@ class Chain:
         self.present, self.view, self.facts, self.arrived = present, view, facts, arrived
         self.views = views(present, view) if seen is None else seen
         self._made: dict[tuple[int, str], Error] = {}
+        self._passed: list[dict[Error, Error]] = [{} for _ in present]
         self._known: dict[frozenset[tuple[int, str]], float] = {}
         if like is None:
             self.before = _facts_along(present, self.views, facts)
@@ -66,9 +67,10 @@ class Chain:
         beside = [index for index, effect in enumerate(self.present) if effect.around != 0]
         count = beside[-1] + 1 if beside else 0
         facts = _facts_along(self.present[:count], self.views[:count], self.facts)
-        self.before, self._rounding = like.before.copy(), like._rounding
+        self.before, self._passed = like.before.copy(), like._passed.copy()
+        self._rounding = like._rounding
         for index in beside:
-            self.before[index] = facts[index]
+            self.before[index], self._passed[index] = facts[index], {}
         self._made.update({key: off for key, off in like._made.items() if key[0] not in beside})
 
     def off(self, index: int, made: str) -> Error:
@@ -98,7 +100,7 @@ class Chain:
                 error = error.plus(lost) if effect.random else error.along(lost)
                 continue
             if error is not NO_ERROR:
-                error = self._carried(effect, index, error)
+                error = self._carried(index, error)
             if made != EXACT:
                 error = error.plus(self.off(index, made))
         return error
@@ -110,14 +112,31 @@ class Chain:
         rounding = self._rounding[index]
         return lost.rounded(rounding) if effect.stage == "sensor" else lost.plus(Error(rounding))
 
-    def _carried(self, effect: Effect, index: int, error: Error) -> Error:
+    def _carried(self, index: int, error: Error) -> Error:
+        """What becomes of an error; choices differ in one effect, so that many meet the same."""
+        known = self._passed[index]
+        found = known.get(error)
+        if found is None:
+            found = known[error] = self._passing(index, error)
+        return found
+
+    def _passing(self, index: int, error: Error) -> Error:
         if error == NO_ERROR or error.total == math.inf:
             return error
+        effect = self.present[index]
         if not effect.knows_where:
             error = error.everywhere()
         if effect.carried is not same_error:
             error = effect.carried(error, self.before[index], self.views[index])
         return error.rounded(self._rounding[index])
+
+    def enlarges(self, index: int) -> bool:
+        """Whether an effect makes any error larger that has been followed through it so far."""
+        least = 2.0 * self._rounding[index]
+        return any(
+            after.clipped().total > error.clipped().total + least
+            for error, after in self._passed[index].items()
+        )
 
     def dn(self, choice: dict[int, str]) -> float:
         """The same in grey levels."""

@@ -169,10 +169,9 @@ def _is_within(chain: Chain, trial: dict[int, str], unit: Unit, budget: float) -
 
 def _opens_more(chain: Chain, before: dict[int, str], now: dict[int, str]) -> bool:
     """Whether something is newly left out that makes errors larger, such as a converter."""
-    return any(
-        now[index] == SKIP != before[index] and effect.carried is not same_error
-        for index, effect in enumerate(chain.present)
-    )
+    newly = [index for index, made in now.items() if made == SKIP != before[index]]
+    known = any(chain.present[index].carried is not same_error for index in newly)
+    return known and any(chain.enlarges(index) for index in newly)
 
 
 def _total(costs: list[dict[str, float]], choice: dict[int, str]) -> float:
