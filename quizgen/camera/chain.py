@@ -92,15 +92,15 @@ class Chain:
 
         Choices not given are exact.
         """
-        error = self.arrived
+        error, made_of = self.arrived, choice.get
         for index, effect in enumerate(self.present[:before]):
-            made = choice.get(index, EXACT)
+            made = made_of(index, EXACT)
             if made == SKIP:
                 lost = self.off(index, SKIP)
                 error = error.plus(lost) if effect.random else error.along(lost)
                 continue
-            if error is not NO_ERROR:
-                error = self._carried(index, error)
+            if error is not NO_ERROR:  # choices differ in one effect: many meet the same error
+                error = self._passed[index].get(error) or self._carried(index, error)
             if made != EXACT:
                 error = error.plus(self.off(index, made))
         return error
@@ -113,22 +113,15 @@ class Chain:
         return lost.rounded(rounding) if effect.stage == "sensor" else lost.plus(Error(rounding))
 
     def _carried(self, index: int, error: Error) -> Error:
-        """What becomes of an error; choices differ in one effect, so that many meet the same."""
-        known = self._passed[index]
-        found = known.get(error)
-        if found is None:
-            found = known[error] = self._passing(index, error)
-        return found
-
-    def _passing(self, index: int, error: Error) -> Error:
-        if error == NO_ERROR or error.total == math.inf:
-            return error
-        effect = self.present[index]
-        if not effect.knows_where:
-            error = error.everywhere()
-        if effect.carried is not same_error:
-            error = effect.carried(error, self.before[index], self.views[index])
-        return error.rounded(self._rounding[index])
+        carried, effect = error, self.present[index]
+        if error != NO_ERROR and error.total != math.inf:
+            if not effect.knows_where:
+                carried = carried.everywhere()
+            if effect.carried is not same_error:
+                carried = effect.carried(carried, self.before[index], self.views[index])
+            carried = carried.rounded(self._rounding[index])
+        self._passed[index][error] = carried
+        return carried
 
     def enlarges(self, index: int) -> bool:
         """Whether an effect makes any error larger that has been followed through it so far."""

@@ -150,13 +150,12 @@ class _Costs(dict[str, float]):
     """Ways to run an effect with their ms, each worked out when first asked for."""
 
     def __init__(self, effect: Effect, view: View, *, opencv_used: bool) -> None:
-        super().__init__({SKIP: 0.0})
         self._of = effect, view, opencv_used
 
-    def __missing__(self, rung: str) -> float:
+    def __missing__(self, made: str) -> float:
         effect, view, opencv_used = self._of
-        self[rung] = effect.cost(view, rung, opencv_used)
-        return self[rung]
+        self[made] = effect.cost(view, made, opencv_used) if made != SKIP else 0.0
+        return self[made]
 
 
 def cost_table(

@@ -157,14 +157,12 @@ def _affordable(
     """Choices that the budget allows beside those already made."""
     for unit in units:
         for made in () if unit.fixed else unit.choices:
-            trial = {**choice, **dict.fromkeys(unit.members, made)}
-            if made == EXACT or _is_within(chain, trial, unit, budget):
+            if made == EXACT:
                 yield unit, made
-
-
-def _is_within(chain: Chain, trial: dict[int, str], unit: Unit, budget: float) -> bool:
-    made = trial[unit.members[0]]
-    return not chain.hopeless(unit.members, made, budget) and chain.dn(trial) <= budget
+            elif not chain.hopeless(unit.members, made, budget):
+                trial = {**choice, **dict.fromkeys(unit.members, made)}
+                if chain.dn(trial) <= budget:
+                    yield unit, made
 
 
 def _opens_more(chain: Chain, before: dict[int, str], now: dict[int, str]) -> bool:
