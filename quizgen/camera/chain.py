@@ -142,7 +142,7 @@ class Chain:
     def hopeless(self, indices: tuple[int, ...], made: str, budget: float) -> bool:
         """Whether a choice alone loses so much that following it to the end is a waste of time."""
         far = _FAR * budget / GREY_LEVELS
-        return any(self.off(index, made).clipped().total > far for index in indices)
+        return max([self.off(index, made).clipped().total for index in indices]) > far
 
 
 def _rounding(facts: Facts) -> float:

@@ -47,7 +47,7 @@ LARGEST = 1e30
 UNLIMITED = (-LARGEST, LARGEST)
 
 
-class Error(msgspec.Struct, frozen=True):
+class Error(msgspec.Struct, frozen=True, gc=False):
     """How far two pictures can be apart: a sure part and a random part, 1 = white.
 
     Parameters
@@ -183,7 +183,7 @@ NO_ERROR = Error()
 Limits = tuple[float, float]
 
 
-class LayerFacts(msgspec.Struct, frozen=True):
+class LayerFacts(msgspec.Struct, frozen=True, gc=False):
     """Largest step and bend of a layer along x and y, as they can show in the finished stack."""
 
     jump: tuple[float, float]
@@ -195,7 +195,7 @@ class LayerFacts(msgspec.Struct, frozen=True):
         return LayerFacts(jump, (2 * jump[0], 2 * jump[1]))
 
 
-class Facts(msgspec.Struct, frozen=True):
+class Facts(msgspec.Struct, frozen=True, gc=False):
     """Upper bounds on a picture.
 
     Parameters

@@ -81,8 +81,8 @@ def by_brightness(
     spend : callable
         How the budget is spent.
     """
-    tail = _tail(chain, choice, units)
-    if tail is None or _dear(tail, costs) < LEAST_MS or not tail.arrived.total < LEVELS[0]:
+    tail = _tail(chain, choice, units, costs)
+    if tail is None or not tail.arrived.total < LEVELS[0]:
         return NO_LEVELS
     each = _each(tail, costs[tail.first :], budget, spend)
     return Levels(chain.present[tail.first].name, tail.around, tuple(reversed(each)))
@@ -107,17 +107,19 @@ def _each(tail: _Tail, costs: Costs, budget: float, spend: Spend) -> list[Level]
     return each
 
 
-def _tail(chain: Chain, choice: Choice, units: tuple[Unit, ...]) -> _Tail | None:
-    """The effects from the first noise on, if it is known how far each of them looks."""
+def _tail(chain: Chain, choice: Choice, units: tuple[Unit, ...], costs: Costs) -> _Tail | None:
+    """The effects from the first noise on, if they are dear and it is known how far each looks."""
     first = next((i for i, effect in enumerate(chain.present) if effect.random), None)
     if first is None:
+        return None
+    free = tuple(_free(chain, choice, units, first))
+    if sum(costs[first + i][EXACT] for unit in free for i in unit.members) < LEAST_MS:
         return None
     arounds = [effect.around for effect in chain.present[first:]]
     if None in arounds:
         return None
     known = {i - first: made for i, made in choice.items() if i >= first}
     around = sum(around for around in arounds if around)
-    free = tuple(_free(chain, choice, units, first))
     return _Tail(chain, first, around, chain.error(choice, first), known, free)
 
 
@@ -129,11 +131,6 @@ def _free(chain: Chain, choice: Choice, units: tuple[Unit, ...], first: int) -> 
         )
         if alone and not unit.fixed and choice[unit.members[0]] != SKIP:
             yield replace(unit, members=tuple(i - first for i in unit.members))
-
-
-def _dear(tail: _Tail, costs: Costs) -> float:
-    """What all that a tile could do without takes, ms."""
-    return sum(costs[tail.first + i][EXACT] for unit in tail.free for i in unit.members)
 
 
 def by_level(picture: Image, levels: Levels) -> list[list[Tile]]:

@@ -93,7 +93,7 @@ def _units(present: tuple[Effect, ...], asked: frozenset[str]) -> tuple[Unit, ..
 def _unit(members: tuple[int, ...], present: tuple[Effect, ...], asked: frozenset[str]) -> Unit:
     together = [present[index] for index in members]
     rungs = [rung.name for rung in together[0].rungs] if len(together) == 1 else []
-    needed = any(effect.reason or asked.intersection(effect.decides) for effect in together)
+    needed = any(effect.reason or not asked.isdisjoint(effect.decides) for effect in together)
     return Unit(members, (EXACT, *rungs, SKIP), needed)
 
 

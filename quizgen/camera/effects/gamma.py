@@ -77,11 +77,13 @@ def _spread(error: Error, bottom: float, view: View) -> Error:
 
     With a chord instead, small luck would be spread by more than its share.
     """
-    total = _gap(error.total, bottom, view)
+    gamma, start, far = view.camera[GAMMA], max(0.0, bottom), error.total
+    dark = encode_number(start, gamma)
+    total = encode_number(start + far, gamma) - dark
     if not error.sigma:
         return replace(error, sure=total)
-    shorter = error.total * (1.0 - _SHORT)
-    slope = (total - _gap(shorter, bottom, view)) / (error.total * _SHORT)
+    shorter = encode_number(start + far * (1.0 - _SHORT), gamma) - dark
+    slope = (total - shorter) / (far * _SHORT)
     sure = total - slope * DEVIATIONS * error.sigma + CURVE_ERROR
     return replace(error, sure=sure, sigma=slope * error.sigma)
 
