@@ -8,6 +8,8 @@ so every bound is computed without running anything.
 from __future__ import annotations
 
 import math
+import operator
+from collections.abc import Callable
 
 import msgspec
 from msgspec.structs import replace
@@ -56,6 +58,9 @@ class Error(msgspec.Struct, frozen=True, gc=False):
         Bound on the difference of the means.
     sigma : float
         Bound on the standard deviation of a normal value that the rest is a share of.
+    flat, root : float
+        Where ``root`` is not 0, that deviation is no more than ``flat + root sqrt(x)`` either, at a
+        place with the noise-free value x in the one of the two pictures that has everything.
     odd : float
         Share of values of which nothing of this is true.
     beyond : float
@@ -84,6 +89,8 @@ class Error(msgspec.Struct, frozen=True, gc=False):
     rare: float = 0.0
     share: float = 0.0
     dither: float = 0.0
+    flat: float = 0.0
+    root: float = 0.0
 
     def __post_init__(self) -> None:
         if self.sure >= 0.0 and self.sigma >= 0.0 and self.beyond >= 0.0 and self.bright >= 0.0:
@@ -109,21 +116,25 @@ class Error(msgspec.Struct, frozen=True, gc=False):
 
     def plus(self, other: Error) -> Error:
         """Both errors of different luck: random parts add in quadrature."""
-        return self._with(other, math.hypot(self.sigma, other.sigma))
+        return self._with(other, math.hypot)
 
     def along(self, other: Error) -> Error:
         """Both errors of the same luck: random parts add."""
-        return self._with(other, self.sigma + other.sigma)
+        return self._with(other, operator.add)
 
-    def _with(self, other: Error, sigma: float) -> Error:
+    def _with(self, other: Error, added: Callable[[float, float], float]) -> Error:
         beyond, bright = self.beyond + other.beyond, self.bright + other.bright
         sure, odd = self.sure + other.sure, self.odd + other.odd
-        level = min(self.level, other.level)
-        if not self.rare and not other.rare:
-            return Error(sure, sigma, odd, beyond, bright, level)
-        rare, share = self.rare + other.rare, self.share + other.share
-        dither = min(error.dither for error in (self, other) if error.rare)
-        return Error(sure, sigma, odd, beyond, bright, level, rare, share, dither)
+        sigma, level = added(self.sigma, other.sigma), min(self.level, other.level)
+        both = Error(sure, sigma, odd, beyond, bright, level)
+        if self.rare or other.rare:
+            rare, share = self.rare + other.rare, self.share + other.share
+            dither = min(error.dither for error in (self, other) if error.rare)
+            both = replace(both, rare=rare, share=share, dither=dither)
+        if self.root or other.root:
+            flat = added(*(one.flat if one.root else one.sigma for one in (self, other)))
+            both = replace(both, flat=flat, root=added(self.root, other.root))
+        return both
 
     def times(self, factor: float) -> Error:
         """Scaled by a factor >= 0, wherever it is."""
@@ -135,19 +146,34 @@ class Error(msgspec.Struct, frozen=True, gc=False):
         error = self if least >= 1.0 else self.within()
         sure, sigma, beyond = error.sure * most, error.sigma * most, error.beyond * most
         level = error.level * least if error.bright else math.inf
-        rare, dither = error.rare * most, error.dither * least
         bright = error.bright * most
-        return Error(sure, sigma, error.odd, beyond, bright, level, rare, error.share, dither)
+        more = Error(sure, sigma, error.odd, beyond, bright, level)
+        if error.rare:
+            rare, dither = error.rare * most, error.dither * least
+            more = replace(more, rare=rare, share=error.share, dither=dither)
+        if error.root:
+            more = replace(more, flat=error.flat * most, root=error.root * math.sqrt(most))
+        return more
 
     def everywhere(self) -> Error:
         """What may stand beyond 0 or 1, in the light or at few places counts like all else."""
-        if not self.beyond and not self.bright and not self.rare:
+        if not self.beyond and not self.bright and not self.rare and not self.root:
             return self
         return Error(self.sure + self.beyond + self.bright + self.rare, self.sigma, self.odd)
 
     def within(self) -> Error:
         """What may stand beyond 0 or 1 counts like all else."""
         return replace(self, sure=self.sure + self.beyond, beyond=0.0) if self.beyond else self
+
+    def deviation(self, value: float) -> float:
+        """Largest standard deviation where the noise-free value is at most this one."""
+        if not self.root:
+            return self.sigma
+        return min(self.sigma, self.flat + self.root * math.sqrt(max(0.0, value)))
+
+    def capped(self, high: float) -> Error:
+        """After what was at most so bright without noise is cut at 1."""
+        return replace(self, root=self.root * math.sqrt(high)) if self.root and high > 1.0 else self
 
     def clipped(self) -> Error:
         """After both pictures are clipped to [0, 1]."""

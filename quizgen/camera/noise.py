@@ -19,13 +19,17 @@ from quizgen.camera.scene import Image
 from quizgen.camera.view import View
 
 POISSON_GAP = 6.4
-"""Electrons by which a Poisson count lies farther from its mean than z standard deviations, up to
-z = 6 at any mean: (z^2 - 1)/6 for the skewness and 1/2 for whole electrons. So far apart are also
-the quantiles of Poisson and normal law up to z = 5: z^2/4 where the normal law turns negative."""
+"""Electrons by which the quantiles of Poisson and normal law are apart up to z = 5 deviations, at
+any mean: z^2/4 where the normal law turns negative."""
 
-_FEW = 16.0
-_NEVER = 9.8e-10
-"""Chance of a normal value above z = 6."""
+_FARTHER = 4.6
+"""Electrons by which a Poisson count lies farther from its mean than z standard deviations, up to
+z = 5 at any mean: (z^2 - 1)/6 for the skewness and 1/2 for whole electrons. No luck is larger."""
+
+MANY = 16.0
+"""Electrons from which on counts keep to the root of their own mean, and those of all below."""
+_NEVER = 2.8e-7
+"""Chance of a normal value above z = 5."""
 
 
 class Luck(msgspec.Struct, frozen=True):
@@ -87,12 +91,12 @@ def electrons_at_white(view: View) -> float:
 
 @lru_cache(maxsize=256)
 def poisson_gap(mean: float) -> float:
-    """`POISSON_GAP` of means up to this one, from the exact tails where counts are few.
+    """`_FARTHER` for means up to this one, from the exact tails where counts are few.
 
     The count k is reached by the luck z whose normal tail is the chance of k or more.
     """
-    if mean >= _FEW:
-        return POISSON_GAP
+    if mean >= MANY:
+        return _FARTHER
     chances = list(accumulate(range(1, 80), lambda p, k: p * mean / k, initial=math.exp(-mean)))
     gap, beyond = 1.0, 0.0
     for count in range(len(chances) - 1, 0, -1):

@@ -135,6 +135,7 @@ EFFECT = Effect(
     run=PointByPoint(work),
     cost=measured((3.45, 119)),
     skipped=skipped,
+    knows_where=True,
     after=after,
     random=True,
     needs="shutter",

@@ -33,6 +33,7 @@ def skipped(facts: Facts, view: View) -> Error:
 
 def carried(error: Error, facts: Facts, view: View) -> Error:
     """No difference grows; the light ends at white."""
+    error = error.capped(facts.high)
     return replace(error, level=min(error.level, 1.0)) if error.bright else error
 
 

@@ -9,7 +9,7 @@ from msgspec.structs import replace
 from quizgen.camera.blocks import Work
 from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, PointByPoint, Rung
-from quizgen.camera.facts import DEVIATIONS, Error, Facts
+from quizgen.camera.facts import DEVIATIONS, REACH, Error, Facts
 from quizgen.camera.power import CURVE_ERROR, TABLE, by_table, encode_number, encoder
 from quizgen.camera.settings import Rule, Setting, Settings
 from quizgen.camera.values import number
@@ -95,10 +95,41 @@ def carried(error: Error, facts: Facts, view: View) -> Error:
     """The darkest values are spread most, of all or of those in the light; both are clipped."""
     error = error.clipped()
     bottom = facts.bottom - error.certain
-    spread = _spread(replace(error, bright=0.0, rare=0.0), bottom, view)
+    noisy = replace(error, bright=0.0, rare=0.0, flat=0.0, root=0.0)
+    spread = _spread(noisy, bottom, view)
+    if error.root:
+        by_level = _by_level(error, facts, view)
+        spread = min(spread, by_level, key=lambda way: way.total)
     bright = _gap(error.bright, error.level, view) if error.bright else 0.0
     rare = _gap(error.rare, bottom, view) + CURVE_ERROR if error.rare else 0.0
     return replace(spread, sure=spread.sure + bright, rare=rare, level=math.inf)
+
+
+def _by_level(error: Error, facts: Facts, view: View) -> Error:
+    """An error that grows with the light after encoding, which spreads it less there.
+
+    From bright to dark, up to where the value with all its noise may be black.
+    """
+    tail, noise = facts.down
+    light, most, sure, sigma = facts.high, error.deviation(facts.high), 0.0, 0.0
+    while True:
+        dark = light / _APART
+        own = tail + REACH * math.hypot(noise, most)
+        lowest = max(facts.bottom, min(dark - own, facts.limits[1]))
+        here = replace(error, sigma=most)
+        start = lowest - here.certain
+        last = start <= 0.0 or dark <= facts.low
+        if last:
+            start = facts.bottom - here.certain
+        spread = _spread(replace(here, bright=0.0, rare=0.0), start, view)
+        sure, sigma = max(sure, spread.sure), max(sigma, spread.sigma)
+        if last:
+            return replace(spread, sure=sure, sigma=sigma, flat=0.0, root=0.0)
+        light, most = dark, error.deviation(dark)
+
+
+_APART = 1.5
+"""How many times as bright one end of a range of values is as the other."""
 
 
 def after(facts: Facts, view: View) -> Facts:

@@ -54,7 +54,7 @@ def carried(error: Error, facts: Facts, view: View) -> Error:
 
     Several small differences may be followed one by one, or as one.
     """
-    step = _step(view)
+    step, error = _step(view), error.capped(facts.high)
     if error.beyond or error.bright:
         bright, level = _whole(error.bright, step), min(error.level, 1.0) - step
         rest = _coded(replace(error, beyond=0.0, bright=0.0, level=math.inf), step)
@@ -75,6 +75,9 @@ def _apart(error: Error, step: float) -> Error:
     if error.rare:
         chance = min(1.0, between_codes(error.rare, error.dither, step))
         error = replace(error, rare=_whole(error.rare, step), share=error.share * chance)
+    if error.root:  # a code may be half a step darker than its value
+        flat = error.flat + error.root * math.sqrt(step / 2.0)
+        error = replace(error, flat=flat)
     if error.sigma:
         return error.plus(Error(step))
     return replace(error, sure=_whole(error.sure, step))

@@ -12,7 +12,7 @@ from quizgen.camera.body import FULL_WELL
 from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, PointByPoint, Rung
 from quizgen.camera.facts import ODD, REACH, Error, Facts
-from quizgen.camera.noise import POISSON_GAP, electrons_at_white, luck, noisier, poisson_gap
+from quizgen.camera.noise import MANY, POISSON_GAP, electrons_at_white, luck, noisier, poisson_gap
 from quizgen.camera.scene import Image
 from quizgen.camera.settings import Setting
 from quizgen.camera.values import truth
@@ -121,9 +121,10 @@ def work(view: View, rung: str = "") -> Work:
 
 
 def skipped(facts: Facts, view: View) -> Error:
-    """The noise of the brightest place, sqrt(N)/full well, and by how much counts exceed it."""
+    """The noise of N electrons, sqrt(N)/full well, and by how much counts exceed it."""
     well, brightest = electrons_at_white(view), max(facts.high, 0.0)
-    return Error(poisson_gap(brightest * well) / well, math.sqrt(brightest / well))
+    gap, noise = poisson_gap(brightest * well) / well, math.sqrt(brightest / well)
+    return Error(gap, noise, root=1.0 / math.sqrt(well) if brightest * well >= MANY else 0.0)
 
 
 def carried(error: Error, facts: Facts, view: View) -> Error:
