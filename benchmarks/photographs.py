@@ -17,10 +17,11 @@ import numpy as np
 
 from quizgen.arrays.gamma import srgb_decode
 from quizgen.camera import Camera, Scene, SceneError, effects, simulate
+from quizgen.camera.blocks import tiles
 from quizgen.camera.decision import Skipped
 from quizgen.camera.effects import distortion, vignetting
 from quizgen.camera.plan import Prepared, everything, plan
-from quizgen.camera.simulate import difference_dn, is_broken, run
+from quizgen.camera.simulate import Photo, difference_dn, is_broken, run
 
 TURNS = 3
 PHOTOS = ("astronaut", "camera", "cat", "coffee", "coins", "moon", "page", "text")
@@ -114,7 +115,8 @@ def oracle(count: int) -> None:
     """Per effect: how often it could be left out, how often a plan does, and at what bound.
 
     The oracle looks at what really changes: effects in the order of what each alone does, as long
-    as all together stay within the budget.
+    as all together stay within the budget. By tile, each effect has the whole budget, in those
+    tiles where it changes less.
     """
     budgets = (0.5, 2.0)
     rows: dict[str, list[tuple[float, ...]]] = {}
@@ -129,22 +131,28 @@ def oracle(count: int) -> None:
         free = [trial.leaves_out(budget) for budget in budgets]
         left = [{one.effect for one in plan(prepared, budget=b).skipped} for b in budgets]
         for unit, alone in trial.alone.items():
-            counts = [unit[0] in names for pair in zip(free, left, strict=True) for names in pair]
+            ways = zip(free, left, budgets, strict=True)
+            counts = [
+                share
+                for one, other, budget in ways
+                for share in (unit[0] in one, trial.tiles(unit, budget), unit[0] in other)
+            ]
             bounds = trial.bound[unit[0]], alone, sum(trial.whole.times[name] for name in unit)
             rows.setdefault(" + ".join(unit), []).append((*counts, *bounds))
-    heads = ("photos", *(f"{who} {b:g} DN" for b in budgets for who in ("oracle", "plan")))
+    ways = "oracle", "by tile", "plan"
+    heads = ("photos", *(f"{who} {b:g} DN" for b in budgets for who in ways))
     print(f"{'':31}" + "".join(f"{head:>15}" for head in (*heads, "bound DN", "real DN", "ms")))
     for name, found in sorted(rows.items()):
         figures = np.array(found, float)
-        *counts, bound, real, spent = (*figures[:, :4].sum(0), *np.median(figures[:, 4:], axis=0))
+        *counts, bound, real, spent = (*figures[:, :6].sum(0), *np.median(figures[:, 6:], axis=0))
         print(
             f"{name:31}{len(found):15}"
-            + "".join(f"{int(count):15}" for count in counts)
+            + "".join(f"{count:15.1f}" for count in counts)
             + f"{bound:15.3g}{real:15.3g}{spent:15.2f}"
         )
     figures = np.concatenate([np.array(found, float) for found in rows.values()])
     for column, head in enumerate(heads[1:]):
-        saved = figures[:, column] @ figures[:, 6] / figures[:, 6].sum()
+        saved = figures[:, column] @ figures[:, 8] / figures[:, 8].sum()
         print(f"{head}: {figures[:, column].mean():.1%} of the effects, {saved:.1%} of their time")
 
 
@@ -161,16 +169,28 @@ class _Trial:
         for step in self.everything.steps:
             key = effects.by_name(step.effect).pair or step.effect
             units.setdefault(key, []).append(step.effect)
-        self.alone = {tuple(unit): self.change(frozenset(unit)) for unit in units.values()}
+        self.apart: dict[tuple[str, ...], np.ndarray] = {}
+        self.alone = {}
+        for unit in map(tuple, units.values()):
+            photo = self.without(frozenset(unit))
+            self.alone[unit] = difference_dn(photo, self.whole)
+            self.apart[unit] = np.abs(photo.values - self.whole.values).max(axis=2) * 255
+
+    def tiles(self, unit: tuple[str, ...], budget: float) -> float:
+        """Share of the tiles in which leaving these out changes at most so much."""
+        apart = self.apart[unit]
+        return float(np.mean([apart[tile.place].max() <= budget for tile in tiles(apart.shape)]))
 
     def change(self, names: frozenset[str]) -> float:
         """Grey levels that leaving these out changes."""
+        return difference_dn(self.without(names), self.whole)
+
+    def without(self, names: frozenset[str]) -> Photo:
+        """The picture that leaving these out gives."""
         kept = tuple(step for step in self.everything.steps if step.effect not in names)
         left = tuple(Skipped(name, "", 0.0, 0.0) for name in sorted(names))
-        return difference_dn(
-            run(self.prepared, msgspec.structs.replace(self.everything, steps=kept, skipped=left)),
-            self.whole,
-        )
+        what = msgspec.structs.replace(self.everything, steps=kept, skipped=left)
+        return run(self.prepared, what)
 
     def leaves_out(self, budget: float) -> frozenset[str]:
         left: frozenset[str] = frozenset()
