@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from functools import cached_property
 
 from msgspec.structs import replace
 
 from quizgen.camera.effect import Effect, same_error, same_stack
-from quizgen.camera.facts import LARGEST, NO_ERROR, Error, Facts
+from quizgen.camera.facts import LARGEST, NO_ERROR, Error, Facts, LayerFacts
 from quizgen.camera.margins import views
 from quizgen.camera.scene import SceneError
 from quizgen.camera.view import View
@@ -18,6 +19,11 @@ EXACT, SKIP = "", "skip"
 
 _FAR = 4.0
 """How much smaller than a loss the error may still become, at two stops less light."""
+
+_LAYERED = "scene", "optics"
+"""Stages in which layers are still apart."""
+
+_EVEN = LayerFacts((0.0, 0.0), (0.0, 0.0))
 
 _ROUNDING = 5e-7
 """What single precision adds to a difference in one step, relative to the largest value."""
@@ -62,9 +68,14 @@ class Chain:
         else:
             self._borrow(like)
 
+    @cached_property
+    def beside(self) -> list[int]:
+        """Which effects look at neighbours, so that their bounds depend on steps."""
+        return [index for index, effect in enumerate(self.present) if effect.around != 0]
+
     def _borrow(self, like: Chain) -> None:
         """Follow the facts as far as an effect looks at neighbours, and take all else."""
-        beside = [index for index, effect in enumerate(self.present) if effect.around != 0]
+        self.beside = beside = like.beside
         count = beside[-1] + 1 if beside else 0
         facts = _facts_along(self.present[:count], self.views[:count], self.facts)
         self.before, self._passed = like.before.copy(), like._passed.copy()
@@ -83,7 +94,7 @@ class Chain:
     def _off(self, index: int, made: str) -> Error:
         effect, facts, view = self.present[index], self.before[index], self.views[index]
         if made == SKIP:
-            return self._lost(index)
+            return self._lost(index, facts)
         rung = next(rung for rung in effect.rungs if rung.name == made)
         return rung.error(facts, view).plus(Error(self._rounding[index]))
 
@@ -92,8 +103,13 @@ class Chain:
 
         Choices not given are exact.
         """
-        error, made_of = self.arrived, choice.get
-        for index, effect in enumerate(self.present[:before]):
+        return self._followed(self.arrived, 0, choice, before)
+
+    def _followed(
+        self, error: Error, first: int, choice: dict[int, str], before: int | None = None
+    ) -> Error:
+        made_of = choice.get
+        for index, effect in enumerate(self.present[first:before], first):
             made = made_of(index, EXACT)
             if made == SKIP:
                 lost = self.off(index, SKIP)
@@ -105,11 +121,21 @@ class Chain:
                 error = error.plus(self.off(index, made))
         return error
 
-    def _lost(self, index: int) -> Error:
+    def least(self, index: int, choice: dict[int, str]) -> float:
+        """Grey levels that an effect not run exactly takes, however small the steps before it."""
+        if any(choice.get(later, EXACT) != EXACT for later in self.beside if later > index):
+            return 0.0  # these may be off by less, too
+        effect, error = self.present[index], Error(self._rounding[index])
+        if effect.stage not in _LAYERED and not effect.rungs:
+            error = self._lost(index, replace(self.before[index], layers=(_EVEN,)))
+        elif effect.stage == "sensor":
+            return 0.0
+        return GREY_LEVELS * self._followed(error, index + 1, choice).total
+
+    def _lost(self, index: int, facts: Facts) -> Error:
         """Loss of skipping, with rounding; where a limit of the sensor is not met, none."""
-        effect = self.present[index]
-        lost = effect.skipped(self.before[index], self.views[index])
-        rounding = self._rounding[index]
+        effect, rounding = self.present[index], self._rounding[index]
+        lost = effect.skipped(facts, self.views[index])
         return lost.rounded(rounding) if effect.stage == "sensor" else lost.plus(Error(rounding))
 
     def _carried(self, index: int, error: Error) -> Error:
@@ -152,7 +178,7 @@ def _rounding(facts: Facts) -> float:
 def _facts_along(present: tuple[Effect, ...], seen: tuple[View, ...], facts: Facts) -> list[Facts]:
     before = []
     for effect, view in zip(present, seen, strict=True):
-        if effect.stage not in ("scene", "optics"):
+        if effect.stage not in _LAYERED:
             facts = facts.flat()
         before.append(facts)
         rounded = facts.rounded + _ROUNDING * (effect.run is not same_stack)

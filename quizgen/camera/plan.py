@@ -176,11 +176,18 @@ def _total(costs: list[dict[str, float]], choice: dict[int, str]) -> float:
     return sum(costs[index][made] for index, made in choice.items())
 
 
-def _may_gain(chain: Chain, unit: Unit, choice: dict[int, str]) -> bool:
-    """Whether a look at steps may afford what was kept; it tells nothing of single pixels."""
-    if unit.fixed or choice[unit.members[0]] == SKIP:
-        return False
-    return any(chain.present[index].around != 0 for index in unit.members)
+def _looking(chain: Chain, units: tuple[Unit, ...], choice: dict[int, str]) -> Iterator[Unit]:
+    """What was kept and looks at neighbours: of single pixels, steps tell nothing."""
+    for unit in units:
+        kept = not unit.fixed and choice[unit.members[0]] != SKIP
+        if kept and any(index in chain.beside for index in unit.members):
+            yield unit
+
+
+def _may_gain(chain: Chain, unit: Unit, choice: dict[int, str], budget: float) -> bool:
+    """Whether a look at steps may afford what was kept: not where the least is a code too much."""
+    last = unit.members[-1]
+    return chain.least(last, {}) <= budget or chain.least(last, choice) <= budget
 
 
 def _opened(
@@ -207,8 +214,8 @@ def _best(
     view, seen, present = prepared.view, prepared.views, prepared.present
     chain = Chain(present, view, coarse(view), seen)
     choice = _spend(chain, units, costs, budget)
-    hopes = tuple(unit for unit in units if _may_gain(chain, unit, choice))
-    if not hopes:
+    hopes = tuple(_looking(chain, units, choice))
+    if not any(_may_gain(chain, unit, choice, budget) for unit in hopes):
         return chain, choice
     stack = filled(prepared.stack)
     for apart, columns in GLIMPSES:

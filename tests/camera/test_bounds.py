@@ -123,6 +123,25 @@ def test_steps_tell_nothing_of_effects_that_look_at_no_neighbour():
             assert alike.error(choice) == alone.error(choice), (seed, choice)
 
 
+def test_no_step_is_so_small_that_less_than_the_least_is_lost():
+    for seed in range(100):
+        source = np.random.default_rng([seed, 6])
+        prepared = Prepared(at_random.scene(source), at_random.camera(source, noise=True))
+        try:
+            present, view, seen = prepared.present, prepared.view, prepared.views
+            first = Chain(present, view, coarse(view), seen)
+        except SceneError:
+            continue
+        closer = Chain(present, view, measured(prepared.stack, view), seen)
+        units = _units(present, frozenset())
+        for choice in _chosen(units, source):
+            for unit in units:
+                least = first.least(unit.members[-1], choice)
+                for made in unit.choices[1:]:
+                    lost = closer.dn({**choice, **dict.fromkeys(unit.members, made)})
+                    assert least <= lost * (1 + 1e-9), (seed, unit, made)
+
+
 def test_a_glimpse_never_exceeds_the_facts_nor_a_closer_one():
     for _, _, prepared, _ in photographs(0, 40, noise=False):
         looks = [
