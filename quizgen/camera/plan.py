@@ -155,11 +155,17 @@ def _affordable(
     chain: Chain, units: tuple[Unit, ...], choice: dict[int, str], budget: float
 ) -> Iterator[tuple[Unit, str]]:
     """Choices that the budget allows beside those already made."""
+    least_fits = any(choice.values())  # asked once: what has opened something makes more fit
     for unit in units:
-        for made in () if unit.fixed else unit.choices:
-            if made == EXACT:
-                yield unit, made
-            elif not chain.hopeless(unit.members, made, budget):
+        if unit.fixed:
+            continue
+        yield unit, EXACT
+        if not least_fits and chain.present[unit.members[-1]].stage == "optics":
+            least_fits = chain.least(unit.members[-1], choice) <= budget
+            if not least_fits:
+                continue
+        for made in unit.choices[1:]:
+            if not chain.hopeless(unit.members, made, budget):
                 trial = {**choice, **dict.fromkeys(unit.members, made)}
                 if chain.dn(trial) <= budget:
                     yield unit, made
