@@ -108,6 +108,17 @@ def test_luck_that_is_left_out_as_well_hides_nothing():
     assert chain.before[index].noise > 0.0
 
 
+@pytest.mark.parametrize("left", [["dark current"], ["shot noise"], ["full well"]])
+def test_a_pedestal_moves_both_pictures_alike(left):
+    """What is seldom stays so, what goes by the light too; what a well holds back is no longer above 1."""
+    camera = noisy(bias=30.0, fixed_pattern=2.0, shot_noise=True, dark_current=1.5e-4, gamma="srgb")
+    ramp = np.linspace(0.0, 1.1, 600, dtype=np.float32)[:, None, None]
+    scene = Scene(600, 600, image=np.broadcast_to(ramp, (600, 600, 3)).copy(), seed=6)
+    bound, more, count = beyond(Prepared(scene, camera), left)
+    assert stats.binom.sf(more - 1, count, EXCEEDED) > CHANCE
+    assert bound < {"dark current": 1e-9, "shot noise": 70.0, "full well": 200.0}[left[0]]
+
+
 def test_gain_makes_the_luck_and_the_electrons_larger_alike():
     bounds = [
         chain.error({names.index("dark current"): SKIP}).share

@@ -47,6 +47,11 @@ def skipped(facts: Facts, view: View) -> Error:
     return Error(level(view), view.camera[FIXED_PATTERN] / electrons_at_white(view))
 
 
+def carried(error: Error, facts: Facts, view: View) -> Error:
+    """The same is added to both pictures: what stood beyond 0 or 1 may now stand anywhere."""
+    return error.everywhere() if error.bright else error.within()
+
+
 def after(facts: Facts, view: View) -> Facts:
     """Brighter by the pedestal; the offsets count as noise."""
     spread = msgspec.structs.replace(skipped(facts, view), sure=0.0)
@@ -62,6 +67,8 @@ EFFECT = Effect(
     run=PointByPoint(work),
     cost=measured((2.85, 126)),
     skipped=skipped,
+    carried=carried,
+    knows_where=True,
     after=after,
     random=True,
 )
