@@ -111,12 +111,15 @@ class Chain:
         made_of = choice.get
         for index, effect in enumerate(self.present[first:before], first):
             made = made_of(index, EXACT)
+            if error is NO_ERROR:
+                error = error if made == EXACT else self.off(index, made)
+                continue
             if made == SKIP:
                 lost = self.off(index, SKIP)
                 error = error.plus(lost) if effect.random else error.along(lost)
                 continue
-            if error is not NO_ERROR:  # choices differ in one effect: many meet the same error
-                error = self._passed[index].get(error) or self._carried(index, error)
+            # choices differ in one effect: many meet the same error
+            error = self._passed[index].get(error) or self._carried(index, error)
             if made != EXACT:
                 error = error.plus(self.off(index, made))
         return error
