@@ -237,10 +237,10 @@ def test_work_precision_curves_fall():
     assert all(a.error < b.error for a, b in zip(inverse_z.points, in_z.points, strict=True))
     landscape, texture = curves["camera"]
     assert texture.label == "texture"
-    single, double = landscape.points[:5], landscape.points[5:]
+    single, double = landscape.points[:4], landscape.points[4:]
     for kind, points in (("float32", single), ("float64", double)):
         assert {point.precision for point in points} == {kind}
-        assert [p.label for p in points] == ["=", "0.1", "0.5", "2", "32"]  # 8 is as 2
+        assert [p.label for p in points] == ["=", "0.1", "0.5", "8"]  # 2 is as 0.5, 32 as 8
         for point in points[1:]:
             assert point.error <= float(point.label)
         assert points[0].note.startswith("defocus, motion blur, shot noise")
