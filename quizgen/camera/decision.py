@@ -88,7 +88,7 @@ class Plan(msgspec.Struct, frozen=True):
         Bound on the difference to running everything, in 8-bit grey levels before rounding; where
         noise is skipped, all but 1 in 10 000 values keep it.
     predicted_ms : float
-        Of what is run everywhere.
+        As if what runs in any tile ran in all of them.
     budget : float
     levels : Levels
         What bright tiles do without.

@@ -9,7 +9,7 @@ whole picture, with a range that does not begin at its darkest value.
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import NamedTuple
 
 from msgspec.structs import replace
@@ -19,17 +19,13 @@ from quizgen.camera.chain import EXACT, SKIP, Chain
 from quizgen.camera.decision import NO_LEVELS, Level, Levels, Unit
 from quizgen.camera.effect import PointByPoint
 from quizgen.camera.facts import Error
+from quizgen.camera.spending import Choice, Costs, spend_more
 
 LEVELS = tuple(2.0**-stops for stops in range(1, 9))
 """Darkest values from which on a tile may need less, 1 = white."""
 LEAST_MS = 50.0
 """What the effects that a tile could do without must take for that to be tried: deciding takes
 about 1 ms, and few tiles of a small picture are bright all over."""
-
-Costs = list[dict[str, float]]
-Choice = dict[int, str]
-Spend = Callable[[Chain, tuple[Unit, ...], Costs, Choice, float], Choice]
-"""Leaves out more than a choice does, as long as the budget lasts."""
 
 
 class _Tail(NamedTuple):
@@ -63,7 +59,6 @@ def by_brightness(
     units: tuple[Unit, ...],
     costs: Costs,
     budget: float,
-    spend: Spend,
 ) -> Levels:
     """What more is left out in bright tiles, from dark to bright.
 
@@ -78,17 +73,15 @@ def by_brightness(
         Of each effect, by the way it is made, ms.
     budget : float
         Grey levels.
-    spend : callable
-        How the budget is spent.
     """
     tail = _tail(chain, choice, units, costs)
     if tail is None or not tail.arrived.total < LEVELS[0]:
         return NO_LEVELS
-    each = _each(tail, costs[tail.first :], budget, spend)
+    each = _each(tail, costs[tail.first :], budget)
     return Levels(chain.present[tail.first].name, tail.around, tuple(reversed(each)))
 
 
-def _each(tail: _Tail, costs: Costs, budget: float, spend: Spend) -> list[Level]:
+def _each(tail: _Tail, costs: Costs, budget: float) -> list[Level]:
     """From bright to dark: what is darker can do without no more."""
     each: list[Level] = []
     more = tail.known
@@ -97,7 +90,7 @@ def _each(tail: _Tail, costs: Costs, budget: float, spend: Spend) -> list[Level]
             continue
         bright = tail.where(level)
         if more == tail.known or bright.dn(more) > budget:
-            more = spend(bright, tail.free, costs, tail.known, budget)
+            more = spend_more(bright, tail.free, costs, tail.known, budget)
         if more == tail.known:
             break
         ways = {bright.present[i].name: made for i, made in more.items() if made != tail.known[i]}

@@ -21,12 +21,13 @@ from quizgen.camera.chain import EXACT, SKIP, Chain
 from quizgen.camera.costs import FACTS_PER_MEGAPIXEL
 from quizgen.camera.decision import Decision, Plan, Step, Unit, cost_table
 from quizgen.camera.draw import Stack, draw
-from quizgen.camera.effect import Effect, same_error
+from quizgen.camera.effect import Effect
 from quizgen.camera.filters import opencv
 from quizgen.camera.levels import by_brightness
 from quizgen.camera.look import coarse, filled, glimpsed, measured
 from quizgen.camera.margins import views
 from quizgen.camera.scene import Scene, SceneError
+from quizgen.camera.spending import Choice, Costs, spend
 from quizgen.camera.view import View
 from quizgen.outside import located
 
@@ -97,92 +98,11 @@ def _unit(members: tuple[int, ...], present: tuple[Effect, ...], asked: frozense
     return Unit(members, (EXACT, *rungs, SKIP), needed)
 
 
-def _spend(
-    chain: Chain, units: tuple[Unit, ...], costs: list[dict[str, float]], budget: float
-) -> dict[int, str]:
-    """Take the affordable choice that saves most per grey level, again and again."""
-    choice = {i: EXACT if unit.fixed else SKIP for unit in units for i in unit.members}
-    free = [unit.members for unit in units if not unit.fixed]
-    hopeless = any(chain.hopeless(members, SKIP, budget) for members in free)
-    if not hopeless and chain.dn(choice) <= budget:
-        return choice
-    return _spend_more(chain, units, costs, dict.fromkeys(choice, EXACT), budget)
-
-
-def _spend_more(
-    chain: Chain,
-    units: tuple[Unit, ...],
-    costs: list[dict[str, float]],
-    choice: dict[int, str],
-    budget: float,
-) -> dict[int, str]:
-    """The same, beginning with what is already left out."""
-    while True:
-        possible = list(_affordable(chain, units, choice, budget))
-        more = _greedily(chain, possible, costs, choice, budget)
-        again, choice = _opens_more(chain, choice, more), more
-        if not again:
-            return choice
-
-
-def _greedily(
-    chain: Chain,
-    possible: list[tuple[Unit, str]],
-    costs: list[dict[str, float]],
-    choice: dict[int, str],
-    budget: float,
-) -> dict[int, str]:
-    while True:
-        now, best, most = chain.dn(choice), choice, 0.0
-        for unit, made in possible:
-            if made == choice[unit.members[0]]:
-                continue
-            saved = sum(costs[i][choice[i]] - costs[i][made] for i in unit.members)
-            if saved <= 0.0:
-                continue
-            trial = {**choice, **dict.fromkeys(unit.members, made)}
-            error = chain.dn(trial)
-            if error <= budget:
-                score = saved / (max(error - now, 0.0) + 1e-6)
-                if score > most:
-                    best, most = trial, score
-        if not most:
-            return choice
-        choice = best
-
-
-def _affordable(
-    chain: Chain, units: tuple[Unit, ...], choice: dict[int, str], budget: float
-) -> Iterator[tuple[Unit, str]]:
-    """Choices that the budget allows beside those already made."""
-    least_fits = any(choice.values())  # asked once: what has opened something makes more fit
-    for unit in units:
-        if unit.fixed:
-            continue
-        yield unit, EXACT
-        if not least_fits and chain.present[unit.members[-1]].stage == "optics":
-            least_fits = chain.least(unit.members[-1], choice) <= budget
-            if not least_fits:
-                continue
-        for made in unit.choices[1:]:
-            if not chain.hopeless(unit.members, made, budget):
-                trial = {**choice, **dict.fromkeys(unit.members, made)}
-                if chain.dn(trial) <= budget:
-                    yield unit, made
-
-
-def _opens_more(chain: Chain, before: dict[int, str], now: dict[int, str]) -> bool:
-    """Whether something is newly left out that makes errors larger, such as a converter."""
-    newly = [index for index, made in now.items() if made == SKIP != before[index]]
-    known = any(chain.present[index].carried is not same_error for index in newly)
-    return known and any(chain.enlarges(index) for index in newly)
-
-
-def _total(costs: list[dict[str, float]], choice: dict[int, str]) -> float:
+def _total(costs: Costs, choice: Choice) -> float:
     return sum(costs[index][made] for index, made in choice.items())
 
 
-def _looking(chain: Chain, units: tuple[Unit, ...], choice: dict[int, str]) -> Iterator[Unit]:
+def _looking(chain: Chain, units: tuple[Unit, ...], choice: Choice) -> Iterator[Unit]:
     """What was kept and looks at neighbours: of single pixels, steps tell nothing."""
     for unit in units:
         kept = not unit.fixed and choice[unit.members[0]] != SKIP
@@ -190,14 +110,14 @@ def _looking(chain: Chain, units: tuple[Unit, ...], choice: dict[int, str]) -> I
             yield unit
 
 
-def _may_gain(chain: Chain, unit: Unit, choice: dict[int, str], budget: float) -> bool:
+def _may_gain(chain: Chain, unit: Unit, choice: Choice, budget: float) -> bool:
     """Whether a look at steps may afford what was kept: not where the least is a code too much."""
     last = unit.members[-1]
     return chain.least(last, {}) <= budget or chain.least(last, choice) <= budget
 
 
 def _opened(
-    units: tuple[Unit, ...], chains: tuple[Chain, Chain], choice: dict[int, str], budget: float
+    units: tuple[Unit, ...], chains: tuple[Chain, Chain], choice: Choice, budget: float
 ) -> bool:
     """Whether a second look affords a unit that a first has kept; what looks the same is passed."""
     first, second = chains
@@ -214,12 +134,12 @@ def _opened(
 
 
 def _best(
-    prepared: Prepared, units: tuple[Unit, ...], costs: list[dict[str, float]], budget: float
-) -> tuple[Chain, dict[int, str]]:
+    prepared: Prepared, units: tuple[Unit, ...], costs: Costs, budget: float
+) -> tuple[Chain, Choice]:
     """Decide from colours alone; look at the pixels only where that can still save time."""
     view, seen, present = prepared.view, prepared.views, prepared.present
     chain = Chain(present, view, coarse(view), seen)
-    choice = _spend(chain, units, costs, budget)
+    choice = spend(chain, units, costs, budget)
     hopes = tuple(_looking(chain, units, choice))
     if not any(_may_gain(chain, unit, choice, budget) for unit in hopes):
         return chain, choice
@@ -229,11 +149,11 @@ def _best(
         hopeful = Chain(present, view, glimpse, seen, like=chain)
         if not _opened(hopes, (chain, hopeful), choice, budget):
             return chain, choice
-    gain = _total(costs, choice) - _total(costs, _spend(hopeful, units, costs, budget))
+    gain = _total(costs, choice) - _total(costs, spend(hopeful, units, costs, budget))
     if gain <= FACTS_PER_MEGAPIXEL * view.megapixels:
         return chain, choice
     chain = Chain(present, view, measured(stack, view), seen)
-    return chain, _spend(chain, units, costs, budget)
+    return chain, spend(chain, units, costs, budget)
 
 
 def wanted(question: str | tuple[str, ...] | None, scene: Scene) -> frozenset[str]:
@@ -309,7 +229,7 @@ def decided(
         units = _units(present, asked)
         costs = cost_table(present, prepared.views, opencv_used=False)
         chain, choice = _best(prepared, units, costs, limit)
-        levels = by_brightness(chain, choice, units, costs, limit, _spend_more)
+        levels = by_brightness(chain, choice, units, costs, limit)
         return Decision(chain, choice, units, absent, limit, levels)
 
 
