@@ -139,6 +139,11 @@ def oracle(count: int) -> None:
             ]
             bounds = trial.bound[unit[0]], alone, sum(trial.whole.times[name] for name in unit)
             rows.setdefault(" + ".join(unit), []).append((*counts, *bounds))
+    _print_table(rows, budgets)
+
+
+def _print_table(rows: dict[str, list[tuple[float, ...]]], budgets: tuple[float, ...]) -> None:
+    """By effect how often it could be left out, then the shares of effects and of their time."""
     ways = "oracle", "by tile", "plan"
     heads = ("photos", *(f"{who} {b:g} DN" for b in budgets for who in ways))
     print(f"{'':31}" + "".join(f"{head:>15}" for head in (*heads, "bound DN", "real DN", "ms")))

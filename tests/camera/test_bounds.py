@@ -104,36 +104,33 @@ def test_bounds_are_not_merely_large():
         assert apart(photo, whole) > 0.9 * chain.dn({len(present) - 1: SKIP}), camera
 
 
-def test_steps_tell_nothing_of_effects_that_look_at_no_neighbour():
-    """Chains that take their bounds from another one predict what they would on their own."""
+def coarsely(kind):
+    """Random scenes that the camera can take, and their chains from colours alone."""
     for seed in range(100):
-        source = np.random.default_rng([seed, 5])
+        source = np.random.default_rng([seed, kind])
         prepared = Prepared(at_random.scene(source), at_random.camera(source, noise=True))
         try:
             present, view, seen = prepared.present, prepared.view, prepared.views
-            coarsely = Chain(present, view, coarse(view), seen)
+            yield seed, source, prepared, Chain(present, view, coarse(view), seen)
         except SceneError:
             continue
-        facts = measured(prepared.stack, view)
-        alone, alike = (
-            Chain(present, view, facts, seen),
-            Chain(present, view, facts, seen, like=coarsely),
-        )
+
+
+def test_steps_tell_nothing_of_effects_that_look_at_no_neighbour():
+    """Chains that take their bounds from another one predict what they would on their own."""
+    for seed, source, prepared, first in coarsely(5):
+        present, facts = first.present, measured(prepared.stack, prepared.view)
+        alone = Chain(present, prepared.view, facts, first.views)
+        alike = Chain(present, prepared.view, facts, first.views, like=first)
         for choice in _chosen(_units(present, frozenset()), source):
             assert alike.error(choice) == alone.error(choice), (seed, choice)
 
 
 def test_no_step_is_so_small_that_less_than_the_least_is_lost():
-    for seed in range(100):
-        source = np.random.default_rng([seed, 6])
-        prepared = Prepared(at_random.scene(source), at_random.camera(source, noise=True))
-        try:
-            present, view, seen = prepared.present, prepared.view, prepared.views
-            first = Chain(present, view, coarse(view), seen)
-        except SceneError:
-            continue
-        closer = Chain(present, view, measured(prepared.stack, view), seen)
-        units = _units(present, frozenset())
+    for seed, source, prepared, first in coarsely(6):
+        facts = measured(prepared.stack, prepared.view)
+        closer = Chain(first.present, prepared.view, facts, first.views)
+        units = _units(first.present, frozenset())
         for choice in _chosen(units, source):
             for unit in units:
                 least = first.least(unit.members[-1], choice)
