@@ -53,6 +53,8 @@ class Layer(msgspec.Struct, frozen=True):
     motion : Motion
     sharp : tuple of int
         Channels that are not out of focus yet: axial colour takes red and blue before the rest.
+    own : bool
+        Whether nobody else needs its memory, so that it may be written over.
     """
 
     colour: Image
@@ -60,6 +62,7 @@ class Layer(msgspec.Struct, frozen=True):
     depth: float | Image = math.inf
     motion: Motion = STILL
     sharp: tuple[int, ...] = ALL_CHANNELS
+    own: bool = False
 
     @property
     def even(self) -> bool:
@@ -191,7 +194,7 @@ def _tiles(view: View) -> Iterator[Box]:
             )
 
 
-def _both(one: Box, other: Box) -> Box | None:
+def both(one: Box, other: Box) -> Box | None:
     """What two boxes share."""
     rows, columns = (
         slice(max(a.start, b.start), min(a.stop, b.stop)) for a, b in zip(one, other, strict=True)
@@ -340,7 +343,7 @@ def _draw_sheet(sheet: Sheet, view: View) -> Layer:
             layer.colour[tile] = line[: tile[1].stop - tile[1].start]
         empty = not sheet.opaque
         for thing, box in zip(sheet.things, boxes, strict=True):
-            part = _both(tile, box)
+            part = both(tile, box)
             if part is not None and _add(layer, thing, view, part, empty=empty):
                 empty = False
     return layer

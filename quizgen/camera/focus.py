@@ -20,8 +20,9 @@ from quizgen.camera.draw import Box, Layer, Sheet, blend, content, sheets
 from quizgen.camera.facts import Error, Facts, LayerFacts
 from quizgen.camera.filters import convolve
 from quizgen.camera.kernels import Kernel, change, disc
-from quizgen.camera.layers import Field, blurred, farthest, wider, within
+from quizgen.camera.layers import Field, blurred, farthest, within
 from quizgen.camera.scene import Image
+from quizgen.camera.uneven import wider
 from quizgen.camera.view import View
 
 MAX_SLICES = 24
@@ -44,12 +45,13 @@ def in_channels(layer: Layer, view: View, shifts: Mapping[int, float], rung: str
     for channel, shift in shifts.items():
         own = slice(channel, channel + 1)
         seen = None if cover is None else np.ascontiguousarray(cover[..., own])
-        part = replace(layer, colour=np.ascontiguousarray(colour[..., own]), cover=seen)
+        light = np.ascontiguousarray(colour[..., own])
+        part = replace(layer, colour=light, cover=seen, own=False)
         blurry = defocused(part, view, shift, rung)
         colour[..., own] = blurry.colour
         if cover is not None and blurry.cover is not None:
             cover[..., own] = blurry.cover
-    return replace(layer, colour=colour, cover=cover)
+    return replace(layer, colour=colour, cover=cover, own=True)
 
 
 def slices(diameters: tuple[float, float], rung: str = "") -> Field:
@@ -111,7 +113,7 @@ def _bands(
     for start, stop in pieces(len(sharp), max(_BAND, 8 * reach)):
         first = max(start - reach, 0)
         there = (index[first : stop + reach] == number)[..., None]
-        rows, columns = wider(content(there), reach, there.shape)
+        rows, columns = wider(content(there), (reach, reach), there.shape)
         top, bottom = max(first + rows.start, start), min(first + rows.stop, stop)
         if top >= bottom:
             continue

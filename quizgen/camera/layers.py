@@ -7,94 +7,114 @@ the range times the cover's; `LayerFacts` hold steps weighted in exactly that wa
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+import sys
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import product
 
 import numpy as np
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
+from quizgen.camera.blocks import pieces
 from quizgen.camera.body import VELOCITY
-from quizgen.camera.draw import Box, Layer, Motion, Sheet, content, leaves_frame, sheets
+from quizgen.camera.draw import Box, Layer, Motion, Sheet, both, content, leaves_frame, sheets
 from quizgen.camera.facts import Error, Facts, LayerFacts
-from quizgen.camera.filters import convolve, sample
+from quizgen.camera.filters import convolve_all, sample
 from quizgen.camera.kernels import Kernel
 from quizgen.camera.scene import Image
+from quizgen.camera.uneven import Places, blurred_places, places, whole, wider
 from quizgen.camera.view import View
 
 Field = NDArray[np.float64]
 
 
-def resampled(layer: Layer, work: Callable[[Image, Box], Image], reach: float) -> Layer:
-    """A layer whose colour and cover went the same way.
+Work = Callable[[list[Image], Box], list[Image]]
+"""Makes colour and, but for an opaque layer, cover of a box anew."""
+
+_ROWS = 256
+"""Rows made at once, so that what lies in between stays small."""
+
+
+def worked_on(
+    layer: Layer, where: Places, work: Work, most: tuple[int, int] = (_ROWS, sys.maxsize)
+) -> Layer:
+    """A layer in which some places are made anew.
 
     Parameters
     ----------
     layer : Layer
+    where : Places
     work : callable
-        Gets an image and which part of the result is wanted.
-    reach : float
-        How far anything may get, px: beyond it an empty place stays empty, so that only what is
-        near the content is computed.
+        Gets colour and cover and what is wanted of them.
+    most : (int, int)
+        Rows and columns that are made at once, so that what lies in between stays small.
     """
-    box = _reached(layer, reach)
-    if layer.cover is None:
-        return replace(layer, colour=work(layer.colour, box))
-    if not box[0].stop:
+    if not where.boxes:
         return layer
-    return _within_box(layer, box, work(layer.colour, box), work(layer.cover, box))
+    images = [layer.colour] if layer.cover is None else [layer.colour, layer.cover]
+    results = images if layer.own else [_copied(image, layer, where.boxes[0]) for image in images]
+    made: list[Made] = []
+    for box in sorted(_in_pieces(where.boxes, most), key=_top):
+        # nothing may be written over while others still look at it
+        done = _top(box) - (where.reach if results is images else 0)
+        _write((one for one in made if one[0][0].stop <= done), results)
+        made = [one for one in made if one[0][0].stop > done]
+        made.append((box, work(images, box)))
+    _write(made, results)
+    cover = None if layer.cover is None else results[1]
+    return replace(layer, colour=results[0], cover=cover, own=True)
+
+
+Made = tuple[Box, list[Image]]
+
+
+def _top(box: Box) -> int:
+    return int(box[0].start)
+
+
+def _write(made: Iterable[Made], results: list[Image]) -> None:
+    for box, parts in made:
+        for result, part in zip(results, parts, strict=True):
+            result[box] = part
+
+
+def _copied(image: Image, layer: Layer, first: Box) -> Image:
+    """A copy of what stays; unlike in others, what is empty takes no memory."""
+    if image[first].shape == image.shape:
+        return np.empty(image.shape, image.dtype)
+    if layer.cover is None:
+        return image.copy()
+    result: Image = np.zeros(image.shape, image.dtype)
+    there = content(layer.cover)
+    result[there] = image[there]
+    return result
+
+
+def _in_pieces(boxes: list[Box], most: tuple[int, int]) -> Iterator[Box]:
+    for rows, columns in boxes:
+        for top, bottom in pieces(rows.stop - rows.start, most[0]):
+            for left, right in pieces(columns.stop - columns.start, most[1]):
+                down = slice(rows.start + top, rows.start + bottom)
+                yield down, slice(columns.start + left, columns.start + right)
 
 
 def blurred(layer: Layer, kernel: Kernel) -> Layer:
     """A layer convolved with a kernel; colour and cover go through it together."""
     if kernel.size == 1:
         return layer
-    if layer.cover is None:
-        return replace(layer, colour=convolve(layer.colour, kernel))
-    reach = max(kernel.shape) // 2
-    rows, columns = _reached(layer, reach)
-    # unlike zeros_like, zeros takes no memory where nothing is written
-    colour: Image = np.zeros(layer.colour.shape, layer.colour.dtype)
-    cover: Image = np.zeros(layer.cover.shape, layer.cover.dtype)
-    band = max(_BAND, 64 * reach)
-    for start in range(rows.start, rows.stop, band):
-        stop, first = min(start + band, rows.stop), max(start - reach, 0)
-        seen = slice(first, stop + reach), columns
-        both = convolve(np.concatenate([layer.colour[seen], layer.cover[seen]], axis=2), kernel)
-        inner, part = both[start - first :][: stop - start], (slice(start, stop), columns)
-        colour[part], cover[part] = inner[..., : colour.shape[2]], inner[..., colour.shape[2] :]
-    return replace(layer, colour=colour, cover=cover)
+    down, across = (side // 2 for side in kernel.shape)
 
+    def blur(images: list[Image], box: Box) -> list[Image]:
+        seen = wider(box, (down, across), images[0].shape)
+        top, left = (part.start - more.start for part, more in zip(box, seen, strict=True))
+        light = [image[seen] for image in images]
+        found = convolve_all(light[0] if len(light) == 1 else np.concatenate(light, axis=2), kernel)
+        found = found[top:, left:][: box[0].stop - box[0].start, : box[1].stop - box[1].start]
+        channels = images[0].shape[2]
+        return [found[..., :channels], found[..., channels:]][: len(images)]
 
-_BAND = 256
-"""Rows blurred at once, so that copies stay small."""
-
-
-def _within_box(layer: Layer, box: Box, colour: Image, cover: Image) -> Layer:
-    """A layer that is empty but for a box."""
-    parts = []
-    for part in (colour, cover):
-        parts.append(np.zeros((*layer.colour.shape[:2], part.shape[2]), part.dtype))
-        parts[-1][box] = part
-    return replace(layer, colour=parts[0], cover=parts[1])
-
-
-def _reached(layer: Layer, reach: float) -> Box:
-    """Where anything of a layer may get."""
-    shape = layer.colour.shape
-    if layer.cover is None:
-        return slice(0, shape[0]), slice(0, shape[1])
-    return wider(content(layer.cover), math.ceil(min(reach, sum(shape))) + 1, shape)
-
-
-def wider(box: Box, far: int, shape: tuple[int, ...]) -> Box:
-    """A box, unless it is empty, with so much more on each side as there is."""
-    if not box[0].stop:
-        return box
-    rows, columns = (
-        slice(max(part.start - far, 0), min(part.stop + far, length))
-        for part, length in zip(box, shape, strict=False)
-    )
-    return rows, columns
+    band = max(_ROWS, 64 * down), sys.maxsize
+    return worked_on(layer, blurred_places(layer, kernel), blur, band)
 
 
 def each(facts: Facts, view: View) -> Iterator[tuple[LayerFacts, Sheet, float]]:
@@ -177,56 +197,43 @@ def turned(layer: Layer, angles: Sequence[float | Field], reach: float) -> Layer
     reach : float
         Farthest that anything gets by these angles, px.
     """
-    images = [layer.colour] if layer.cover is None else [layer.colour, layer.cover]
-    results = [np.zeros(image.shape, image.dtype) for image in images]
-    for tile in _filled(layer, reach):
-        for result, mean in zip(results, _turned(images, tile, layer.motion, angles), strict=True):
-            result[tile] = mean
-    return replace(layer, colour=results[0], cover=None if layer.cover is None else results[1])
+
+    def turn(images: list[Image], box: Box) -> list[Image]:
+        return _turned(images, box, layer.motion, angles)
+
+    where, near = places(layer, (reach, reach)), _round(layer)
+    boxes = [part for box in where.boxes if (part := both(box, near)) is not None]
+    return worked_on(layer, where._replace(boxes=boxes), turn, _TURNED)
 
 
-_TILE, _CELL = 128, 32
-"""Sides of the squares that are turned or not, and of those that are empty or not."""
-_ROW = 8
-"""Squares beside each other that are turned at once: few calls, and all that they need is small."""
+def _round(layer: Layer) -> Box:
+    """Where anything of a layer may get that turns about its pivot."""
+    shape = layer.colour.shape
+    ends = whole(shape) if layer.cover is None else content(layer.cover)
+    if any(not part.start or part.stop == side for part, side in zip(ends, shape, strict=False)):
+        return whole(shape)  # its edge is repeated outward, and comes in from there
+    (x, y), corners = layer.motion.pivot, product(*((part.start, part.stop) for part in ends))
+    far = max(math.hypot(row - y, column - x) for row, column in corners) + 1.0
+    rows, columns = (
+        slice(max(math.floor(middle - far), 0), min(math.ceil(middle + far) + 1, side))
+        for middle, side in zip((y, x), shape, strict=False)
+    )
+    return rows, columns
 
 
-def _filled(layer: Layer, reach: float) -> Iterator[Box]:
-    """Rows of tiles that content may reach."""
-    height, width = layer.colour.shape[:2]
-    lines = [np.arange(0, length, _CELL) for length in (height, width)]
-    there = np.ones((len(lines[0]), len(lines[1])), bool)
-    if layer.cover is not None:
-        rows = np.logical_or.reduceat(layer.cover.any(axis=2), lines[0], axis=0)
-        there = np.logical_or.reduceat(rows, lines[1], axis=1)
-    far, cells = math.ceil(min(reach, height + width) / _CELL), _TILE // _CELL
-    for y in range(0, len(there), cells):
-        band = np.any(there[max(0, y - far) : y + cells + far], axis=0)
-        starts = range(0, len(band), cells)
-        full = [bool(np.any(band[max(0, x - far) : x + cells + far])) for x in starts]
-        for first, last in _runs(full):
-            yield slice(y * _CELL, y * _CELL + _TILE), slice(first * _TILE, last * _TILE)
-
-
-def _runs(full: list[bool]) -> Iterator[tuple[int, int]]:
-    """First and last (exclusive) of full places beside each other, a few at a time."""
-    first = 0
-    for place, now in enumerate([*full, False]):
-        if not now or place - first == _ROW:
-            if first < place:
-                yield first, place
-            first = place + (not now)
+_TURNED = 128, 1024
+"""Rows and columns turned at once: few calls, and all that they need is small."""
 
 
 def _turned(
-    images: list[Image], tile: Box, motion: Motion, angles: Sequence[float | Field]
+    images: list[Image], box: Box, motion: Motion, angles: Sequence[float | Field]
 ) -> list[Image]:
     height, width = images[0].shape[:2]
-    x = np.arange(width)[None, tile[1]] - motion.pivot[0]
-    y = np.arange(height)[tile[0], None] - motion.pivot[1]
+    x = np.arange(width)[None, box[1]] - motion.pivot[0]
+    y = np.arange(height)[box[0], None] - motion.pivot[1]
     totals = [np.zeros((y.size, x.size, image.shape[2]), image.dtype) for image in images]
     for angle in angles:
-        by_row = angle if isinstance(angle, float) else angle[tile[0]]
+        by_row = angle if isinstance(angle, float) else angle[box[0]]
         cosine, sine = np.cos(by_row), np.sin(by_row)
         column = (cosine * x + sine * y + motion.pivot[0]).astype(images[0].dtype)
         row = (cosine * y - sine * x + motion.pivot[1]).astype(images[0].dtype)

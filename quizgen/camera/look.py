@@ -10,6 +10,7 @@ from msgspec.structs import replace
 from quizgen.camera.draw import Layer, Sheet, Stack, content, sheets
 from quizgen.camera.facts import Facts, LayerFacts
 from quizgen.camera.scene import Image
+from quizgen.camera.uneven import steps
 from quizgen.camera.view import View
 
 _ROWS = 64
@@ -37,10 +38,32 @@ def coarse(view: View) -> Facts:
 
 
 def measured(stack: Stack, view: View) -> Facts:
-    """Facts from one pass over the drawn layers, or over what of them is `filled`."""
+    """Facts from one pass over all of the drawn layers that is not even."""
     low, high = view.scene.range
-    middle = (low + high) / 2
-    return Facts(low, high, tuple(_measure(layer, middle, high - low, 1) for layer in stack))
+    return Facts(
+        low, high, tuple(_measured(layer, (low + high) / 2, high - low) for layer in stack)
+    )
+
+
+def _measured(layer: Layer, middle: float, span: float) -> LayerFacts:
+    found = [_measure(part, middle, span, 1, ends=ends) for part, ends in _uneven_parts(layer)]
+    pairs = [[*one.jump, *one.bend] for one in found] or [[0.0] * 4]
+    across, down, bend_across, bend_down = (max(column) for column in zip(*pairs, strict=True))
+    return LayerFacts((across, down), (bend_across, bend_down))
+
+
+def _uneven_parts(layer: Layer) -> Iterator[tuple[Layer, tuple[Ends, Ends]]]:
+    """Parts of a layer outside of which it has no steps, and where they end at its border."""
+    for box in steps(layer):
+        cover = None if layer.cover is None else layer.cover[box]
+        sides = zip(box, layer.colour.shape, strict=False)
+        rows, columns = ((part.start == 0, part.stop == side) for part, side in sides)
+        yield replace(layer, colour=layer.colour[box], cover=cover), (rows, columns)
+
+
+Ends = tuple[bool, bool]
+"""Whether the first and the last line stand at the border, where a picture is mirrored."""
+_ALL = (True, True), (True, True)
 
 
 def filled(stack: Stack) -> Stack:
@@ -69,25 +92,30 @@ def glimpsed(stack: Stack, view: View, every: int, *, columns: bool = True) -> F
 
 
 def _measure(
-    layer: Layer, middle: float, span: float, every: int, *, columns: bool = True
+    layer: Layer,
+    middle: float,
+    span: float,
+    every: int,
+    *,
+    columns: bool = True,
+    ends: tuple[Ends, Ends] = _ALL,
 ) -> LayerFacts:
-    along_x = _differences(layer.colour, layer.cover, middle, span, every, axis=1)
-    along_y = 0.0, 0.0
-    if columns:
-        along_y = _differences(layer.colour, layer.cover, middle, span, every, axis=0)
+    levels = middle, span
+    along_x = _differences(layer, levels, every, 1, ends[1])
+    along_y = _differences(layer, levels, every, 0, ends[0]) if columns else (0.0, 0.0)
     return LayerFacts((along_x[0], along_y[0]), (along_x[1], along_y[1]))
 
 
 def _differences(
-    colour: Image, cover: Image | None, middle: float, span: float, every: int, axis: int
+    layer: Layer, levels: tuple[float, float], every: int, axis: int, ends: Ends
 ) -> tuple[float, float]:
-    step, bend = 0.0, 0.0
-    for part, covered in _parts(colour, cover, every, axis):
+    step, bend, (middle, span) = 0.0, 0.0, levels
+    for part, covered in _parts(layer.colour, layer.cover, every, axis):
         if covered is None:
-            first, second = _extremes(part, axis)
+            first, second = _extremes(part, axis, ends)
         else:
-            edge = _extremes(covered, axis)
-            first, second = _extremes(_against(part, covered, middle), axis)
+            edge = _extremes(covered, axis, ends)
+            first, second = _extremes(_against(part, covered, middle), axis, ends)
             first, second = first + edge[0] * span / 2, second + edge[1] * span / 2
         step, bend = max(step, first), max(bend, second)
     slack = 1.0 + 1e-6
@@ -132,17 +160,16 @@ def _thinned(values: Image, every: int, axis: int) -> Image:
     return groups[:, :, :_BESIDE].reshape(height, -1, channels)
 
 
-def _extremes(values: Image, axis: int) -> tuple[float, float]:
+def _extremes(values: Image, axis: int, ends: Ends) -> tuple[float, float]:
     """Largest first and second difference along an axis; at the border mirrored."""
     if values.shape[axis] < 2:
         return 0.0, 0.0
-    steps = _steps(values, axis)
-    last = steps.shape[axis] - 1
-    if not last:
-        first = _largest(steps)
-        return first, 2.0 * first
-    ends = steps[::last] if axis == 0 else steps[:, ::last]
-    return _largest(steps), max(2.0 * _largest(ends), _largest(_steps(steps, axis)))
+    found = _steps(values, axis)
+    first = _largest(found)
+    lines = found if axis == 0 else found.swapaxes(0, 1)
+    mirrored = [lines[at] for at, there in zip((0, -1), ends, strict=True) if there]
+    second = max([2.0 * _largest(line) for line in mirrored], default=0.0)
+    return first, max(second, _largest(_steps(found, axis))) if len(lines) > 1 else second
 
 
 def _steps(values: Image, axis: int) -> Image:

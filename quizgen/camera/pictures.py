@@ -25,9 +25,9 @@ from quizgen.camera.effects.normalisation import stretch_range
 from quizgen.camera.filters import convolve_all, everywhere_alike
 from quizgen.camera.hsv import edit_hsv
 from quizgen.camera.kernels import Kernel, disc
-from quizgen.camera.layers import wider
 from quizgen.camera.noise import luck
 from quizgen.camera.scene import Image, Scene
+from quizgen.camera.uneven import wider
 from quizgen.camera.view import View
 
 Codes = NDArray[np.uint8]
@@ -154,7 +154,7 @@ def _sharp(scene: Scene, some: tuple[int, ...]) -> Laid:
 
 def _blurred(scene: Scene, some: tuple[int, ...], kernel: Kernel) -> Laid:
     image, box = _drawn(scene, some)
-    part = wider(box, kernel.shape[0] // 2, image.shape)
+    part = wider(box, (kernel.shape[0] // 2, kernel.shape[1] // 2), image.shape)
     return _laid(part, convolve_all(np.ascontiguousarray(image[part]), kernel))
 
 

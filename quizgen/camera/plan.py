@@ -152,7 +152,7 @@ def _best(
     gain = _total(costs, choice) - _total(costs, spend(hopeful, units, costs, budget))
     if gain <= FACTS_PER_MEGAPIXEL * view.megapixels:
         return chain, choice
-    chain = Chain(present, view, measured(stack, view), seen)
+    chain = Chain(present, view, measured(prepared.stack, view), seen)
     return chain, spend(chain, units, costs, budget)
 
 

@@ -9,6 +9,7 @@ from time import perf_counter
 
 import msgspec
 import numpy as np
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from quizgen.camera import effects
@@ -177,6 +178,7 @@ class _Run:
         picture: Image | None = None
         while self.stack:
             layer = self.stack.pop(0)
+            layer = replace(layer, own=self._ours(layer.colour))
             for step in () if layer.even else steps:
                 started, view = perf_counter(), self._view(step)
                 (layer,) = _effect(step).run((cropped(layer, view),), view, step.rung)

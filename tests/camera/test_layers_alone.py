@@ -1,13 +1,9 @@
 """Layers are photographed one by one, and only where something is: the picture is the same."""
 
-from itertools import product
-
 import numpy as np
-import pytest
 
 from quizgen.camera import Camera, Length, Scene, Thing, View, layers
 from quizgen.camera.draw import Layer, composite, draw
-from quizgen.camera.effects import by_name
 from quizgen.camera.kernels import disc
 from quizgen.camera.margins import cropped
 from quizgen.camera.plan import Prepared, everything
@@ -69,27 +65,6 @@ def test_a_wall_that_moves_does_not_hide_what_comes_after():
     assert [layer.cover is None for layer in stack] == [True, False]
     assert composite(stack)[8, 10].tolist() == [1.0, 0.0, 0.0]
     assert composite(stack)[0, 0].tolist() == [0.0, 0.0, 1.0]
-
-
-@pytest.mark.parametrize("effect", ["motion blur", "rolling shutter", "defocus"])
-def test_tiles_and_bands_leave_no_seams(effect, monkeypatch):
-    prepared = Prepared(scene(), CAMERA)
-    view = prepared.views[0]
-    parts = by_name(effect).run(prepared.stack, view, "")
-    monkeypatch.setattr(layers, "_TILE", 1024)
-    monkeypatch.setattr(layers, "_BAND", 1024)
-    whole = by_name(effect).run(prepared.stack, view, "")
-    assert np.abs(composite(parts) - composite(whole)).max() < 1e-5
-
-
-@pytest.mark.parametrize("length", [1, 7, 8, 9, 17])
-def test_every_filled_tile_is_turned_once(length):
-    for kept in product((False, True), repeat=min(length, 9)):
-        full = [*kept, *(True for _ in range(length - len(kept)))]
-        runs = list(layers._runs(full))
-        places = [place for first, last in runs for place in range(first, last)]
-        assert places == [place for place, now in enumerate(full) if now]
-        assert all(last - first <= 8 for first, last in runs)
 
 
 def test_an_empty_layer_stays_empty():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from functools import lru_cache
 
 import numpy as np
@@ -20,13 +21,14 @@ from quizgen.camera.layers import (
     Field,
     farthest,
     mixed_axes,
-    resampled,
     rounding,
     shifted,
     within,
+    worked_on,
 )
 from quizgen.camera.scene import Image, Precision, SceneError
 from quizgen.camera.settings import Setting
+from quizgen.camera.uneven import places
 from quizgen.camera.values import number
 from quizgen.camera.view import View
 
@@ -127,14 +129,17 @@ _ROWS = 64
 """Rows worked on at once, so that what lies in between stays small."""
 
 
-def source(view: View, rows: slice = slice(None)) -> tuple[Image, Image]:
-    """Where the pixels of some rows come from; small maps are kept, large ones made when needed."""
+def source(view: View, box: Box = (slice(None), slice(None))) -> tuple[Image, Image]:
+    """Where the pixels of a box come from; small maps are kept, large ones made when needed."""
     camera, sides = view.camera, (view.width, view.height)
     lens = *sides, view.focal, camera[K1], camera[K2], view.frame_corner, view.precision
+    rows, columns = (
+        range(*part.indices(side)) for part, side in zip(box, sides[::-1], strict=True)
+    )
     if view.width * view.height > _KEPT:
-        return _rows(lens, range(view.height)[rows])
+        return _map(lens, rows, columns)
     x, y = _kept(lens)
-    return x[rows], y[rows]
+    return x[box], y[box]
 
 
 _BAND = 64
@@ -146,18 +151,23 @@ _Lens = tuple[int, int, float, float, float, float, Precision]
 
 @lru_cache(maxsize=4)
 def _kept(lens: _Lens) -> tuple[Image, Image]:
-    return _rows(lens, range(lens[1]))
+    return _map(lens, range(lens[1]), range(lens[0]))
 
 
-def _rows(lens: _Lens, rows: range) -> tuple[Image, Image]:
-    """Some rows of a map: three quadrants mirror the first."""
+def _map(lens: _Lens, rows: range, columns: range) -> tuple[Image, Image]:
+    """A part of a map: three quadrants mirror the first."""
     width, height = lens[:2]
     across, down = np.arange(width) - (width - 1) / 2, np.arange(height) - (height - 1) / 2
-    line = np.asarray(rows)
+    line, half = np.asarray(rows), (width + 1) // 2
     left = quadrant(*lens[:6])[np.minimum(line, height - 1 - line)]
-    factor = np.concatenate([left, left[:, width // 2 - 1 :: -1]], axis=1)
+    straight = left[:, columns.start : min(columns.stop, half)]
+    first, last = max(columns.start, half), columns.stop
+    mirrored = left[:, width - last : width - first][:, ::-1]
+    factor = np.concatenate([straight, mirrored], axis=1)
     x, y = (np.empty(factor.shape, lens[6]) for _ in range(2))
-    np.add(factor * across, (width - 1) / 2, out=x, casting="same_kind")
+    np.add(
+        factor * across[columns.start : columns.stop], (width - 1) / 2, out=x, casting="same_kind"
+    )
     np.add(factor * down[line, None], (height - 1) / 2, out=y, casting="same_kind")
     return x, y
 
@@ -166,18 +176,13 @@ def work(layer: Layer, view: View, rung: str = "") -> Layer:
     """Read every pixel where it comes from; the rung ``nearest`` does not interpolate."""
     pick = sample_nearest if rung == "nearest" else sample
 
-    def warp(image: Image, box: Box) -> Image:
-        rows, columns = (
-            range(*part.indices(length)) for part, length in zip(box, image.shape, strict=False)
-        )
-        result = np.empty((len(rows), len(columns), image.shape[2]), image.dtype)
-        for start in range(0, len(rows), _BAND):
-            part = rows[start : start + _BAND]
-            x, y = source(view, slice(part.start, part.stop))
-            result[start : start + _BAND] = pick(image, x[:, box[1]], y[:, box[1]])
-        return result
+    def warp(images: list[Image], box: Box) -> list[Image]:
+        x, y = source(view, box)
+        return [pick(image, x, y) for image in images]
 
-    return _with_depth(resampled(layer, warp, largest_displacement(view)), view)
+    far = largest_displacement(view)
+    where = places(layer, (far, far))
+    return _with_depth(worked_on(layer, where, warp, (_BAND, sys.maxsize)), view)
 
 
 def _with_depth(layer: Layer, view: View) -> Layer:
@@ -185,7 +190,9 @@ def _with_depth(layer: Layer, view: View) -> Layer:
         return layer
     depth = np.empty_like(layer.depth)
     for start, stop in pieces(len(depth), _BAND):
-        depth[start:stop] = sample_nearest(layer.depth, *source(view, slice(start, stop)))
+        depth[start:stop] = sample_nearest(
+            layer.depth, *source(view, (slice(start, stop), slice(None)))
+        )
     return replace(layer, depth=depth)
 
 

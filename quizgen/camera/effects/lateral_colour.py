@@ -10,9 +10,10 @@ from quizgen.camera.draw import Box, Layer, sheets
 from quizgen.camera.effect import Effect, LayerByLayer
 from quizgen.camera.facts import Error, Facts
 from quizgen.camera.filters import sample_grid
-from quizgen.camera.layers import farthest, resampled, rounding, shifted
+from quizgen.camera.layers import farthest, rounding, shifted, worked_on
 from quizgen.camera.scene import Image, SceneError
 from quizgen.camera.settings import Setting
+from quizgen.camera.uneven import places
 from quizgen.camera.values import quantity
 from quizgen.camera.view import View
 
@@ -41,16 +42,23 @@ def _scales(view: View) -> tuple[float, float, float]:
 
 def work(layer: Layer, view: View, rung: str = "") -> Layer:
     """Magnify a layer's colours differently."""
-
-    def split(image: Image, box: Box) -> Image:
-        result = np.empty(image[box].shape, image.dtype)
-        for channel in range(3):
-            _scale(image[..., channel], view, channel, box, result[..., channel])
-        return result
-
+    far = _farthest(view)
+    where = places(layer, (far, far))
     if layer.cover is not None:  # a cover for each colour
-        layer = replace(layer, cover=np.broadcast_to(layer.cover, layer.colour.shape))
-    return resampled(layer, split, _farthest(view))
+        cover = np.broadcast_to(layer.cover, layer.colour.shape)
+        layer = replace(layer, cover=cover, own=False)
+
+    def split(images: list[Image], box: Box) -> list[Image]:
+        return [_split(image, view, box) for image in images]
+
+    return worked_on(layer, where, split)
+
+
+def _split(image: Image, view: View, box: Box) -> Image:
+    result = np.empty(image[box].shape, image.dtype)
+    for channel in range(3):
+        _scale(image[..., channel], view, channel, box, result[..., channel])
+    return result
 
 
 def _scale(plane: Image, view: View, channel: int, box: Box, into: Image) -> None:

@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from quizgen.camera.body import VELOCITY
 from quizgen.camera.costs import at_least_a_call, sampling
-from quizgen.camera.draw import Layer, Sheet, sheets
+from quizgen.camera.draw import Box, Layer, Sheet, sheets
 from quizgen.camera.effect import Effect, LayerByLayer
 from quizgen.camera.facts import Error, Facts, LayerFacts
 from quizgen.camera.filters import sample
@@ -20,14 +20,15 @@ from quizgen.camera.layers import (
     each,
     farthest,
     path,
-    resampled,
     rim,
     rounding,
     turned,
     within,
+    worked_on,
 )
 from quizgen.camera.scene import Image
 from quizgen.camera.settings import NOT_NEGATIVE, Setting
+from quizgen.camera.uneven import places
 from quizgen.camera.values import quantity
 from quizgen.camera.view import View
 
@@ -50,11 +51,17 @@ def work(layer: Layer, view: View, rung: str = "") -> Layer:
     across, down = path(motion, view, 1.0)
     if not across and not down:
         return layer
-    x = np.arange(view.width)[None, :] - across * times
-    y = np.arange(view.height)[:, None] - down * times + np.zeros_like(x)
-    where = _near(x, view.width, view), _near(y, view.height, view)
-    far = math.hypot(across, down) * float(times[-1, 0])
-    return resampled(layer, lambda image, box: sample(image, *(at[box] for at in where)), far)
+
+    def sheared(images: list[Image], box: Box) -> list[Image]:
+        late = times[box[0]]
+        x = np.arange(view.width)[None, box[1]] - across * late
+        y = np.arange(view.height)[box[0], None] - down * late + np.zeros_like(x)
+        where = _near(x, view.width, view), _near(y, view.height, view)
+        return [sample(image, *where) for image in images]
+
+    latest = float(times[-1, 0])
+    far = abs(across) * latest, abs(down) * latest
+    return worked_on(layer, places(layer, far), sheared)
 
 
 def _near(positions: Field, length: int, view: View) -> Image:
