@@ -9,7 +9,7 @@ from msgspec.structs import replace
 from quizgen.camera.blocks import Work
 from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, PointByPoint, Rung
-from quizgen.camera.facts import DEVIATIONS, REACH, Error, Facts
+from quizgen.camera.facts import CERTAIN, DEVIATIONS, REACH, Error, Facts
 from quizgen.camera.power import CURVE_ERROR, TABLE, by_table, encode_number, encoder
 from quizgen.camera.settings import Rule, Setting, Settings
 from quizgen.camera.values import number
@@ -73,19 +73,25 @@ def table(facts: Facts, view: View) -> Error:
 
 
 def _spread(error: Error, bottom: float, view: View) -> Error:
-    """An error after encoding: above a concave curve lies its tangent where the error ends.
+    """An error after encoding."""
+    sure, sigma = _ends(error.total, error.sigma, bottom, view.camera[GAMMA])
+    return replace(error, sure=sure, sigma=sigma)
 
-    With a chord instead, small luck would be spread by more than its share.
+
+def _ends(far: float, sigma: float, bottom: float, gamma: str | float) -> tuple[float, float]:
+    """What is sure and what is random of an error after encoding.
+
+    Above a concave curve lies its tangent where the error ends. With a chord instead, small luck
+    would be spread by more than its share.
     """
-    gamma, start, far = view.camera[GAMMA], max(0.0, bottom), error.total
+    start = max(0.0, bottom)
     dark = encode_number(start, gamma)
     total = encode_number(start + far, gamma) - dark
-    if not error.sigma:
-        return replace(error, sure=total)
+    if not sigma:
+        return total, 0.0
     shorter = encode_number(start + far * (1.0 - _SHORT), gamma) - dark
     slope = (total - shorter) / (far * _SHORT)
-    sure = total - slope * DEVIATIONS * error.sigma + CURVE_ERROR
-    return replace(error, sure=sure, sigma=slope * error.sigma)
+    return total - slope * DEVIATIONS * sigma + CURVE_ERROR, slope * sigma
 
 
 _SHORT = 2.0**-10
@@ -95,37 +101,45 @@ def carried(error: Error, facts: Facts, view: View) -> Error:
     """The darkest values are spread most, of all or of those in the light; both are clipped."""
     error = error.clipped()
     bottom = facts.bottom - error.certain
-    noisy = replace(error, bright=0.0, rare=0.0, flat=0.0, root=0.0)
-    spread = _spread(noisy, bottom, view)
+    spread = _spread(_bare(error), bottom, view)
     if error.root:
-        by_level = _by_level(error, facts, view)
-        spread = min(spread, by_level, key=lambda way: way.total)
+        spread = _by_level(error, facts, view, spread)
     bright = _gap(error.bright, error.level, view) if error.bright else 0.0
     rare = _gap(error.rare, bottom, view) + CURVE_ERROR if error.rare else 0.0
     return replace(spread, sure=spread.sure + bright, rare=rare, level=math.inf)
 
 
-def _by_level(error: Error, facts: Facts, view: View) -> Error:
+def _bare(error: Error) -> Error:
+    """What is everywhere and as large as it may be."""
+    if not error.bright and not error.rare and not error.root:
+        return error
+    return replace(error, bright=0.0, rare=0.0, flat=0.0, root=0.0)
+
+
+def _by_level(error: Error, facts: Facts, view: View, least: Error) -> Error:
     """An error that grows with the light after encoding, which spreads it less there.
 
-    From bright to dark, up to where the value with all its noise may be black.
+    From bright to dark, up to where the value with all its noise may be black, unless that gives no
+    less than what is known already.
     """
-    tail, noise = facts.down
+    (tail, noise), gamma, bare = facts.down, view.camera[GAMMA], _bare(error)
+    everywhere, elsewhere = bare.total - DEVIATIONS * bare.sigma, error.certain
+    elsewhere -= CERTAIN * error.sigma
     light, most, sure, sigma = facts.high, error.deviation(facts.high), 0.0, 0.0
-    while True:
+    while sure + DEVIATIONS * sigma < least.total:
         dark = light / _APART
         own = tail + REACH * math.hypot(noise, most)
         lowest = max(facts.bottom, min(dark - own, facts.limits[1]))
-        here = replace(error, sigma=most)
-        start = lowest - here.certain
-        last = start <= 0.0 or dark <= facts.low
+        certain = elsewhere + CERTAIN * most
+        last = lowest - certain <= 0.0 or dark <= facts.low
+        start = (facts.bottom if last else lowest) - certain
+        ends = _ends(everywhere + DEVIATIONS * most, most, start, gamma)
+        sure, sigma = max(sure, ends[0]), max(sigma, ends[1])
         if last:
-            start = facts.bottom - here.certain
-        spread = _spread(replace(here, bright=0.0, rare=0.0), start, view)
-        sure, sigma = max(sure, spread.sure), max(sigma, spread.sigma)
-        if last:
-            return replace(spread, sure=sure, sigma=sigma, flat=0.0, root=0.0)
+            found = replace(bare, sure=sure, sigma=sigma)
+            return min(least, found, key=lambda way: way.total)
         light, most = dark, error.deviation(dark)
+    return least
 
 
 _APART = 1.5
