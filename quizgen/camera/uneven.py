@@ -8,6 +8,7 @@ that an effect sees nothing else stays exactly as it is.
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -68,7 +69,7 @@ def steps(layer: Layer) -> list[Box]:
     seen = _content(layer)
     most = wider(seen, (2, 2), shape)
     frames = _merged(_uneven(layer, seen), (SQUARE, SQUARE))  # looking at a box takes a while
-    return [wider(_in_px(frame, most), (2, 2), shape) for frame in frames]
+    return [wider(box, (2, 2), shape) for box in _in_px(frames, most)]
 
 
 def _boxes(layer: Layer, reach: tuple[int, int], read: tuple[int, int]) -> list[Box]:
@@ -78,7 +79,7 @@ def _boxes(layer: Layer, reach: tuple[int, int], read: tuple[int, int]) -> list[
     down, across = (-(-far // SQUARE) for far in reach)
     squares = _near(_near(squares, down).T, across).T
     most = wider(seen, reach, layer.colour.shape)
-    return [_in_px(frame, most) for frame in _merged(squares, read)]
+    return _in_px(_merged(squares, read), most)
 
 
 def _content(layer: Layer) -> Box:
@@ -177,19 +178,19 @@ def _merged(squares: Squares, read: tuple[int, int]) -> list[_Frame]:
     done: list[_Frame] = []
     above: list[_Frame] = []
     for number, row in enumerate(squares.tolist()):
-        runs = (_Frame(number, number + 1, *run) for run in _runs(row))
-        more = _in_row(runs, read)
+        runs = _in_row((_Frame(number, number + 1, *run) for run in _runs(row)), read)
+        rights, more = [run.right for run in runs], list(runs)
         for frame in above:
-            fits = next((i for i, one in enumerate(more) if _together(frame, one, read)), None)
-            if fits is None:
-                done.append(frame)
+            below = bisect_right(rights, frame.left)  # others have no column in common with it
+            if below < len(runs) and _together(frame, more[below], read):
+                more[below] = more[below].around(frame)
             else:
-                more[fits] = more[fits].around(frame)
+                done.append(frame)
         above = more
     done += above
-    whole = _around(done)
-    if whole is not None and whole.cost(read) <= sum(frame.cost(read) for frame in done):
-        return [whole]
+    everything = _around(done)
+    if everything and everything.cost(read) <= sum(frame.cost(read) for frame in done):
+        return [everything]
     return done
 
 
@@ -225,10 +226,17 @@ def _runs(row: list[bool]) -> Iterator[tuple[int, int]]:
             first = place + 1
 
 
-def _in_px(frame: _Frame, most: Box) -> Box:
-    """A rectangle in px, as far as something is there."""
-    rows, columns = (
-        slice(max(first * SQUARE, part.start), min(last * SQUARE, part.stop))
-        for (first, last), part in zip((frame[:2], frame[2:]), most, strict=True)
+def _in_px(frames: list[_Frame], most: Box) -> list[Box]:
+    """Rectangles in px, as far as something is there."""
+    found = (
+        tuple(
+            slice(max(first * SQUARE, part.start), min(last * SQUARE, part.stop))
+            for (first, last), part in zip((frame[:2], frame[2:]), most, strict=True)
+        )
+        for frame in frames
     )
-    return rows, columns
+    return [
+        (rows, columns)
+        for rows, columns in found
+        if rows.start < rows.stop and columns.start < columns.stop
+    ]

@@ -137,6 +137,27 @@ def test_a_layer_of_one_colour_is_handed_on():
     assert layers.blurred(layer, line(8.0, 3.0)) is layer
 
 
+def test_a_thing_that_begins_where_a_square_does_is_blurred_along_its_edge():
+    """Seen from the square above it, its edge is the only change, and the blur does not cross it."""
+    colour, cover = np.zeros((160, 200, 3), np.float32), np.zeros((160, 200, 1), np.float32)
+    colour[32:96, 32:128], cover[32:96, 32:128] = 0.6, 1.0
+    moved = layers.blurred(Layer(colour, cover), line(8.0, 0.0))
+    assert np.array_equal(moved.colour[32:96], np.broadcast_to(moved.colour[32], (64, 200, 3)))
+    assert moved.colour[50, 127, 0] == pytest.approx(0.6 * 4.5 / 8, abs=0.01)
+    assert not moved.colour[:32].any()
+    assert not moved.colour[96:].any()
+
+
+def test_a_sky_of_stars_is_looked_at_as_a_whole():
+    """Where boxes are so many that handing them over takes longer than the rest, there is one."""
+    colour = np.zeros((640, 960, 3), np.float32)
+    colour[16::64, 16::64] = 1.0
+    assert len(blurred_places(Layer(colour), disc(9.0)).boxes) == 1
+    colour[:] = 0.0
+    colour[16::320, 16::320] = 1.0
+    assert len(blurred_places(Layer(colour), disc(9.0)).boxes) == 6
+
+
 def test_a_run_leaves_the_drawn_layers_alone():
     prepared = Prepared(scene(), CAMERA)
     kept, what = [layer.colour.copy() for layer in prepared.stack], everything(prepared)
