@@ -99,7 +99,7 @@ def photos(count: int, height: int = 480) -> None:
         for budget in budgets:
             photo = turns[0][budget][1]
             ran = sum(photo.share(step.effect) for step in photo.plan.steps)
-            shares[budget].append(1.0 - ran / len(whole.plan.steps))
+            shares[budget].append(1.0 - ran / sum(map(whole.share, whole.times)))
             ratios[budget].append(spent[0.0] / spent[budget])
             broken += is_broken(photo, whole)
     print(f"{count - refused} photographs ({refused} refused), {broken} broken promises")

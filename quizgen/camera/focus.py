@@ -33,13 +33,13 @@ def defocused(layer: Layer, view: View, shift: float = 0.0, rung: str = "") -> L
     if isinstance(layer.depth, np.ndarray):
         middles = slices(_extremes(layer.depth, view, shift), rung)
         index = _slice_of(layer.depth, middles, view, shift)
-        return replace(layer, colour=_blurred_by_depth(layer.colour, index, middles))
+        return replace(layer, colour=_blurred_by_depth(layer.colour, index, middles), worked=1.0)
     return blurred(layer, disc(float(view.blur_diameter(layer.depth)) + shift))
 
 
 def in_channels(layer: Layer, view: View, shifts: Mapping[int, float], rung: str) -> Layer:
     """Blur some channels of a layer, each by the discs of its own shift."""
-    colour, cover = layer.colour.copy(), layer.cover
+    colour, cover, worked = layer.colour.copy(), layer.cover, layer.worked
     if cover is not None:  # a cover for each colour
         cover = np.array(np.broadcast_to(cover, colour.shape))
     for channel, shift in shifts.items():
@@ -51,7 +51,8 @@ def in_channels(layer: Layer, view: View, shifts: Mapping[int, float], rung: str
         colour[..., own] = blurry.colour
         if cover is not None and blurry.cover is not None:
             cover[..., own] = blurry.cover
-    return replace(layer, colour=colour, cover=cover, own=True)
+        worked = max(worked, blurry.worked)
+    return replace(layer, colour=colour, cover=cover, own=True, worked=worked)
 
 
 def slices(diameters: tuple[float, float], rung: str = "") -> Field:

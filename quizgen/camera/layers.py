@@ -62,7 +62,8 @@ def worked_on(
         made.append((box, work(images, box)))
     _write(made, results)
     cover = None if layer.cover is None else results[1]
-    return replace(layer, colour=results[0], cover=cover, own=True)
+    worked = max(layer.worked, where.share(layer.colour.shape))
+    return replace(layer, colour=results[0], cover=cover, own=True, worked=worked)
 
 
 Made = tuple[Box, list[Image]]

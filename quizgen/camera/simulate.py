@@ -46,6 +46,8 @@ class Photo(msgspec.Struct, frozen=True):
         Time for drawing the scene, which is no effect.
     shares : tuple of float
         Share of the pixels that is darker than the first of the plan's levels, and that of each.
+    uneven : dict of str to float
+        Share of the layers' pixels in which lens, blur and movement found anything to change.
     """
 
     values: Image
@@ -53,6 +55,7 @@ class Photo(msgspec.Struct, frozen=True):
     times: dict[str, float]
     drawn_ms: float
     shares: tuple[float, ...] = (1.0,)
+    uneven: Mapping[str, float] = {}
 
     @property
     def plan(self) -> Plan:
@@ -60,7 +63,9 @@ class Photo(msgspec.Struct, frozen=True):
         return self.what if isinstance(self.what, Plan) else self.what.plan
 
     def share(self, effect: str) -> float:
-        """Share of the pixels that an effect which ran anywhere has changed."""
+        """Share of the pixels, or of those of the layers, that an effect has worked on."""
+        if effect in self.uneven:
+            return self.uneven[effect]
         there = zip(self.shares[1:], self.what.levels.each, strict=True)
         return 1.0 - sum(share for share, level in there if level.ways.get(effect) == SKIP)
 
@@ -117,6 +122,7 @@ class _Run:
         self.stack = list(prepared.stack)
         self.drawn_ms = prepared.drawn_ms
         self.places: list[list[Tile]] = []
+        self.worked: dict[str, tuple[float, int]] = {}
         self.kept = [self.frame.scene.image, *(() if last else (x.colour for x in self.stack))]
         if last:
             del prepared.stack
@@ -138,7 +144,9 @@ class _Run:
                     self._one(step)
         self._crop(self.frame)
         times = {step.effect: self.times.get(step.effect, 0.0) for step in what.steps}
-        return Photo(composite(tuple(self.stack)), what, times, self.drawn_ms, self._shares())
+        uneven = {effect: worked / pixels for effect, (worked, pixels) in self.worked.items()}
+        picture = composite(tuple(self.stack))
+        return Photo(picture, what, times, self.drawn_ms, self._shares(), uneven)
 
     def _look(self, levels: Levels) -> None:
         """Sort the tiles of the picture by brightness."""
@@ -154,6 +162,11 @@ class _Run:
     def _count(self, step: Chosen, started: float) -> None:
         spent = (perf_counter() - started) * 1e3
         self.times[step.effect] = self.times.get(step.effect, 0.0) + spent
+
+    def _count_pixels(self, step: Chosen, layer: Layer) -> None:
+        pixels = layer.colour.shape[0] * layer.colour.shape[1]
+        worked, among = self.worked.get(step.effect, (0.0, 0))
+        self.worked[step.effect] = worked + layer.worked * pixels, among + pixels
 
     def _view(self, step: Chosen) -> View:
         """What an effect works on; one that the camera does not have looks at nothing outside."""
@@ -179,10 +192,14 @@ class _Run:
         while self.stack:
             layer = self.stack.pop(0)
             layer = replace(layer, own=self._ours(layer.colour))
-            for step in () if layer.even else steps:
+            even = layer.even
+            for step in steps:
                 started, view = perf_counter(), self._view(step)
-                (layer,) = _effect(step).run((cropped(layer, view),), view, step.rung)
+                layer = replace(cropped(layer, view), worked=0.0)
+                if not even:
+                    (layer,) = _effect(step).run((layer,), view, step.rung)
                 self._count(step, started)
+                self._count_pixels(step, layer)
             picture = self._over(layer, picture, then)
         self.stack = [Layer(picture)] if picture is not None else []
 

@@ -42,6 +42,11 @@ class Places(NamedTuple):
     boxes: list[Box]
     reach: int
 
+    def share(self, shape: tuple[int, ...]) -> float:
+        """Share of a layer's pixels that are in them."""
+        areas = (math.prod(part.stop - part.start for part in box) for box in self.boxes)
+        return min(sum(areas) / math.prod(shape[:2]), 1.0)
+
 
 def places(layer: Layer, reach: tuple[float, float]) -> Places:
     """Where values are read at places between pixels, nearest or mixed.

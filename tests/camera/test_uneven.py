@@ -158,6 +158,24 @@ def test_a_sky_of_stars_is_looked_at_as_a_whole():
     assert len(blurred_places(Layer(colour), disc(9.0)).boxes) == 6
 
 
+def test_a_photograph_says_on_how_much_of_its_layers_an_effect_has_worked():
+    """Nowhere on an even wall, everywhere on stripes, and on a lamp and 2 px beside it."""
+    camera = Camera(0.05, 1e-4, shutter=0.01, velocity=(300.0, 0.0))
+    even = Thing("full", depth=5.0, velocity=(px(1), px(0)))
+    striped = Thing("full", texture="stripes", cell=px(9), depth=6.0, velocity=(px(0), px(1)))
+    lamp = Thing("disc", radius=px(50), depth=4.0)
+    for things, share in (((even,), 0.0), ((striped,), 1.0)):
+        assert taken(camera, *things).share("motion blur") == share
+    moved = taken(camera, even, lamp)
+    assert moved.share("motion blur") == pytest.approx(104 * 101 / (2 * 400 * 300), rel=0.03)
+    assert taken(camera.but(gamma="srgb"), even).share("gamma") == 1.0
+
+
+def taken(camera, *things):
+    prepared = Prepared(Scene(400, 300, things), camera)
+    return run(prepared, everything(prepared))
+
+
 def test_a_run_leaves_the_drawn_layers_alone():
     prepared = Prepared(scene(), CAMERA)
     kept, what = [layer.colour.copy() for layer in prepared.stack], everything(prepared)
