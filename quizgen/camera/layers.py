@@ -31,8 +31,8 @@ Field = NDArray[np.float64]
 Work = Callable[[list[Image], Box], list[Image]]
 """Makes colour and, but for an opaque layer, cover of a box anew."""
 
-_ROWS = 256
-"""Rows made at once, so that what lies in between stays small."""
+_ROWS, _COLUMNS = 256, 1024
+"""Made at once, so that what lies in between stays small; more where a kernel is wide."""
 
 
 def worked_on(
@@ -114,8 +114,8 @@ def blurred(layer: Layer, kernel: Kernel) -> Layer:
         channels = images[0].shape[2]
         return [found[..., :channels], found[..., channels:]][: len(images)]
 
-    band = max(_ROWS, 64 * down), sys.maxsize
-    return worked_on(layer, blurred_places(layer, kernel), blur, band)
+    most = max(_ROWS, 16 * down), max(_COLUMNS, 32 * across)
+    return worked_on(layer, blurred_places(layer, kernel), blur, most)
 
 
 def each(facts: Facts, view: View) -> Iterator[tuple[LayerFacts, Sheet, float]]:
