@@ -3,7 +3,8 @@
 ``python benchmarks/camera.py [--quick] [--chains] [--calibrate] [--photos [N]] [--large [N]]
 [--oracle [N]] [--files]``; best of several runs, ms. ``--photos`` plans and runs N (60) ordinary
 photographs of 640 x 480 with ordinary cameras, best of three turns, ``--large`` N (8) of
-4000 x 3000; ``--oracle`` tries what could be left out of N (12) of the small ones; ``--files``
+4000 x 3000; ``--oracle`` tries what could be left out of N (12) of the small ones, or of the large
+ones if both are given; ``--files``
 photographs the shipped scenes at 12 megapixels from file to file.
 """
 
@@ -260,7 +261,7 @@ def main() -> None:
         return
     if "--oracle" in sys.argv:
         number = sys.argv[-1]
-        oracle(int(number) if number.isdecimal() else 12)
+        oracle(int(number) if number.isdecimal() else 12, 3000 if "--large" in sys.argv else 480)
         return
     if "--large" in sys.argv:
         number = sys.argv[-1]

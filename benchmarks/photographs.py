@@ -111,7 +111,7 @@ def photos(count: int, height: int = 480) -> None:
         )
 
 
-def oracle(count: int) -> None:
+def oracle(count: int, height: int = 480) -> None:
     """Per effect: how often it could be left out, how often a plan does, and at what bound.
 
     The oracle looks at what really changes: effects in the order of what each alone does, as long
@@ -122,7 +122,7 @@ def oracle(count: int) -> None:
     rows: dict[str, list[tuple[float, ...]]] = {}
     for seed in range(count):
         source = np.random.default_rng([seed, 12])
-        scene = a_photo(source)
+        scene = a_photo(source, height)
         try:
             prepared = Prepared(scene, a_camera(source, scene.width))
             trial = _Trial(prepared)
