@@ -18,12 +18,16 @@ import numpy as np
 from quizgen.arrays.gamma import srgb_decode
 from quizgen.camera import Camera, Scene, SceneError, effects, simulate
 from quizgen.camera.blocks import tiles
+from quizgen.camera.chain import GREY_LEVELS, SKIP, Chain
 from quizgen.camera.decision import Skipped
 from quizgen.camera.effects import distortion, vignetting
+from quizgen.camera.look import measured
 from quizgen.camera.plan import Prepared, everything, plan
 from quizgen.camera.simulate import Photo, difference_dn, is_broken, run
 
 TURNS = 3
+LEAST_DN = 0.01
+"""Grey levels below which a ratio says nothing."""
 PHOTOS = ("astronaut", "camera", "cat", "coffee", "coins", "moon", "page", "text")
 """Pictures that come with scikit-image."""
 
@@ -114,6 +118,7 @@ def photos(count: int, height: int = 480) -> None:
 def oracle(count: int, height: int = 480) -> None:
     """Per effect: how often it could be left out, how often a plan does, and at what bound.
 
+    Bounds are those from the steps of all pixels, whether a plan would look at them or not.
     The oracle looks at what really changes: effects in the order of what each alone does, as long
     as all together stay within the budget. By tile, each effect has the whole budget, in those
     tiles where it changes less.
@@ -137,7 +142,9 @@ def oracle(count: int, height: int = 480) -> None:
                 for one, other, budget in ways
                 for share in (unit[0] in one, trial.tiles(unit, budget), unit[0] in other)
             ]
-            bounds = trial.bound[unit[0]], alone, sum(trial.whole.times[name] for name in unit)
+            bound = trial.bound(unit)
+            ratio = bound / alone if alone > LEAST_DN else np.nan
+            bounds = bound, alone, ratio, sum(trial.whole.times[name] for name in unit)
             rows.setdefault(" + ".join(unit), []).append((*counts, *bounds))
     _print_table(rows, budgets)
 
@@ -146,18 +153,21 @@ def _print_table(rows: dict[str, list[tuple[float, ...]]], budgets: tuple[float,
     """By effect how often it could be left out, then the shares of effects and of their time."""
     ways = "oracle", "by tile", "plan"
     heads = ("photos", *(f"{who} {b:g} DN" for b in budgets for who in ways))
-    print(f"{'':31}" + "".join(f"{head:>15}" for head in (*heads, "bound DN", "real DN", "ms")))
+    last = "bound DN", "real DN", "bound/real", "ms"
+    print(f"{'':31}" + "".join(f"{head:>15}" for head in (*heads, *last)))
     for name, found in sorted(rows.items()):
         figures = np.array(found, float)
-        *counts, bound, real, spent = (*figures[:, :6].sum(0), *np.median(figures[:, 6:], axis=0))
+        bound, real, _, spent = np.median(figures[:, 6:], axis=0)
+        ratios = figures[np.isfinite(figures[:, 8]), 8]
+        ratio = f"{np.median(ratios):.2g}" if ratios.size else ""
         print(
             f"{name:31}{len(found):15}"
-            + "".join(f"{count:15.1f}" for count in counts)
-            + f"{bound:15.3g}{real:15.3g}{spent:15.2f}"
+            + "".join(f"{count:15.1f}" for count in figures[:, :6].sum(0))
+            + f"{bound:15.3g}{real:15.3g}{ratio:>15}{spent:15.2f}"
         )
     figures = np.concatenate([np.array(found, float) for found in rows.values()])
     for column, head in enumerate(heads[1:]):
-        saved = figures[:, column] @ figures[:, 8] / figures[:, 8].sum()
+        saved = figures[:, column] @ figures[:, 9] / figures[:, 9].sum()
         print(f"{head}: {figures[:, column].mean():.1%} of the effects, {saved:.1%} of their time")
 
 
@@ -168,8 +178,8 @@ class _Trial:
         self.prepared = prepared
         self.everything = everything(prepared)
         self.whole = run(prepared, self.everything)
-        strict = plan(prepared, budget=0.0)
-        self.bound = {one.effect: one.bound_dn for one in (*strict.steps, *strict.skipped)}
+        view, facts = prepared.view, measured(prepared.stack, prepared.view)
+        self.chain = Chain(prepared.present, view, facts, prepared.views)
         units: dict[str, list[str]] = {}
         for step in self.everything.steps:
             key = effects.by_name(step.effect).pair or step.effect
@@ -180,6 +190,11 @@ class _Trial:
             photo = self.without(frozenset(unit))
             self.alone[unit] = difference_dn(photo, self.whole)
             self.apart[unit] = np.abs(photo.values - self.whole.values).max(axis=2) * 255
+
+    def bound(self, unit: tuple[str, ...]) -> float:
+        """Grey levels that leaving these out changes at most."""
+        names = [effect.name for effect in self.prepared.present]
+        return min(self.chain.dn({names.index(name): SKIP for name in unit}), GREY_LEVELS)
 
     def tiles(self, unit: tuple[str, ...], budget: float) -> float:
         """Share of the tiles in which leaving these out changes at most so much."""
