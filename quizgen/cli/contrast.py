@@ -23,6 +23,11 @@ img { width: 100%; image-rendering: pixelated }
 .table { overflow-x: auto }
 table { border-collapse: collapse; margin: 1em 0 }
 th, td { text-align: left; padding: .2em .8em .2em 0; border-bottom: 1px solid #d0d7de }
+@media (max-width: 34em) {
+  body { margin: 1em }
+  table { font-size: .75em }
+  th, td { padding-right: .4em }
+}
 """
 
 

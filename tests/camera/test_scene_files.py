@@ -377,3 +377,14 @@ def test_errors_are_one_line_and_exit_code_2(tmp_path):
         assert run.returncode == 2
         assert len(run.stderr.splitlines()) == 1, run.stderr
         assert "Traceback" not in run.stderr
+
+
+@pytest.mark.parametrize("scene", ["portrait", "landscape"])
+def test_the_table_of_the_page_fits_a_phone(browser, tmp_path, scene):
+    page_file = tmp_path / "page.html"
+    invoke(scene, "--compare", str(page_file))
+    page = browser.new_page(viewport={"width": 400, "height": 800})
+    page.goto(page_file.as_uri())
+    assert page.locator(".table").evaluate("box => box.scrollWidth <= box.clientWidth")
+    assert page.evaluate("document.documentElement.scrollWidth") == 400
+    page.close()
