@@ -91,31 +91,6 @@ def convolve(image: Image, kernel: NDArray[np.float64]) -> Image:
     kernel : numpy.ndarray
         Odd-sized, non-negative.
     """
-    if kernel.size == 1 or _flat(image):
-        return image
-    rows, columns = (side // 2 for side in kernel.shape)
-    upright = np.asarray(image.any(axis=0))
-    part = (_lit(image.reshape(len(image), -1), rows), _lit(upright, columns))
-    if image[part].size == image.size:
-        return convolve_all(image, kernel)
-    result = np.zeros(image.shape, image.dtype)
-    result[part] = convolve_all(image[part], kernel)
-    return result
-
-
-def _flat(image: Image) -> bool:
-    """Whether all pixels are alike; most pictures show at once that they are not."""
-    return bool((image[0] == image[0, 0]).all() and (image == image[0]).all())
-
-
-def _lit(lines: NDArray[np.bool_] | Image, reach: int) -> slice:
-    """Where the light of lines that are not black can reach."""
-    where = np.flatnonzero(lines.any(axis=1))
-    return slice(max(0, int(where[0]) - reach), int(where[-1]) + reach + 1)
-
-
-def convolve_all(image: Image, kernel: NDArray[np.float64]) -> Image:
-    """`convolve` without looking for where an image is even or black."""
     cv2 = opencv()
     kernel = _folded(_folded(kernel, image.shape[0]).T, image.shape[1]).T
     if kernel.size == 1:

@@ -19,16 +19,16 @@ from quizgen.camera.blocks import pieces
 from quizgen.camera.body import VELOCITY
 from quizgen.camera.draw import Box, Layer, Motion, Sheet, both, content, leaves_frame, sheets
 from quizgen.camera.facts import Error, Facts, LayerFacts
-from quizgen.camera.filters import convolve_all, sample
+from quizgen.camera.filters import convolve, sample
 from quizgen.camera.kernels import Kernel
 from quizgen.camera.scene import Image
-from quizgen.camera.uneven import Places, blurred_places, places, whole, wider
+from quizgen.camera.uneven import Places, blurred_places, extent, places, whole, wider
 from quizgen.camera.view import View
 
 Field = NDArray[np.float64]
 
 
-Work = Callable[[list[Image], Box], list[Image]]
+Make = Callable[[list[Image], Box], list[Image]]
 """Makes colour and, but for an opaque layer, cover of a box anew."""
 
 _ROWS, _COLUMNS = 256, 1024
@@ -36,7 +36,7 @@ _ROWS, _COLUMNS = 256, 1024
 
 
 def worked_on(
-    layer: Layer, where: Places, work: Work, most: tuple[int, int] = (_ROWS, sys.maxsize)
+    layer: Layer, where: Places, make: Make, most: tuple[int, int] = (_ROWS, sys.maxsize)
 ) -> Layer:
     """A layer in which some places are made anew.
 
@@ -44,7 +44,7 @@ def worked_on(
     ----------
     layer : Layer
     where : Places
-    work : callable
+    make : callable
         Gets colour and cover and what is wanted of them.
     most : (int, int)
         Rows and columns that are made at once, so that what lies in between stays small.
@@ -59,7 +59,7 @@ def worked_on(
         done = _top(box) - (where.reach if results is images else 0)
         _write((one for one in made if one[0][0].stop <= done), results)
         made = [one for one in made if one[0][0].stop > done]
-        made.append((box, work(images, box)))
+        made.append((box, make(images, box)))
     _write(made, results)
     cover = None if layer.cover is None else results[1]
     worked = max(layer.worked, where.share(layer.colour.shape))
@@ -109,7 +109,7 @@ def blurred(layer: Layer, kernel: Kernel) -> Layer:
         seen = wider(box, (down, across), images[0].shape)
         top, left = (part.start - more.start for part, more in zip(box, seen, strict=True))
         light = [image[seen] for image in images]
-        found = convolve_all(light[0] if len(light) == 1 else np.concatenate(light, axis=2), kernel)
+        found = convolve(light[0] if len(light) == 1 else np.concatenate(light, axis=2), kernel)
         found = found[top:, left:][: box[0].stop - box[0].start, : box[1].stop - box[1].start]
         channels = images[0].shape[2]
         return [found[..., :channels], found[..., channels:]][: len(images)]
@@ -210,7 +210,7 @@ def turned(layer: Layer, angles: Sequence[float | Field], reach: float) -> Layer
 def _round(layer: Layer) -> Box:
     """Where anything of a layer may get that turns about its pivot."""
     shape = layer.colour.shape
-    ends = whole(shape) if layer.cover is None else content(layer.cover)
+    ends = extent(layer)
     if any(not part.start or part.stop == side for part, side in zip(ends, shape, strict=False)):
         return whole(shape)  # its edge is repeated outward, and comes in from there
     (x, y), corners = layer.motion.pivot, product(*((part.start, part.stop) for part in ends))

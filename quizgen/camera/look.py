@@ -7,10 +7,10 @@ from collections.abc import Iterator
 import numpy as np
 from msgspec.structs import replace
 
-from quizgen.camera.draw import Layer, Sheet, Stack, content, sheets
+from quizgen.camera.draw import Layer, Sheet, Stack, sheets
 from quizgen.camera.facts import Facts, LayerFacts
 from quizgen.camera.scene import Image
-from quizgen.camera.uneven import steps
+from quizgen.camera.uneven import extent, steps, wider
 from quizgen.camera.view import View
 
 _ROWS = 64
@@ -74,13 +74,8 @@ def filled(stack: Stack) -> Stack:
 def _filled(layer: Layer) -> Layer:
     if layer.cover is None:
         return layer
-    rows, columns = content(layer.cover)
-    box = _with_margin(rows), _with_margin(columns)
+    box = wider(extent(layer), (2, 2), layer.colour.shape)
     return replace(layer, colour=layer.colour[box], cover=layer.cover[box])
-
-
-def _with_margin(part: slice) -> slice:
-    return slice(max(part.start - 2, 0), max(part.stop + 2, 3))
 
 
 def glimpsed(stack: Stack, view: View, every: int, *, columns: bool = True) -> Facts:

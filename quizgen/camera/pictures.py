@@ -22,7 +22,7 @@ from quizgen.camera.effects import demosaicing, gamma, mosaic
 from quizgen.camera.effects.gaussian_noise import gaussian
 from quizgen.camera.effects.impulse_noise import impulses
 from quizgen.camera.effects.normalisation import stretch_range
-from quizgen.camera.filters import convolve_all, everywhere_alike
+from quizgen.camera.filters import convolve, everywhere_alike
 from quizgen.camera.hsv import edit_hsv
 from quizgen.camera.kernels import Kernel, disc
 from quizgen.camera.noise import luck
@@ -155,7 +155,7 @@ def _sharp(scene: Scene, some: tuple[int, ...]) -> Laid:
 def _blurred(scene: Scene, some: tuple[int, ...], kernel: Kernel) -> Laid:
     image, box = _drawn(scene, some)
     part = wider(box, (kernel.shape[0] // 2, kernel.shape[1] // 2), image.shape)
-    return _laid(part, convolve_all(np.ascontiguousarray(image[part]), kernel))
+    return _laid(part, convolve(np.ascontiguousarray(image[part]), kernel))
 
 
 @lru_cache(maxsize=16)

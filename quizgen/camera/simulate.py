@@ -190,9 +190,8 @@ class _Run:
         self.told(_names(steps))
         picture: Image | None = None
         while self.stack:
-            layer = self.stack.pop(0)
-            layer = replace(layer, own=self._ours(layer.colour))
-            even = layer.even
+            drawn = self.stack.pop(0)
+            layer, even = replace(drawn, own=self._ours(drawn.colour)), drawn.even
             for step in steps:
                 started, view = perf_counter(), self._view(step)
                 layer = replace(cropped(layer, view), worked=0.0)

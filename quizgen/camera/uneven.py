@@ -71,7 +71,7 @@ def blurred_places(layer: Layer, kernel: NDArray[np.float64]) -> Places:
 def steps(layer: Layer) -> list[Box]:
     """Boxes with all that differs from a neighbour, and two more lines around."""
     shape = layer.colour.shape[:2]
-    seen = _content(layer)
+    seen = extent(layer)
     most = wider(seen, (2, 2), shape)
     frames = _merged(_uneven(layer, seen), (SQUARE, SQUARE))  # looking at a box takes a while
     return [wider(box, (2, 2), shape) for box in _in_px(frames, most)]
@@ -79,7 +79,7 @@ def steps(layer: Layer) -> list[Box]:
 
 def _boxes(layer: Layer, reach: tuple[int, int], read: tuple[int, int]) -> list[Box]:
     """What lies within so many rows and columns of something uneven."""
-    seen = _content(layer)
+    seen = extent(layer)
     squares = _uneven(layer, seen)
     down, across = (-(-far // SQUARE) for far in reach)
     squares = _near(_near(squares, down).T, across).T
@@ -87,7 +87,8 @@ def _boxes(layer: Layer, reach: tuple[int, int], read: tuple[int, int]) -> list[
     return _in_px(_merged(squares, read), most)
 
 
-def _content(layer: Layer) -> Box:
+def extent(layer: Layer) -> Box:
+    """Where anything of a layer is."""
     return whole(layer.colour.shape) if layer.cover is None else content(layer.cover)
 
 

@@ -253,11 +253,6 @@ def test_a_thing_in_the_dark_is_blurred_as_by_scipy(diameter, at):
         assert np.abs(filters.convolve(image, kernel) - expected).max() < 2e-6
 
 
-def test_a_flat_picture_stays_as_it_is_however_it_is_blurred():
-    flat = np.full((30, 40, 3), 0.3, np.float32)
-    assert filters.convolve(flat, disc(9.0)) is flat
-
-
 def test_cameras_that_share_layers_see_what_each_sees_alone():
     things = tuple(Thing("disc", x=Length(x), radius=Length(9), depth=z)
                    for x, z in ((-20, 1.0), (0, 2.0), (20, 5.0)))  # fmt: skip
