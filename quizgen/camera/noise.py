@@ -6,7 +6,6 @@ import math
 from functools import cache, lru_cache
 from itertools import accumulate
 
-import msgspec
 import numpy as np
 from msgspec.structs import replace
 from numpy.typing import DTypeLike, NDArray
@@ -32,18 +31,25 @@ _NEVER = 2.8e-7
 """Chance of a normal value above z = 5."""
 
 
-class Luck(msgspec.Struct, frozen=True):
+class Luck:
     """Random numbers of one effect: every tile of a picture has its own, whoever works on it.
 
     Philox counts: the seed is the key, the number of the tile the upper part of the counter.
+
+    Parameters
+    ----------
+    key : int
     """
 
-    key: int
+    def __init__(self, key: int) -> None:
+        self._source = np.random.Philox(key=key)
+        self._start = self._source.state  # a new source for every tile would take as long again
 
     def _words(self, tile: int, count: int) -> NDArray[np.uint16]:
         """Whole numbers below 2^16, each as likely."""
-        source = np.random.Philox(key=self.key, counter=tile << 64)
-        raw: NDArray[np.uint64] = source.random_raw(-(-count // 4)).astype("<u8", copy=False)
+        self._start["state"]["counter"][1] = tile
+        self._source.state = self._start
+        raw: NDArray[np.uint64] = self._source.random_raw(-(-count // 4)).astype("<u8", copy=False)
         return raw.view("<u2")[:count]
 
     def pick(self, table: Image, tile: int, count: int) -> Image:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quizgen.camera.blocks import Tile, Work
 from quizgen.camera.body import FULL_WELL
@@ -13,6 +12,7 @@ from quizgen.camera.costs import measured
 from quizgen.camera.effect import Effect, PointByPoint, Rung
 from quizgen.camera.facts import ODD, REACH, Error, Facts
 from quizgen.camera.noise import MANY, POISSON_GAP, electrons_at_white, luck, noisier, poisson_gap
+from quizgen.camera.poisson import poisson_quantiles
 from quizgen.camera.scene import Image
 from quizgen.camera.settings import Setting
 from quizgen.camera.values import truth
@@ -20,83 +20,6 @@ from quizgen.camera.view import View
 
 SHOT_NOISE = Setting("shot_noise", truth, True)
 """Needs a full well; without one no electrons are counted."""
-
-Numbers = NDArray[np.floating]
-
-FEW_ELECTRONS = 16.18
-"""Below this mean, counts are looked up one by one."""
-
-
-_NEVER = 1e-30
-"""Chances are not followed into numbers so small that processors take long over them."""
-
-
-def poisson_quantiles(mean: Numbers, normal: Numbers) -> Numbers:
-    """Poisson counts at the probabilities of standard normal values.
-
-    One normal value per pixel makes the counts grow with the mean, so that a rounding error in one
-    pixel cannot change its neighbours, and a Gaussian rung sees the same luck.
-
-    Parameters
-    ----------
-    mean, normal : numpy.ndarray
-        Same shape, same precision; mean >= 0.
-
-    Returns
-    -------
-    numpy.ndarray
-        Whole numbers. The distribution function is within 2e-5 of Poisson's: the expansion of its
-        inverse in 1/sqrt(mean) (M. Giles, Algorithm 955), exact counting below `FEW_ELECTRONS`.
-    """
-    enough = np.maximum(mean, FEW_ELECTRONS)
-    root, square = np.sqrt(enough), normal * normal
-    inverse = 1.0 / root
-    counts = square / 270.0  # the last term, then the one before
-    counts += 7.0 / 810.0
-    counts *= square
-    counts -= 8.0 / 405.0
-    counts *= inverse
-    counts += normal * (square * (-1.0 / 72.0) - 1.0 / 36.0)
-    counts *= inverse
-    counts += square * (1.0 / 6.0) + 1.0 / 3.0
-    root *= normal
-    counts += root
-    counts += enough
-    np.floor(counts, out=counts)
-    np.maximum(counts, 0.0, out=counts)
-    few = mean < FEW_ELECTRONS
-    if few.all():
-        return _counted(mean, normal)
-    if few.any():
-        counts[few] = _counted(mean[few], normal[few])
-    return counts
-
-
-def _counted(mean: Numbers, normal: Numbers) -> Numbers:
-    """How many steps of the distribution function lie below each probability."""
-    below = _normal_below(normal)
-    chance = np.exp(-mean)
-    reached, counts = chance.copy(), np.zeros_like(mean)
-    for count in range(1, 80):
-        more = below > reached
-        if not more.any():
-            break
-        counts += more
-        chance *= mean
-        chance *= 1.0 / count
-        np.maximum(chance, _NEVER, out=chance)
-        reached += chance
-    return counts
-
-
-def _normal_below(normal: Numbers) -> Numbers:
-    """Normal distribution function within 1e-7 (Abramowitz and Stegun 26.2.17)."""
-    t = 1.0 / (1.0 + 0.2316419 * np.abs(normal))
-    series = 0.31938153 + t * (
-        -0.356563782 + t * (1.781477937 + t * (-1.821255978 + t * 1.330274429))
-    )
-    tail = t * series * np.exp(-normal * normal / 2.0) / math.sqrt(2.0 * math.pi)
-    return np.where(normal < 0.0, tail, 1.0 - tail)
 
 
 def work(view: View, rung: str = "") -> Work:
@@ -108,14 +31,16 @@ def work(view: View, rung: str = "") -> Work:
     to_electrons, to_signal = float(well), 1.0 / well
 
     def counted(part: Image, tile: Tile) -> None:
-        np.maximum(part, 0.0, out=part)
+        np.clip(part, 0.0, math.inf, out=part)
         part *= to_electrons
-        part[...] = poisson_quantiles(part, source.normal(tile.number, part.size, part.dtype))
-        part *= to_signal
+        counts = poisson_quantiles(part, source.normal(tile.number, part.size, part.dtype))
+        np.multiply(counts, to_signal, out=part)
 
     def spread(part: Image, tile: Tile) -> None:
-        np.maximum(part, 0.0, out=part)
-        part += np.sqrt(part * to_signal) * source.normal(tile.number, part.size, part.dtype)
+        np.clip(part, 0.0, math.inf, out=part)
+        noise = np.sqrt(part * to_signal)
+        noise *= source.normal(tile.number, part.size, part.dtype)
+        part += noise
 
     return spread if rung == "gaussian" else counted
 

@@ -1,0 +1,52 @@
+"""Counts of electrons at given luck, against SciPy's law."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from quizgen.camera.noise import _normals
+from quizgen.camera.poisson import _COLUMNS, FEW_ELECTRONS, _tables, poisson_quantiles
+
+FARTHEST = 4.4
+"""A little more than the largest luck there is."""
+
+
+@pytest.mark.parametrize("mean", [1e-3, 0.3, 3.0, 16.1, 16.2, 25.5, 400.0, 1e6])
+def test_the_distribution_function_is_that_of_scipy(mean):
+    normal = np.linspace(-FARTHEST, FARTHEST, 300_001)
+    counts = poisson_quantiles(np.full_like(normal, mean), normal)
+    jumps = np.flatnonzero(np.diff(counts))
+    assert (np.diff(counts) >= 0).all()
+    ours, theirs = stats.norm.cdf(normal[jumps]), stats.poisson.cdf(counts[jumps], mean)
+    assert np.abs(ours - theirs).max() < 4e-5
+
+
+@pytest.mark.parametrize(("kind", "wrong"), [(np.float64, 1e-6), (np.float32, 1e-5)])
+def test_few_electrons_are_counted_one_by_one(kind, wrong):
+    source = np.random.default_rng(5)
+    dark, darker = source.uniform(0, FEW_ELECTRONS, 200_000), 10 ** source.uniform(-9, 1.2, 200_000)
+    means = np.concatenate([dark, darker, np.zeros(1000)]).astype(kind)
+    normal = source.choice(_normals(np.dtype(kind)), means.size)
+    exact = stats.poisson.ppf(stats.norm.cdf(normal.astype(float)), means.astype(float))
+    apart = np.abs(poisson_quantiles(means, normal) - exact)
+    assert (apart > 0).mean() < wrong  # luck within a rounding error of a border
+    assert apart.max() <= 1
+
+
+def test_over_a_cell_a_count_grows_by_one_at_most():
+    """So that one comparison with the chance of the least count is enough."""
+    nodes, below, _ = _tables(np.dtype(float))
+    least = (nodes // _COLUMNS).reshape(-1, _COLUMNS)
+    assert (least[1:, 1:] - least[:-1, :-1]).max() == 1
+    assert least.max() + 1 < below.size // _COLUMNS
+    assert np.abs(_normals(np.dtype(float))).max() < FARTHEST
+
+
+def test_a_brighter_pixel_never_counts_less():
+    means = np.geomspace(1e-3, 1e5, 20_001)
+    for normal in np.linspace(-4, 4, 17):
+        counts = poisson_quantiles(means, np.full_like(means, normal))
+        assert (np.diff(counts) >= 0).mean() > 0.9999
+        assert np.diff(counts).min() >= -1
