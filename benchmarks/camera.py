@@ -1,11 +1,11 @@
 """Eager against planned photographs, and every effect beside the copy bandwidth of the same run.
 
 ``python benchmarks/camera.py [--quick] [--chains] [--calibrate] [--photos [N]] [--large [N]]
-[--oracle [N]] [--files]``; best of several runs, ms. ``--photos`` plans and runs N (60) ordinary
-photographs of 640 x 480 with ordinary cameras, best of three turns, ``--large`` N (8) of
-4000 x 3000; ``--oracle`` tries what could be left out of N (12) of the small ones, or of the large
-ones if both are given; ``--files``
-photographs the shipped scenes at 12 megapixels from file to file.
+[--oracle [N]] [--scenes] [--files]``; best of several runs, ms. ``--photos`` plans and runs N (60)
+ordinary photographs of 640 x 480 with ordinary cameras, best of five turns, ``--large`` N (8) of
+4000 x 3000; ``--scenes`` the shipped scenes in the same way; ``--oracle`` tries what could be left
+out of N (12) of the small ones, or of the large ones if both are given; ``--files`` photographs the
+shipped scenes at 12 megapixels from file to file.
 """
 
 # ruff: noqa: SLF001 - caches are emptied between runs
@@ -25,7 +25,7 @@ from time import perf_counter, process_time
 from typing import Any
 
 import numpy as np
-from photographs import forget_maps, oracle, photos
+from photographs import forget_maps, oracle, photos, shipped
 
 from quizgen.camera import Camera, Scene, View, effects, filters, hsv
 from quizgen.camera.decision import Plan
@@ -33,6 +33,7 @@ from quizgen.camera.draw import Layer
 from quizgen.camera.effects import distortion, lateral_colour, mosaic, vignetting
 from quizgen.camera.kernels import disc
 from quizgen.camera.plan import Prepared, everything, plan
+from quizgen.camera.reading import load
 from quizgen.camera.simulate import run
 from quizgen.cli.simulate import SCENES
 
@@ -255,6 +256,10 @@ def main() -> None:
     filters.warm_up()
     if "--calibrate" in sys.argv:
         calibrate()
+        return
+    if "--scenes" in sys.argv:
+        paths = sorted(SCENES.glob("*.toml"))
+        shipped((path.stem, *load(path)) for path in paths)
         return
     if "--files" in sys.argv:
         files()

@@ -7,7 +7,8 @@ Run by ``python benchmarks/camera.py --photos [N]`` and ``--oracle [N]``.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from contextlib import suppress
 from functools import partial
 from time import process_time
 from typing import Any
@@ -16,16 +17,20 @@ import msgspec
 import numpy as np
 
 from quizgen.arrays.gamma import srgb_decode
-from quizgen.camera import Camera, Scene, SceneError, effects, simulate
+from quizgen.camera import Camera, Scene, SceneError, effects
 from quizgen.camera.blocks import tiles
 from quizgen.camera.chain import GREY_LEVELS, SKIP, Chain
-from quizgen.camera.decision import Skipped
+from quizgen.camera.decision import Decision, Plan, Skipped
 from quizgen.camera.effects import distortion, vignetting
 from quizgen.camera.look import measured
 from quizgen.camera.plan import Prepared, decided, everything, plan
 from quizgen.camera.simulate import Photo, difference_dn, is_broken, run
 
-TURNS = 3
+TURNS = 5
+BUDGETS = 0.5, 2.0, 8.0
+"""Grey levels."""
+SLOWER = 0.98
+"""Everything takes less than so much of the time of a plan that is slower than everything."""
 LEAST_DN = 0.01
 """Grey levels below which a ratio says nothing."""
 PHOTOS = ("astronaut", "camera", "cat", "coffee", "coins", "moon", "page", "text")
@@ -69,12 +74,23 @@ def a_camera(source: np.random.Generator, width: int) -> Camera:
     )  # fmt: skip
 
 
-def busy(work: Callable[[], Any]) -> tuple[float, Any]:
-    """Processor time of one run, s, and what it gives."""
+def _everything(prepared: Prepared) -> Plan:
+    return everything(prepared, timed=False)
+
+
+def busy(
+    scene: Scene, camera: Camera, decide: Callable[[Prepared], Plan | Decision]
+) -> tuple[float, Photo]:
+    """Processor time of deciding and of the effects, s, and the picture.
+
+    It is drawn before the clock starts, with all lengths in px, as any way needs that.
+    """
+    prepared = Prepared(scene, camera)
+    prepared.stack  # noqa: B018 - drawn when first asked for
     forget_maps()
     started = process_time()
-    found = work()
-    return process_time() - started, found
+    photo = run(prepared, decide(prepared), last=True)
+    return process_time() - started, photo
 
 
 def planning(scene: Scene, camera: Camera, budget: float) -> float:
@@ -89,45 +105,73 @@ def planning(scene: Scene, camera: Camera, budget: float) -> float:
     return min(times)
 
 
-def photos(count: int, height: int = 480) -> None:
-    """What is skipped, what that saves with planning included, and whether promises are kept.
+class _Turns:
+    """Everything, everything once more, and plans of one scene, one after the other."""
 
-    An effect left out in a part of the picture counts by that part.
-    """
-    budgets = (0.5, 2.0, 8.0)
-    shares, ratios = {b: [] for b in budgets}, {b: [] for b in budgets}
-    looked = {b: [] for b in budgets}
-    broken = refused = 0
+    def __init__(self, scene: Scene, camera: Camera, turns: int = TURNS) -> None:
+        ways = {"everything": _everything, "again": _everything}
+        for budget in BUDGETS:
+            ways[f"{budget:g}"] = partial(decided, budget=budget)
+        found = [
+            {way: busy(scene, camera, decide) for way, decide in ways.items()} for _ in range(turns)
+        ]
+        self.spent = {way: min(turn[way][0] for turn in found) for way in ways}
+        self.photos = {way: found[0][way][1] for way in ways}
+        self.planning = {budget: planning(scene, camera, budget) for budget in BUDGETS}
+
+    def ratio(self, way: str) -> float:
+        """How many times longer everything takes than this way."""
+        return self.spent["everything"] / self.spent[way]
+
+    def skipped(self, way: str) -> float:
+        """Share of the effects left out; one left out in a part of the picture counts by that."""
+        photo, whole = self.photos[way], self.photos["everything"]
+        ran = sum(photo.share(step.effect) for step in photo.plan.steps)
+        return 1.0 - ran / (sum(map(whole.share, whole.times)) or 1.0)
+
+    def broken(self, way: str) -> bool:
+        """Whether a promise is."""
+        return is_broken(self.photos[way], self.photos["everything"])
+
+
+def photos(count: int, height: int = 480) -> None:
+    """What is skipped, what that saves with planning included, and whether promises are kept."""
+    found = []
     for seed in range(count):
         source = np.random.default_rng([seed, 12])
         scene = a_photo(source, height)
-        camera = a_camera(source, scene.width)
-        prepared = Prepared(scene, camera)
-        ways = {0.0: lambda: run(prepared, everything(prepared))}  # noqa: B023
-        for budget in budgets:
-            ways[budget] = partial(simulate, scene, camera, budget=budget)
-        try:
-            turns = [{budget: busy(way) for budget, way in ways.items()} for _ in range(TURNS)]
-        except SceneError:
-            refused += 1  # the picture folds over
-            continue
-        spent = {budget: min(turn[budget][0] for turn in turns) for budget in ways}
-        whole = turns[0][0.0][1]
-        for budget in budgets:
-            looked[budget].append((planning(scene, camera, budget), spent[0.0]))
-            photo = turns[0][budget][1]
-            ran = sum(photo.share(step.effect) for step in photo.plan.steps)
-            shares[budget].append(1.0 - ran / sum(map(whole.share, whole.times)))
-            ratios[budget].append(spent[0.0] / spent[budget])
-            broken += is_broken(photo, whole)
-    print(f"{count - refused} photographs ({refused} refused), {broken} broken promises")
-    for budget in budgets:
-        ratio, (took, whole) = np.array(ratios[budget]), np.sum(looked[budget], axis=0)
+        with suppress(SceneError):  # the picture folds over
+            found.append(_Turns(scene, a_camera(source, scene.width)))
+    broken = sum(turns.broken(f"{budget:g}") for turns in found for budget in BUDGETS)
+    print(f"{len(found)} photographs ({count - len(found)} refused), {broken} broken promises")
+    whole = sum(turns.spent["everything"] for turns in found)
+    for budget in BUDGETS:
+        way = f"{budget:g}"
+        skipped = np.mean([turns.skipped(way) for turns in found])
+        took = sum(turns.planning[budget] for turns in found)
         print(
-            f"  {budget:3g} DN: {np.mean(shares[budget]):6.1%} of the effects skipped, everything /"
-            f" planned x{np.exp(np.log(ratio).mean()):.2f} (CPU), slower in {(ratio < 0.98).sum()},"
-            f" planning {took / whole:.1%} ({took / len(ratio) * 1e3:.2f} ms)"
+            f"  {way:>3} DN: {skipped:6.1%} of the effects skipped, {_faster(found, way)},"
+            f" planning {took / whole:.1%} ({took / len(found) * 1e3:.2f} ms)"
         )
+    print(f"  everything against itself: {_faster(found, 'again')}")
+
+
+def _faster(found: list[_Turns], way: str) -> str:
+    ratios = np.array([turns.ratio(way) for turns in found])
+    slower = (ratios < SLOWER).sum()
+    return f"everything / this x{np.exp(np.log(ratios).mean()):.2f} (CPU), slower in {slower}"
+
+
+def shipped(scenes: Iterable[tuple[str, Scene, Camera]]) -> None:
+    """The same of each shipped scene."""
+    for name, scene, camera in scenes:
+        turns = _Turns(scene, camera, 3 * TURNS)
+        ways = ", ".join(
+            f"{way} DN x{turns.ratio(way):.2f} ({turns.skipped(way):.0%})"
+            for way in (f"{budget:g}" for budget in BUDGETS)
+        )
+        whole = turns.spent["everything"] * 1e3
+        print(f"{name:10}{whole:7.1f} ms  {ways}  itself x{turns.ratio('again'):.2f}")
 
 
 def oracle(count: int, height: int = 480) -> None:
