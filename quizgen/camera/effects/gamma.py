@@ -120,15 +120,16 @@ def _by_level(error: Error, facts: Facts, view: View, least: Error) -> Error:
     """An error that grows with the light after encoding, which spreads it less there.
 
     From bright to dark, up to where the value with all its noise may be black, unless that gives no
-    less than what is known already.
+    less than what is known already. One picture lacks the noise that grows: what carries it down is
+    no more than at the darkest place, and the other one is no farther below it than the error.
     """
     (tail, noise), gamma, bare = facts.down, view.camera[GAMMA], _bare(error)
+    own = tail + REACH * noise
     everywhere, elsewhere = bare.total - DEVIATIONS * bare.sigma, error.certain
     elsewhere -= CERTAIN * error.sigma
     light, most, sure, sigma = facts.high, error.deviation(facts.high), 0.0, 0.0
     while sure + DEVIATIONS * sigma < least.total:
         dark = light / _APART
-        own = tail + REACH * math.hypot(noise, most)
         lowest = max(facts.bottom, min(dark - own, facts.limits[1]))
         certain = elsewhere + CERTAIN * most
         last = lowest - certain <= 0.0 or dark <= facts.low
