@@ -27,6 +27,8 @@ z = 5 at any mean: (z^2 - 1)/6 for the skewness and 1/2 for whole electrons. No 
 
 MANY = 16.0
 """Electrons from which on counts keep to the root of their own mean, and those of all below."""
+Places = NDArray[np.intp]
+
 _NEVER = 2.8e-7
 """Chance of a normal value above z = 5."""
 
@@ -55,6 +57,12 @@ class Luck:
     def pick(self, table: Image, tile: int, count: int) -> Image:
         """Values of a table of 2^16, each as likely."""
         return np.take(table, self._words(tile, count), mode="clip")
+
+    def beyond(self, first: int, tile: int, count: int) -> tuple[Places, NDArray[np.uint16]]:
+        """Where a table of 2^16 is read from a place on, and at which places."""
+        words = self._words(tile, count)
+        where = np.flatnonzero(words >= first)
+        return where, words[where]
 
     def normal(self, tile: int, count: int, kind: DTypeLike = np.float32) -> Image:
         """Standard normal values; their distribution function is within 8e-6 of the normal one.

@@ -82,6 +82,15 @@ def test_dark_charge_is_poisson(electrons):
     assert 1e-3 < chi_square(counts, electrons) < 1 - 1e-3
 
 
+def test_dark_electrons_that_are_few_are_put_where_the_table_has_them():
+    look = view(full_well=1e4, dark_current=0.02, shutter=1.0)
+    lucky = luck(look, "dark current").pick(np.arange(65536.0), 0, 64 * 128 * 3)
+    counts = stats.poisson.ppf((lucky + 0.5) / 65536, 0.02).reshape(64, 128, 3)
+    charged = ran(dark_current, np.zeros((64, 128, 3), np.float32), look) * 1e4
+    assert 300 < np.count_nonzero(counts) < 700
+    assert np.allclose(charged, counts, atol=1e-4)
+
+
 def test_normal_noises_are_normal():
     read = ran(read_noise, flat(0.5), view(full_well=1000.0, read_noise=8.0)) - 0.5
     rough = ran(shot_noise, flat(0.25), view(full_well=1e4), "gaussian") - 0.25
