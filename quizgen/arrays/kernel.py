@@ -209,7 +209,7 @@ def flattened(*args: Numbers) -> tuple[tuple[int, ...], list[Array]]:
 
 def _read(arg: Numbers) -> Array:
     """Doubles; a masked element becomes NaN, which has no answer, and a huge integer infinity."""
-    if isinstance(arg, np.ma.MaskedArray):
+    if hasattr(arg, "mask") and isinstance(arg, np.ma.MaskedArray):  # np.ma takes long to load
         return np.asarray(np.ma.filled(arg.astype(np.float64), np.nan))
     try:
         with np.errstate(over="ignore"):
