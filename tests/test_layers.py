@@ -19,6 +19,7 @@ LAYERS = {
     "outside": "errors",
     "files": "errors outside",
     "kept": "",
+    "columns": "",
     "patterns": "",
     "shapes": "",
     "executors": "errors",
@@ -32,9 +33,9 @@ LAYERS = {
     "figures": "errors outside png locale maths arrays camera",
     "marking": "errors patterns shapes outside locale maths",
     "question": "errors shapes outside locale maths typeset bank figures marking",
-    "paper": "errors patterns shapes outside files kept locale maths bank figures marking question",
+    "paper": "columns errors patterns shapes outside files kept locale maths bank figures marking question",
     "practice": "errors shapes outside files locale maths bank marking question paper",
-    "responses": "errors shapes outside files locale maths marking question paper practice",
+    "responses": "columns errors shapes outside files locale maths marking question paper practice",
     "render": "errors outside files kept locale typeset bank question paper",
     "cards": "errors executors shapes outside files locale maths typeset bank figures question paper render",
     "export": "errors files locale maths typeset bank figures marking question paper responses render",
@@ -43,7 +44,7 @@ LAYERS = {
     "web": "errors executors shapes outside files png locale maths typeset bank camera figures marking question paper practice render "
     "cards tradeoff classes",
     "audit": "errors outside files locale maths bank figures marking question paper render cards",
-    "cli": "errors executors outside files png locale maths bank camera figures marking question paper practice render cards "
+    "cli": "columns errors executors outside files png locale maths bank camera figures marking question paper practice render cards "
     "responses export tradeoff classes audit web",
 }
 """Package to the packages below it that it may use. Solvers use ``maths.model`` alone."""

@@ -8,13 +8,13 @@ import shutil
 import signal
 import sys
 import time
-import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from types import FrameType, TracebackType
 from typing import Self
 
 import click
 
+from quizgen.columns import is_wide, width
 from quizgen.outside import visible
 
 NARROWEST = 20
@@ -79,8 +79,6 @@ def wrapped(text: str, room: int, first: str = "", rest: str = "") -> Iterator[s
     first, rest : str
         What the first line and the others begin with.
     """
-    from quizgen.paper.report import width
-
     line, used, empty = first, width(first), True
     for glue, piece in _pieces(text):
         more = width(piece)
@@ -105,15 +103,11 @@ def _pieces(text: str) -> Iterator[tuple[str, str]]:
 def _unbreakable(word: str) -> Iterator[str]:
     piece = ""
     for character in word:
-        if piece and _is_wide(character):
+        if piece and is_wide(character):
             yield piece
             piece = ""
         piece += character
     yield piece
-
-
-def _is_wide(character: str) -> bool:
-    return unicodedata.east_asian_width(character) in {"W", "F"}
 
 
 def one_line(text: str) -> str:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import unicodedata
 from collections.abc import Iterable
 from fractions import Fraction
 
+from quizgen.columns import width
 from quizgen.locale import numbers_in
 from quizgen.marking.echo import safe
 from quizgen.marking.messages import read_back, words
@@ -29,17 +29,6 @@ MOST_UNKNOWN = 10
 def points_text(value: Fraction | None) -> str:
     """Write marks: ``2``, ``1.75``; a dash where a person decides."""
     return "–" if value is None else f"{float(value):g}"
-
-
-def width(text: str) -> int:
-    """Columns that a text takes in a terminal (combining marks take none)."""
-    return sum(
-        0 if unicodedata.category(c) in {"Mn", "Me", "Cf"} else 2 if _wide(c) else 1 for c in text
-    )
-
-
-def _wide(character: str) -> bool:
-    return unicodedata.east_asian_width(character) in {"W", "F"}
 
 
 def rows(result: PaperResult, lang: str) -> list[tuple[str, list[str]]]:

@@ -8,10 +8,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 from statistics import correlation, fmean
 
+from quizgen.columns import width
 from quizgen.locale import numbers_in
 from quizgen.outside import csv_text, visible
 from quizgen.paper.marking import PartResult
-from quizgen.paper.report import note, points_text, width
+from quizgen.paper.report import note, points_text
 from quizgen.responses.marks import Marked
 
 HEAD = ("where", "name", "id", "email", "attempt", "marks", "points", "asked_back", "to_decide")
