@@ -6,7 +6,6 @@ import contextlib
 import io
 import os
 import re
-import secrets
 import shutil
 import signal
 import threading
@@ -96,7 +95,7 @@ def write_all(folder: Path, contents: Mapping[str, bytes], mode: int = USUAL) ->
         If the folder cannot be written (read-only, full); nothing is left behind.
     """
     new = not folder.exists()
-    mark = f".{os.getpid()}-{secrets.token_hex(4)}.part"
+    mark = f".{os.getpid()}-{os.urandom(4).hex()}.part"
     around = folder.parent if new else folder
     stage = around / (f".{folder.name}{mark}" if new else f".{mark}")
     try:
