@@ -13,7 +13,7 @@ def rounded(values: NDArray[np.floating]) -> NDArray[np.uint8]:
 
     Nothing is truncated (errata EC8) and nothing wraps (errata E21).
     """
-    return np.asarray(np.clip(np.floor(values + 0.5), 0, 255), np.uint8)
+    return np.asarray(np.clip(values + 0.5, 0, 255), np.uint8)  # which leaves out the fraction
 
 
 def histogram(image: Numbers, bins: int = 256, top: float = 1.0) -> NDArray[np.int64]:
