@@ -61,3 +61,9 @@ def test_who_draws_no_figure_loads_nothing_to_draw_with(place, command):
 ])  # fmt: skip
 def test_no_command_loads_sympy_or_matplotlib(place, command):
     assert not {"sympy", "matplotlib"} & loaded(place, command)
+
+
+def test_a_photograph_loads_what_its_effects_need(place):
+    plain = loaded(place, "simulate pinhole --out picture.png")
+    assert not {"cv2", "PIL", "numpy.ma", "numpy.random", "quizgen.paper"} & plain
+    assert not {"PIL", "numpy.ma", "scipy", "quizgen.paper"} & loaded(place, "simulate flat")
