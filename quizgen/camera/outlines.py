@@ -26,7 +26,8 @@ def _ellipse(thing: Thing, x: Plane, y: Plane) -> Plane:
     half_width, half_height = thing.width.value / 2, thing.height.value / 2
     level = np.hypot(x / half_width, y / half_height)
     slope = np.hypot(x / half_width**2, y / half_height**2)
-    return np.asarray((level - 1.0) * level / np.maximum(slope, 1e-12))
+    middle = 1e-12  # where neither says anything
+    return np.asarray((level - 1.0) * np.maximum(level, middle) / np.maximum(slope, middle))
 
 
 def _grid(thing: Thing, x: Plane, y: Plane) -> Plane:

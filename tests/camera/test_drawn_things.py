@@ -67,6 +67,11 @@ def test_tiles_leave_no_seams(monkeypatch, shape, angle):
     assert np.array_equal(drawn(thing, upon), whole)
 
 
+def test_the_very_middle_of_an_ellipse_is_covered():
+    thing = Thing("ellipse", width=Length(30.0), height=Length(20.0))
+    assert drawn(thing, width=41, height=31)[15, 20] == 1
+
+
 def test_drawing_upon_a_photograph_leaves_it_alone():
     image = np.full((30, 40, 3), 0.5, np.float32)
     view = View(Scene(40, 30, (Thing("disc", radius=Length(5.0)),), image=image), Camera())
