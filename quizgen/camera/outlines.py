@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 from quizgen.camera.scene import Thing
 
 Plane = NDArray[np.float64]
+Share = Plane | NDArray[np.bool_]
 Shape = Callable[[Thing, Plane, Plane], Plane]
+Texture = Callable[[Thing, Plane, Plane], Share]
 
 
 def _box(thing: Thing, x: Plane, y: Plane) -> Plane:
@@ -116,26 +118,41 @@ SIZES = {
 """What each shape needs."""
 
 
-def _checker(thing: Thing, x: Plane, y: Plane) -> Plane:
-    across, down = (np.floor(place / thing.cell.value) % 2 for place in (x, y))
-    return np.abs(across - down)
+def _checker(thing: Thing, x: Plane, y: Plane) -> Share:
+    return _odd(x / thing.cell.value) != _odd(y / thing.cell.value)
 
 
-def _stripes(thing: Thing, x: Plane, y: Plane) -> Plane:  # noqa: ARG001
-    return 0.5 - 0.5 * np.cos(2.0 * math.pi * x / thing.cell.value)
+def _odd(place: Plane) -> NDArray[np.bool_]:
+    """Whether the whole number below is odd: a remainder of NumPy's takes three times as long."""
+    half = np.floor(place, out=place)
+    half *= 0.5
+    return np.asarray(half != np.floor(half))
 
 
-def _ramp(thing: Thing, x: Plane, y: Plane) -> Plane:  # noqa: ARG001
+def _stripes(thing: Thing, x: Plane, y: Plane) -> Share:  # noqa: ARG001
+    return _wave(2.0 * math.pi * x / thing.cell.value)
+
+
+def _ramp(thing: Thing, x: Plane, y: Plane) -> Share:  # noqa: ARG001
     return np.clip(x / max(thing.width.value, 1e-9) + 0.5, 0.0, 1.0)
 
 
-def _rings(thing: Thing, x: Plane, y: Plane) -> Plane:
+def _rings(thing: Thing, x: Plane, y: Plane) -> Share:
     """Rings whose period shrinks to ``cell`` at ``radius`` (a zone plate)."""
     scale = math.pi / (thing.cell.value * max(thing.radius.value, 1.0))
-    return 0.5 - 0.5 * np.cos(scale * (x * x + y * y))
+    squared = x * x + y * y
+    squared *= scale
+    return _wave(squared)
 
 
-TEXTURES: dict[str, Shape | None] = {
+def _wave(phase: Plane) -> Share:
+    """From 0 to 1 and back; over the phase, which nobody else needs."""
+    np.cos(phase, out=phase)
+    phase *= 0.5
+    return np.subtract(0.5, phase, out=phase)
+
+
+TEXTURES: dict[str, Texture | None] = {
     "plain": None,
     "checker": _checker,
     "stripes": _stripes,
