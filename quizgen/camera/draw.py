@@ -6,15 +6,17 @@ Layers are kept apart only where something needs it: different blur or different
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
-from itertools import groupby
+from collections.abc import Sequence
+from itertools import groupby, starmap
 
 import msgspec
 import numpy as np
 
 from quizgen.arrays.kernel import settle_the_allocator
+from quizgen.camera.blocks import pieces
 from quizgen.camera.body import aperture
-from quizgen.camera.outlines import SHAPES, TEXTURES, Plane
+from quizgen.camera.cells import ALL, CELL, States, band, runs, states
+from quizgen.camera.outlines import CLOSEST, SHAPES, TEXTURES, Plane
 from quizgen.camera.scene import Image, SceneError, Thing
 from quizgen.camera.view import View
 
@@ -134,12 +136,6 @@ def _place(thing: Thing, view: View) -> tuple[float, float]:
 _BAND = 1 << 16
 """Pixels laid over each other at once, about, so that what lies in between stays small."""
 
-_TILE = 64, 1024
-"""Rows and columns drawn at once: few enough for the cache, and most are covered or not at all.
-
-Of a narrow picture as many pixels, in more rows.
-"""
-
 
 def _extent(thing: Thing) -> tuple[float, float]:
     """Across and down from a thing's centre, where it covers nothing, soft edge included, px."""
@@ -185,18 +181,6 @@ def _box(thing: Thing, view: View) -> Box:
     return slice(*rows), slice(*columns)
 
 
-def _tiles(view: View) -> Iterator[Box]:
-    """The picture in pieces, so that each is drawn while it is in the cache."""
-    height, width = _TILE
-    height = max(height, height * width // view.width)
-    for top in range(0, view.height, height):
-        for left in range(0, view.width, width):
-            yield (
-                slice(top, min(top + height, view.height)),
-                slice(left, min(left + width, view.width)),
-            )
-
-
 def both(one: Box, other: Box) -> Box | None:
     """What two boxes share."""
     rows, columns = (
@@ -205,60 +189,70 @@ def both(one: Box, other: Box) -> Box | None:
     return (rows, columns) if rows.start < rows.stop and columns.start < columns.stop else None
 
 
-def _own_axes(thing: Thing, view: View, part: Box) -> tuple[Plane, Plane]:
+def _own_axes(thing: Thing, view: View, rows: Plane, columns: Plane) -> tuple[Plane, Plane]:
     """Places from a thing's centre along its own axes: a row and a column, or planes if turned."""
     column, row = _place(thing, view)
-    x = np.arange(part[1].start, part[1].stop, dtype=np.float64)[None, :] - column
-    y = np.arange(part[0].start, part[0].stop, dtype=np.float64)[:, None] - row
+    x, y = columns[None, :] - column, rows[:, None] - row
     if not thing.angle:
         return x, y
     cosine, sine = math.cos(thing.angle), math.sin(thing.angle)
     return cosine * x + sine * y, cosine * y - sine * x
 
 
+def _pixels(part: slice) -> Plane:
+    return np.arange(part.start, part.stop, dtype=np.float64)
+
+
 def _add(layer: Layer, thing: Thing, view: View, part: Box, *, empty: bool) -> bool:
-    """Draw upon a part of a layer, empty or not, and say whether anything is there to be drawn.
+    """Draw the edge upon a part of a layer, empty or not; say whether anything is there to draw.
 
     Memory nothing is written to is not taken from the system.
     """
-    x, y = _own_axes(thing, view, part)
-    share = 0.5 - SHAPES[thing.shape](thing, x, y)
+    place = _own_axes(thing, view, *map(_pixels, part))
+    share = np.subtract(0.5, SHAPES[thing.shape](thing, *place))
     np.maximum(share, 0.0, out=share)
     np.minimum(share, 1.0, out=share)
-    cover = share.astype(view.precision)[..., None]
+    cover = share.astype(view.precision)
     if not cover.any():
         return False
-    full = bool(cover.min() == 1.0)
-    image = _shown(thing, view, (x, y), cover[:1, :, 0] if full else cover[..., 0])
-    if full or empty:  # nothing behind is kept
-        layer.colour[part] = image
-        if layer.cover is not None:
-            layer.cover[part] = cover
+    image = np.empty((*cover.shape, 3), view.precision)
+    for channel, plane in enumerate(_planes(thing, view, place)):
+        np.multiply(cover, plane, out=image[..., channel])  # far faster than all three together
+    if empty:  # nothing behind is kept
+        _lay(layer, part, image, cover[..., None])
         return True
-    keep = 1.0 - cover
+    keep = 1.0 - cover[..., None]
     blend(layer.colour[part], keep, image)
     if layer.cover is not None:
-        blend(layer.cover[part], keep, cover)
+        blend(layer.cover[part], keep, cover[..., None])
     return True
 
 
-def _shown(thing: Thing, view: View, place: tuple[Plane, Plane], cover: Image) -> Image:
-    """A thing's colours times its cover over a part; of an even one a row may stand for all."""
+def _lay(layer: Layer, part: Box, image: Image, cover: Image | float) -> None:
+    layer.colour[part] = image
+    if layer.cover is not None:
+        layer.cover[part] = cover
+
+
+def _fill(layer: Layer, thing: Thing, view: View, part: Box) -> None:
+    """Draw upon a part of a layer that a thing covers; of an even one a row stands for all."""
+    rows, columns = map(_pixels, part)
+    planes = _planes(thing, view, _own_axes(thing, view, rows, columns))
+    shape = np.broadcast_shapes((1, columns.size), *map(np.shape, planes))
+    image = np.empty((*shape, 3), view.precision)
+    for channel, plane in enumerate(planes):
+        image[..., channel] = plane
+    _lay(layer, part, image, 1.0)
+
+
+def _planes(thing: Thing, view: View, place: tuple[Plane, Plane]) -> Sequence[float | Image]:
+    """A thing's colours over a part."""
     texture = TEXTURES[thing.texture]
     if texture is None:
-        return _times(cover, cover.shape, thing.colour)
+        return thing.colour
     share = texture(thing, *place).astype(view.precision)
     rest, pairs = 1.0 - share, zip(thing.colour, thing.other, strict=True)
-    shape = np.broadcast_shapes(cover.shape, share.shape)
-    return _times(cover, shape, [rest * one + share * two for one, two in pairs])
-
-
-def _times(cover: Image, shape: tuple[int, ...], planes: Sequence[float | Image]) -> Image:
-    """Colours, even or not, times a cover that is there for a part of this shape."""
-    image = np.empty((*shape, 3), cover.dtype)
-    for channel, plane in enumerate(planes):  # far faster than NumPy's loops over three values
-        np.multiply(cover, plane, out=image[..., channel])
-    return image
+    return [rest * one + share * two for one, two in pairs]
 
 
 def reach(thing: Thing) -> float:
@@ -335,21 +329,39 @@ def draw(view: View) -> Stack:
 
 
 def _draw_sheet(sheet: Sheet, view: View) -> Layer:
-    """One piece after the other, each with all that it shows."""
+    """One band after the other, each with all that it shows."""
     layer, boxes = _bare(sheet, view), [_box(thing, view) for thing in sheet.things]
     if view.scene.image is not None and not sheet.things:
         return layer
-    line = np.empty((_TILE[1], 3), view.precision)
+    line = np.empty((view.width, 3), view.precision)
     line[...] = view.scene.background
-    for tile in _tiles(view):
-        if sheet.opaque and view.scene.image is None:
-            layer.colour[tile] = line[: tile[1].stop - tile[1].start]
-        empty = not sheet.opaque
-        for thing, box in zip(sheet.things, boxes, strict=True):
-            part = both(tile, box)
-            if part is not None and _add(layer, thing, view, part, empty=empty):
-                empty = False
+    each = [_states(thing, view) for thing in sheet.things]
+    for number, rows in enumerate(starmap(slice, pieces(view.height, band(view.width)))):
+        hidden = bool(each) and (each[0][number] == ALL).all()
+        if sheet.opaque and view.scene.image is None and not hidden:
+            layer.colour[rows] = line
+        drawn = [sheet.opaque] * -(-view.width // CELL)
+        for thing, box, found in zip(sheet.things, boxes, each, strict=True):
+            for cells, full in runs(found[number].tolist()):
+                part = both((rows, slice(cells.start * CELL, cells.stop * CELL)), box)
+                if part is None:
+                    continue
+                if full:
+                    _fill(layer, thing, view, part)
+                if full or _add(layer, thing, view, part, empty=not any(drawn[cells])):
+                    drawn[cells] = [True] * len(drawn[cells])
     return layer
+
+
+def _states(thing: Thing, view: View) -> States:
+    """What a thing does to every cell of the picture."""
+    height = band(view.width)
+    rows, columns = (
+        np.arange(0.0, length, side) + (side - 1) / 2.0
+        for length, side in ((view.height, height), (view.width, CELL))
+    )
+    place = _own_axes(thing, view, rows, columns)
+    return states(CLOSEST[thing.shape](thing, *place), math.hypot(height, CELL) / 2.0)
 
 
 def _bare(sheet: Sheet, view: View) -> Layer:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,17 +50,17 @@ def _blades(thing: Thing, x: Plane, y: Plane) -> Plane:
     return np.asarray(np.minimum(blade, distance - thing.stroke.value * 0.8))
 
 
-def _polygon(thing: Thing, x: Plane, y: Plane) -> Plane:
+def _polygon(thing: Thing, x: Plane, y: Plane, reach: float = 1.0) -> Plane:
     """Distances beyond the soft edge are not computed: only near a side does its own one count."""
     shape = np.broadcast_shapes(x.shape, y.shape)
     distance, inside = np.full(shape, np.inf), np.zeros(shape, bool)
     rows, columns = _ends(y, 1), _ends(x, 0)
     for (ax, ay), (bx, by) in zip(thing.points, (*thing.points[1:], thing.points[0]), strict=True):
         squared = (bx - ax) ** 2 + (by - ay) ** 2
-        level = _near(rows, ay, by)
+        level = _near(rows, ay, by, reach)
         if not squared or level.start == level.stop:
             continue  # a corner given twice, such as the first one to close the outline, or far off
-        here, there = (level, _near(columns, ax, bx)), _of(level, y)
+        here, there = (level, _near(columns, ax, bx, reach)), _of(level, y)
         across, down = x[_of(level, x)][:, here[1]] - ax, y[there] - ay
         if down.shape[1] > 1:
             down = down[:, here[1]]
@@ -79,10 +80,10 @@ def _ends(plane: Plane, axis: int) -> tuple[Plane, Plane]:
     return plane.min(axis=axis), plane.max(axis=axis)
 
 
-def _near(ends: tuple[Plane, Plane], start: float, stop: float) -> slice:
-    """Rows or columns from the first to the last that is within a pixel of a side."""
+def _near(ends: tuple[Plane, Plane], start: float, stop: float, reach: float) -> slice:
+    """Rows or columns from the first to the last that is so near to a side."""
     low, high = ends
-    near = np.flatnonzero((high >= min(start, stop) - 1.0) & (low <= max(start, stop) + 1.0))
+    near = np.flatnonzero((high >= min(start, stop) - reach) & (low <= max(start, stop) + reach))
     return slice(near[0], near[-1] + 1) if near.size else slice(0, 0)
 
 
@@ -105,6 +106,21 @@ SHAPES: dict[str, Shape] = {
     "full": _full,
 }
 """Signed distance to the outline in px, negative inside."""
+
+
+def _closest_of_ellipse(thing: Thing, x: Plane, y: Plane) -> Plane:
+    half_width, half_height = thing.width.value / 2, thing.height.value / 2
+    level = np.hypot(x / half_width, y / half_height)
+    return np.asarray((level - 1.0) * min(half_width, half_height))
+
+
+CLOSEST: dict[str, Shape] = {
+    **SHAPES,
+    "ellipse": _closest_of_ellipse,
+    "polygon": partial(_polygon, reach=math.inf),
+}
+"""No farther from the outline, on the same side; from place to place it changes by their distance
+at most, so that what it is somewhere says what there is around."""
 
 SIZES = {
     "box": ("width", "height"),
