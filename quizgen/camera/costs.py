@@ -9,6 +9,8 @@ from __future__ import annotations
 import math
 from functools import lru_cache
 
+import numpy as np
+
 from quizgen.camera.effect import Cost
 from quizgen.camera.filters import goes_by_slabs
 from quizgen.camera.kernels import Kernel
@@ -74,7 +76,7 @@ def at_least_a_call(cost: Cost) -> Cost:
 
 def convolution(kernel: Kernel, view: View, opencv_used: bool) -> float:
     """Cost of `quizgen.camera.filters.convolve`."""
-    height, width, taps = *kernel.shape, int((kernel > 0).sum())
+    height, width, taps = *kernel.shape, int(np.count_nonzero(kernel))
     if taps == 1:
         return 0.0
     if opencv_used:

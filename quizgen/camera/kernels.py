@@ -242,8 +242,10 @@ def change(
     """
     if kernel.size == 1:
         return 0.0
-    elsewhere = 1.0 - kernel[kernel.shape[0] // 2, kernel.shape[1] // 2]
-    return float(min((kernel * _paired(kernel, jump, bend)).sum(), elsewhere * span))
+    most = (1.0 - float(kernel[kernel.shape[0] // 2, kernel.shape[1] // 2])) * span
+    if min(*jump, bend[0] / 2.0, bend[1] / 2.0) >= span:  # one pixel away all may be different
+        return most
+    return min(float((kernel * _paired(kernel, jump, bend)).sum()), most)
 
 
 def change_between(

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import lru_cache
 from itertools import product
 
 import numpy as np
@@ -138,7 +139,12 @@ def within(amount: float, facts: Facts) -> Error:
 
 def rounding(view: View) -> float:
     """How far positions in single precision may lie beside what they should be, px."""
-    return float(np.spacing(np.float32(max(view.width, view.height))))
+    return _spacing(max(view.width, view.height))
+
+
+@lru_cache(maxsize=64)
+def _spacing(side: int) -> float:
+    return float(np.spacing(np.float32(side)))
 
 
 def shifted(facts: Facts, distance: float, view: View) -> Error:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import sys
 from functools import lru_cache
+from typing import TypeVar
 
 import numpy as np
 from msgspec.structs import replace
@@ -40,12 +41,15 @@ _NODES = 4096
 _LEAST_SLOPE = 1.0 / 50.0
 
 
-def stretch(radius: Field, k1: float, k2: float) -> Field:
+Radius = TypeVar("Radius", float, Field)
+
+
+def stretch(radius: Radius, k1: float, k2: float) -> Radius:
     """Factor L(r) = 1 + k1 r^2 + k2 r^4 from undistorted to distorted radius."""
     return 1.0 + radius**2 * (k1 + k2 * radius**2)
 
 
-def slope(radius: Field, k1: float, k2: float) -> Field:
+def slope(radius: Radius, k1: float, k2: float) -> Radius:
     """Derivative of r L(r); zero where the picture folds over."""
     return 1.0 + radius**2 * (3.0 * k1 + 5.0 * k2 * radius**2)
 
@@ -217,24 +221,23 @@ def largest_displacement(view: View) -> float:
 
 def outside(view: View) -> tuple[float, float]:
     """A barrel shows what stands beside the frame: every distance from the centre grows."""
-    beside = max(
-        0.0, 1.0 / float(stretch(_turning(view), view.camera[K1], view.camera[K2]).min()) - 1
-    )
+    k1, k2 = view.camera[K1], view.camera[K2]
+    beside = max(0.0, 1.0 / min(stretch(radius, k1, k2) for radius in _turning(view)) - 1.0)
     x, y = view.centre
     return farthest(view, lambda _: (x * beside, y * beside))
 
 
-def _turning(view: View) -> Field:
+def _turning(view: View) -> list[float]:
     """Radii between which the factor and its slope only grow or only sink."""
     k1, k2, top = view.camera[K1], view.camera[K2], _top_radius(view)
     turning = [-k1 / (2 * k2), -3 * k1 / (10 * k2)] if k2 else []
-    return np.array([0.0, top] + [math.sqrt(q) for q in turning if 0 < q < top * top])
+    return [0.0, top, *(math.sqrt(q) for q in turning if 0 < q < top * top)]
 
 
 def magnification(view: View) -> float:
     """Largest distance on the source per pixel of output (extremes of two quadratics in r^2)."""
-    k1, k2, radii = view.camera[K1], view.camera[K2], _turning(view)
-    return 1.0 / float(np.minimum(slope(radii, k1, k2), stretch(radii, k1, k2)).min())
+    k1, k2 = view.camera[K1], view.camera[K2]
+    return 1.0 / min(min(slope(r, k1, k2), stretch(r, k1, k2)) for r in _turning(view))
 
 
 def skipped(facts: Facts, view: View) -> Error:

@@ -66,9 +66,7 @@ def _lens(view: View) -> tuple[float, float, float]:
 
 
 def _kept(radius: Field, focal: float, mechanical: float, corner: float) -> Field:
-    kept = np.ones_like(radius)
-    if focal:
-        kept = 1.0 / (1.0 + (radius / focal) ** 2) ** 2
+    kept: Field = 1.0 / (1.0 + (radius / focal) ** 2) ** 2 if focal else np.ones_like(radius)
     if mechanical:
         kept = kept * rim_overlap(mechanical * radius / corner)
     return kept
