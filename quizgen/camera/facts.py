@@ -103,6 +103,11 @@ class Error(msgspec.Struct, frozen=True, gc=False):
     @property
     def total(self) -> float:
         """Difference exceeded by at most the share `EXCEEDED` of the values."""
+        if self.odd or self.rare:
+            return self._total_with_few()
+        return self.sure + self.beyond + self.bright + DEVIATIONS * self.sigma
+
+    def _total_with_few(self) -> float:
         allowed = ODD + (0.0 if self.sigma else _NORMAL)
         if self.odd > allowed:
             return math.inf
@@ -122,17 +127,27 @@ class Error(msgspec.Struct, frozen=True, gc=False):
         """Both errors of the same luck: random parts add."""
         return self._with(other, operator.add)
 
+    def more(self, by: float) -> Error:
+        """With so much more that is sure, everywhere."""
+        return replace(self, sure=self.sure + by)
+
+    def wider(self, sigma: float) -> Error:
+        """With so much more noise of the same luck."""
+        flat = self.flat + sigma if self.root else 0.0
+        return replace(self, sigma=self.sigma + sigma, flat=flat)
+
     def _with(self, other: Error, added: Callable[[float, float], float]) -> Error:
-        beyond, bright = self.beyond + other.beyond, self.bright + other.bright
-        sure, odd = self.sure + other.sure, self.odd + other.odd
-        sigma, level = added(self.sigma, other.sigma), min(self.level, other.level)
-        both = Error(sure, sigma, odd, beyond, bright, level)
+        sure, sigma = self.sure + other.sure, added(self.sigma, other.sigma)
+        both = Error(sure, sigma, self.odd + other.odd, self.beyond + other.beyond)
+        if self.bright or other.bright:
+            level = min(self.level, other.level)
+            both = replace(both, bright=self.bright + other.bright, level=level)
         if self.rare or other.rare:
             rare, share = self.rare + other.rare, self.share + other.share
-            dither = min(error.dither for error in (self, other) if error.rare)
+            dither = min([error.dither for error in (self, other) if error.rare])
             both = replace(both, rare=rare, share=share, dither=dither)
         if self.root or other.root:
-            flat = added(*(one.flat if one.root else one.sigma for one in (self, other)))
+            flat = added(*[one.flat if one.root else one.sigma for one in (self, other)])
             both = replace(both, flat=flat, root=added(self.root, other.root))
         return both
 
@@ -272,28 +287,33 @@ class Facts(msgspec.Struct, frozen=True, gc=False):
     @property
     def top(self) -> float:
         """Largest value including noise."""
-        return max(min(self.high + self.reach, self.limits[1]), self.limits[0])
+        (low, high), far = self.limits, self.high + self.reach
+        return high if far > high else max(far, low)
 
     @property
     def bottom(self) -> float:
         """Smallest value including noise."""
-        tail, noise = self.down
-        return min(max(self.low - tail - REACH * noise, self.limits[0]), self.limits[1])
+        (low, high), (tail, noise) = self.limits, self.dip or (self.tail, self.noise)
+        far = self.low - tail - REACH * noise
+        return low if far < low else min(far, high)
 
     @property
     def size(self) -> float:
         """Largest magnitude of a noise-free value."""
-        return max(abs(self.low), abs(self.high))
+        low, high = self.low, self.high
+        return high if 0.0 <= low <= high else max(abs(low), abs(high))
 
     @property
     def jump(self) -> tuple[float, float]:
         """Largest step of the flattened picture along x and y."""
-        span = self.span
+        span = self.high - self.low
         if len(self.layers) == 1:
             across, down = self.layers[0].jump
         else:
             across = sum(layer.jump[0] for layer in self.layers)
             down = sum(layer.jump[1] for layer in self.layers)
+        if across <= span and down <= span:
+            return across, down
         return min(across, span), min(down, span)
 
     @property
@@ -309,7 +329,8 @@ class Facts(msgspec.Struct, frozen=True, gc=False):
         """Facts of the flattened stack."""
         if len(self.layers) == 1:
             (across, down), bend = self.layers[0].jump, self.layers[0].bend
-            if max(across, down) <= self.span and bend[0] <= 2 * across and bend[1] <= 2 * down:
+            steps = across <= (span := self.high - self.low) and down <= span
+            if steps and bend[0] <= 2 * across and bend[1] <= 2 * down:
                 return self
         return replace(self, layers=(LayerFacts(self.jump, self.bend),))
 

@@ -155,9 +155,8 @@ def by_table(gamma: str | float, precision: Precision = "float32") -> Work:
 
 def encode_number(value: float, gamma: str | float) -> float:
     """`encode` of one number in double precision, as the bounds need it."""
-    value = min(max(value, 0.0), 1.0)
-    if gamma == "linear":
-        return value
-    if gamma != "srgb":
-        return float(value ** (1.0 / float(gamma)))
-    return 12.92 * value if value <= SRGB_KNEE else 1.055 * value ** (1.0 / 2.4) - 0.055
+    if not 0.0 <= value <= 1.0:
+        value = min(max(value, 0.0), 1.0)
+    if gamma == "srgb":
+        return 12.92 * value if value <= SRGB_KNEE else 1.055 * value ** (1.0 / 2.4) - 0.055
+    return value if gamma == "linear" else float(value ** (1.0 / float(gamma)))

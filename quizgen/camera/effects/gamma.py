@@ -43,8 +43,7 @@ def _gap(width: float, bottom: float, view: View) -> float:
 
     Tone curves are concave, so the gap is largest at the dark end.
     """
-    start = max(0.0, bottom)
-    gamma = view.camera[GAMMA]
+    start, gamma = max(0.0, bottom), view.camera[GAMMA]
     return encode_number(start + width, gamma) - encode_number(start, gamma)
 
 
@@ -100,8 +99,10 @@ _SHORT = 2.0**-10
 def carried(error: Error, facts: Facts, view: View) -> Error:
     """The darkest values are spread most, of all or of those in the light; both are clipped."""
     error = error.clipped()
-    bottom = facts.bottom - error.certain
-    spread = _spread(_bare(error), bottom, view)
+    bottom, bare = facts.bottom - error.certain, _bare(error)
+    spread = _spread(bare, bottom, view)
+    if bare is error:
+        return spread
     if error.root:
         spread = _by_level(error, facts, view, spread)
     bright = _gap(error.bright, error.level, view) if error.bright else 0.0
@@ -127,13 +128,14 @@ def _by_level(error: Error, facts: Facts, view: View, least: Error) -> Error:
     own = tail + REACH * noise
     everywhere, elsewhere = bare.total - DEVIATIONS * bare.sigma, error.certain
     elsewhere -= CERTAIN * error.sigma
+    bottom, limit, enough = facts.bottom, facts.limits[1], least.total
     light, most, sure, sigma = facts.high, error.deviation(facts.high), 0.0, 0.0
-    while sure + DEVIATIONS * sigma < least.total:
+    while sure + DEVIATIONS * sigma < enough:
         dark = light / _APART
-        lowest = max(facts.bottom, min(dark - own, facts.limits[1]))
+        lowest = max(bottom, min(dark - own, limit))
         certain = elsewhere + CERTAIN * most
         last = lowest - certain <= 0.0 or dark <= facts.low
-        start = (facts.bottom if last else lowest) - certain
+        start = (bottom if last else lowest) - certain
         ends = _ends(everywhere + DEVIATIONS * most, most, start, gamma)
         sure, sigma = max(sure, ends[0]), max(sigma, ends[1])
         if last:

@@ -21,7 +21,7 @@ BIT_DEPTH = Setting[int | None]("bit_depth", whole, None, (between(1, 16),))
 
 
 def _largest_code(view: View) -> int:
-    return int(2 ** (view.camera[BIT_DEPTH] or 16) - 1)
+    return (1 << (view.camera[BIT_DEPTH] or 16)) - 1
 
 
 def work(view: View, rung: str = "") -> Work:
@@ -79,7 +79,7 @@ def _apart(error: Error, step: float) -> Error:
         flat = error.flat + error.root * math.sqrt(step / 2.0)
         error = replace(error, flat=flat)
     if error.sigma:
-        return error.plus(Error(step))
+        return error.more(step)
     return replace(error, sure=_whole(error.sure, step))
 
 

@@ -60,14 +60,14 @@ def carried(error: Error, facts: Facts, view: View) -> Error:
     of the law changes by 1.6/N^(3/2) per electron of the mean, up to 6 standard deviations.
     """
     well, most = electrons_at_white(view), error.certain
-    start = max(0.0, facts.bottom - most)
+    start = 0.0 if facts.bottom < most else facts.bottom - most
     apart = math.sqrt(start + most) - math.sqrt(start)
-    noisy = error.along(Error(sigma=apart / math.sqrt(well)))
+    noisy = error.wider(apart / math.sqrt(well))
     if most * well <= ODD:
         return noisy.plus(Error(odd=most * well))
     dark = max(start * well, 1e-9)
     electrons = min(POISSON_GAP, 1.0 + 1.6 * most * well / dark**1.5)
-    return noisy.plus(Error(electrons / well))
+    return noisy.more(electrons / well)
 
 
 def gaussian(facts: Facts, view: View) -> Error:
