@@ -62,6 +62,7 @@ class Chain:
         self._made: dict[tuple[int, str], Error] = {}
         self._passed: list[dict[Error, Error]] = [{} for _ in present]
         self._known: dict[frozenset[tuple[int, str]], float] = {}
+        self._inert = [_is_inert(effect) for effect in present]
         if like is None:
             self.before = _facts_along(present, self.views, facts)
             self._rounding = [_rounding(before) for before in self.before]
@@ -96,39 +97,63 @@ class Chain:
         if made == SKIP:
             return self._lost(index, facts)
         rung = next(rung for rung in effect.rungs if rung.name == made)
-        return rung.error(facts, view).plus(Error(self._rounding[index]))
+        return rung.error(facts, view).more(self._rounding[index])
 
     def error(self, choice: dict[int, str], before: int | None = None) -> Error:
         """Difference to running everything exactly, in the end or before an effect.
 
         Choices not given are exact.
         """
-        return self._followed(self.arrived, 0, choice, before)
+        first = min(choice, default=0) if self.arrived is NO_ERROR else 0
+        return self._followed(self.arrived, first, choice, before)
 
     def _followed(
         self, error: Error, first: int, choice: dict[int, str], before: int | None = None
     ) -> Error:
         made_of = choice.get
-        for index, effect in enumerate(self.present[first:before], first):
+        for index in range(first, len(self.present) if before is None else before):
             made = made_of(index, EXACT)
             if error is NO_ERROR:
                 error = error if made == EXACT else self.off(index, made)
-                continue
-            if made == SKIP:
+            elif made == SKIP:
                 lost = self.off(index, SKIP)
-                error = error.plus(lost) if effect.random else error.along(lost)
-                continue
-            # choices differ in one effect: many meet the same error
-            error = self._passed[index].get(error) or self._carried(index, error)
-            if made != EXACT:
-                error = error.plus(self.off(index, made))
+                error = error.plus(lost) if self.present[index].random else error.along(lost)
+            else:
+                if self._inert[index]:
+                    error = error.rounded(self._rounding[index])
+                else:  # choices differ in one effect: many meet the same error
+                    error = self._passed[index].get(error) or self._carried(index, error)
+                if made != EXACT:
+                    error = error.plus(self.off(index, made))
         return error
 
-    def least(self, index: int, choice: dict[int, str]) -> float:
-        """Grey levels that an effect not run exactly takes, however small the steps before it."""
-        if any(choice.get(later, EXACT) != EXACT for later in self.beside if later > index):
+    @cached_property
+    def _raw(self) -> int:
+        """Place of the last effect of the sensor, which is the converter if there is one."""
+        return max((i for i, one in enumerate(self.present) if one.stage == "sensor"), default=0)
+
+    def floor(self, choice: dict[int, str]) -> float:
+        """Grey levels of the least that can arrive there: rounding, of which it makes a code."""
+        least = Error(self._rounding[self._raw - 1]) if self._raw else NO_ERROR
+        return GREY_LEVELS * self._followed(least, self._raw, choice).total
+
+    def arrives(self, index: int, made: str) -> bool:
+        """Whether what a choice loses differs everywhere where it comes to the converter."""
+        if index >= self._raw or made != SKIP or self.present[index].stage != "sensor":
+            return index < self._raw
+        lost = self.off(index, SKIP)
+        return lost.sure > 0.0 or lost.sigma > 0.0
+
+    def least(self, index: int, choice: dict[int, str], enough: float = math.inf) -> float:
+        """Grey levels that an effect not run exactly takes, however small the steps before it.
+
+        Not followed any farther once that is more than enough.
+        """
+        if any(choice.get(later) for later in self.beside if later > index):
             return 0.0  # these may be off by less, too
         effect, error = self.present[index], Error(self._rounding[index])
+        if effect.stage in _LAYERED and (floor := self.floor(choice)) > enough:
+            return floor
         if effect.stage not in _LAYERED and not effect.rungs:
             error = self._lost(index, replace(self.before[index], layers=(_EVEN,)))
         elif effect.stage == "sensor":
@@ -139,7 +164,7 @@ class Chain:
         """Loss of skipping, with rounding; where a limit of the sensor is not met, none."""
         effect, rounding = self.present[index], self._rounding[index]
         lost = effect.skipped(facts, self.views[index])
-        return lost.rounded(rounding) if effect.stage == "sensor" else lost.plus(Error(rounding))
+        return lost.rounded(rounding) if effect.stage == "sensor" else lost.more(rounding)
 
     def _carried(self, index: int, error: Error) -> Error:
         carried, effect = error, self.present[index]
@@ -162,7 +187,7 @@ class Chain:
 
     def dn(self, choice: dict[int, str]) -> float:
         """The same in grey levels."""
-        key = frozenset([pair for pair in choice.items() if pair[1] != EXACT])
+        key = frozenset(choice.items())
         found = self._known.get(key)
         if found is None:
             found = self._known[key] = GREY_LEVELS * self.error(choice).total
@@ -172,6 +197,11 @@ class Chain:
         """Whether a choice alone loses so much that following it to the end is a waste of time."""
         far = _FAR * budget / GREY_LEVELS
         return max([self.off(index, made).clipped().total for index in indices]) > far
+
+
+def _is_inert(effect: Effect) -> bool:
+    """Whether an effect hands on errors as they are: in the lens none is beyond 0 and 1 alone."""
+    return effect.carried is same_error and (effect.knows_where or effect.stage in _LAYERED)
 
 
 def _rounding(facts: Facts) -> float:

@@ -119,10 +119,9 @@ def _tail(chain: Chain, choice: Choice, units: tuple[Unit, ...], costs: Costs) -
 def _free(chain: Chain, choice: Choice, units: tuple[Unit, ...], first: int) -> Iterator[Unit]:
     """What a tile may still do without: effects that work on it alone."""
     for unit in units:
-        alone = all(
-            i >= first and isinstance(chain.present[i].run, PointByPoint) for i in unit.members
-        )
-        if alone and not unit.fixed and choice[unit.members[0]] != SKIP:
+        if unit.fixed or unit.members[0] < first or choice[unit.members[0]] == SKIP:
+            continue
+        if all(isinstance(chain.present[i].run, PointByPoint) for i in unit.members):
             yield replace(unit, members=tuple(i - first for i in unit.members))
 
 

@@ -88,14 +88,14 @@ def _units(present: tuple[Effect, ...], asked: frozenset[str]) -> tuple[Unit, ..
     units: dict[str, list[int]] = {}
     for index, effect in enumerate(present):
         units.setdefault(effect.pair or effect.name, []).append(index)
-    return tuple(_unit(tuple(members), present, asked) for members in units.values())
+    return tuple([_unit(tuple(members), present, asked) for members in units.values()])
 
 
 def _unit(members: tuple[int, ...], present: tuple[Effect, ...], asked: frozenset[str]) -> Unit:
     together = [present[index] for index in members]
-    rungs = [rung.name for rung in together[0].rungs] if len(together) == 1 else []
-    needed = any(effect.reason or not asked.isdisjoint(effect.decides) for effect in together)
-    return Unit(members, (EXACT, *rungs, SKIP), needed)
+    rungs = together[0].rungs if len(together) == 1 else ()
+    needed = [one for one in together if one.reason or not asked.isdisjoint(one.decides)]
+    return Unit(members, (EXACT, *[rung.name for rung in rungs], SKIP), bool(needed))
 
 
 def _total(costs: Costs, choice: Choice) -> float:
@@ -104,16 +104,22 @@ def _total(costs: Costs, choice: Choice) -> float:
 
 def _looking(chain: Chain, units: tuple[Unit, ...], choice: Choice) -> Iterator[Unit]:
     """What was kept and looks at neighbours: of single pixels, steps tell nothing."""
+    beside = set(chain.beside)
     for unit in units:
         kept = not unit.fixed and choice[unit.members[0]] != SKIP
-        if kept and any(index in chain.beside for index in unit.members):
+        if kept and not beside.isdisjoint(unit.members):
             yield unit
 
 
-def _may_gain(chain: Chain, unit: Unit, choice: Choice, budget: float) -> bool:
-    """Whether a look at steps may afford what was kept: not where the least is a code too much."""
-    last = unit.members[-1]
-    return chain.least(last, {}) <= budget or chain.least(last, choice) <= budget
+def _may_gain(chain: Chain, hopes: tuple[Unit, ...], choice: Choice, budget: float) -> bool:
+    """Whether a look at steps may afford what was kept: not where the least is a code too much.
+
+    Of the lens the last effect takes least, unless more that is left out follows on the first.
+    """
+    lasts = [unit.members[-1] for unit in hopes]
+    lens = [last for last in lasts if chain.present[last].stage == "optics"]
+    asked = [last for last in lasts if last not in lens[1:-1]]
+    return any(chain.least(last, made, budget) <= budget for made in ({}, choice) for last in asked)
 
 
 def _opened(
@@ -141,7 +147,7 @@ def _best(
     chain = Chain(present, view, coarse(view), seen)
     choice = spend(chain, units, costs, budget)
     hopes = tuple(_looking(chain, units, choice))
-    if not any(_may_gain(chain, unit, choice, budget) for unit in hopes):
+    if not _may_gain(chain, hopes, choice, budget):
         return chain, choice
     stack = filled(prepared.stack)
     for apart, columns in GLIMPSES:
@@ -249,4 +255,4 @@ def everything(scene: Scene | Prepared, camera: Camera | None = None, timed: boo
 def _absent(prepared: Prepared) -> tuple[str, ...]:
     """Names of the effects that the camera has not."""
     there = {effect.name for effect in prepared.present}
-    return tuple(effect.name for effect in effects.EFFECTS if effect.name not in there)
+    return tuple([effect.name for effect in effects.EFFECTS if effect.name not in there])

@@ -139,6 +139,18 @@ def test_no_step_is_so_small_that_less_than_the_least_is_lost():
                     assert least <= lost * (1 + 1e-9), (seed, unit, made)
 
 
+def test_what_arrives_at_the_converter_takes_no_less_than_the_least():
+    for seed, source, _, chain in coarsely(7):
+        units = _units(chain.present, frozenset())
+        for choice in _chosen(units, source):
+            floor = chain.floor(choice)
+            for unit in units:
+                for made in unit.choices[1:]:
+                    if chain.arrives(unit.members[0], made):
+                        lost = chain.dn({**choice, **dict.fromkeys(unit.members, made)})
+                        assert floor <= lost * (1 + 1e-9), (seed, unit, made)
+
+
 def test_a_glimpse_never_exceeds_the_facts_nor_a_closer_one():
     for _, _, prepared, _ in photographs(0, 40, noise=False):
         looks = [
