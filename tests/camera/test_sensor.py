@@ -30,7 +30,7 @@ from quizgen.camera.effects import (
     vignetting,
 )  # fmt: skip
 from quizgen.camera.effects.normalisation import stretch_range
-from quizgen.camera.facts import CERTAIN
+from quizgen.camera.facts import CERTAIN, Facts, LayerFacts
 from quizgen.camera.hsv import edit_hsv, rgb_to_hsv
 from quizgen.camera.noise import POISSON_GAP, luck
 from quizgen.camera.plan import Prepared, everything
@@ -148,6 +148,14 @@ def test_hot_pixels_are_a_share():
     look = view(full_well=1e4, hot_pixels=0.01)
     hot = (ran(dark_current, flat(0.1), look) == 1).all(axis=2).sum()
     assert stats.binomtest(int(hot), 90_000, 0.01).pvalue > 1e-3
+
+
+def test_a_picture_that_overflows_everywhere_is_even_after_blooming():
+    image = np.linspace(1.75, 3.0, 5 * 4 * 3).astype(np.float32).reshape(5, 4, 3)
+    facts = blooming.after(Facts(1.75, 3.0, (LayerFacts((1.25, 1.25), (2.5, 2.5)),)), view())
+    spilt = blooming.run(image, view())
+    assert facts.low <= spilt.min() <= spilt.max() <= facts.high
+    assert min(facts.jump) >= np.ptp(spilt)
 
 
 def test_blooming_keeps_the_charge_and_stays_in_the_column():

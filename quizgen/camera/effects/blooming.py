@@ -81,7 +81,7 @@ def after(facts: Facts, view: View) -> Facts:
     """A filled column is a step of the whole range."""
     if not _overflows(facts):
         return facts
-    full = replace(facts, high=1.0).between(-math.inf, 1.0)
+    full = replace(facts, low=min(facts.low, 1.0), high=1.0).between(-math.inf, 1.0)
     return full.with_jump((full.span + full.reach, full.span + full.reach))
 
 
