@@ -38,6 +38,10 @@ GLIMPSES = (128, False), (64, True), (16, True)
 """How far apart lines are that are looked at, and whether columns are, too: a few rows, read at
 once, show of most pictures what they are."""
 
+LEAST_MS = 50.0
+"""What lens and movement must take for a photograph to be looked at: that takes up to 0.4 ms, and
+of hundreds of small ones, steep somewhere as they are, one can do without any of it."""
+
 
 class Prepared:
     """A scene in pixels, drawn when first needed.
@@ -111,6 +115,13 @@ def _looking(chain: Chain, units: tuple[Unit, ...], choice: Choice) -> Iterator[
             yield unit
 
 
+def _worth_a_look(view: View, hopes: tuple[Unit, ...], costs: Costs) -> bool:
+    """Whether what was kept takes so long that a photograph's steps are looked at."""
+    if view.scene.image is None:
+        return True
+    return sum(costs[index][EXACT] for unit in hopes for index in unit.members) >= LEAST_MS
+
+
 def _may_gain(chain: Chain, hopes: tuple[Unit, ...], choice: Choice, budget: float) -> bool:
     """Whether a look at steps may afford what was kept: not where the least is a code too much.
 
@@ -147,7 +158,7 @@ def _best(
     chain = Chain(present, view, coarse(view), seen)
     choice = spend(chain, units, costs, budget)
     hopes = tuple(_looking(chain, units, choice))
-    if not _may_gain(chain, hopes, choice, budget):
+    if not _worth_a_look(view, hopes, costs) or not _may_gain(chain, hopes, choice, budget):
         return chain, choice
     stack = filled(prepared.stack)
     for apart, columns in GLIMPSES:
