@@ -36,7 +36,8 @@ _NEVER = 2.8e-7
 class Luck:
     """Random numbers of one effect: every tile of a picture has its own, whoever works on it.
 
-    Philox counts: the seed is the key, the number of the tile the upper part of the counter.
+    Philox counts: the seed is the key, the number of the tile the upper part of the counter. One
+    thread at a time may draw from it; each run of an effect has its own.
 
     Parameters
     ----------

@@ -38,7 +38,7 @@ GLIMPSES = (128, False), (64, True), (16, True)
 """How far apart lines are that are looked at, and whether columns are, too: a few rows, read at
 once, show of most pictures what they are."""
 
-LEAST_MS = 50.0
+LEAST_LENS_MS = 50.0
 """What lens and movement must take for a photograph to be looked at: that takes up to 0.4 ms, and
 of hundreds of small ones, steep somewhere as they are, one can do without any of it."""
 
@@ -119,7 +119,7 @@ def _worth_a_look(view: View, hopes: tuple[Unit, ...], costs: Costs) -> bool:
     """Whether what was kept takes so long that a photograph's steps are looked at."""
     if view.scene.image is None:
         return True
-    return sum(costs[index][EXACT] for unit in hopes for index in unit.members) >= LEAST_MS
+    return sum(costs[index][EXACT] for unit in hopes for index in unit.members) >= LEAST_LENS_MS
 
 
 def _may_gain(chain: Chain, hopes: tuple[Unit, ...], choice: Choice, budget: float) -> bool:
