@@ -298,7 +298,7 @@ def test_command_writes_page_plots_and_data(tmp_path):
 def test_every_measurement_draws_figures_that_nothing_has_kept(monkeypatch):
     drawn = []
     monkeypatch.setattr(
-        "quizgen.figures.render", lambda _, given, **__: drawn.append(given["sigma"])
+        "quizgen.figures.draw_figure", lambda _, given, **__: drawn.append(given["sigma"])
     )
     report._figure()
     report._figure()
