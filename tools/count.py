@@ -1,7 +1,7 @@
-"""Count anew how many keys go wrong in each arithmetic: ``quizgen/tradeoff/counted.json``.
+"""Count how many keys go wrong in each arithmetic: ``quizgen/tradeoff/counted.json``.
 
 Run: ``uv run python tools/do.py counts`` after a change of number systems, marking or many
-templates; ``tests/tradeoff/test_solving.py`` says when.
+templates; ``tests/tradeoff/test_questions.py`` says when.
 """
 
 from __future__ import annotations
@@ -9,17 +9,18 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+import msgspec
+
 from quizgen.bank.folder import builtin
-from quizgen.tradeoff.page import counts_json
-from quizgen.tradeoff.product import ROUND, count_faults
+from quizgen.tradeoff.questions import count_wrong
 
 COUNTED = Path(__file__).parents[1] / "quizgen" / "tradeoff" / "counted.json"
 
 
 def main() -> int:
     """Count and write."""
-    found = count_faults(builtin(), ROUND, lambda _name: None)
-    COUNTED.write_text(counts_json(found), "utf-8")
+    found = msgspec.json.format(msgspec.json.encode(count_wrong(builtin())))
+    COUNTED.write_bytes(found + b"\n")
     print(COUNTED)
     return 0
 

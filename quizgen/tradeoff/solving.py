@@ -1,8 +1,7 @@
 """Whole questions in several arithmetics: what a draw solved otherwise would print and mark.
 
-A draw is kept, its numbers are solved again - certified alone, in float64, in float64 kept to
-twelve figures, in float32 - and its key is made and marked by the product's own code. Nothing else
-differs.
+A draw is kept, its numbers are solved again - with balls alone, in float64, in float64 kept to
+twelve figures - and its key is made and marked by the product's own code. Nothing else differs.
 """
 
 from __future__ import annotations
@@ -10,7 +9,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from decimal import Decimal
 from fractions import Fraction
 
@@ -21,10 +20,9 @@ from quizgen.errors import MathError, QuizgenError
 from quizgen.marking.mark import mark, show
 from quizgen.marking.specs import AnySpec
 from quizgen.maths.chain import Chain
-from quizgen.maths.floats import single
 from quizgen.maths.numbers import rational, round_to, to_float
 from quizgen.maths.precision import working_precision
-from quizgen.maths.systems import NumberSystem, exact, floats, singles
+from quizgen.maths.systems import NumberSystem, exact, floats
 from quizgen.maths.values import AnyNumber, Value, Values
 from quizgen.question.kinds import build
 
@@ -85,19 +83,14 @@ def _to_figures(value: float) -> fmpq:
     return rational(f"{value:.{FIGURES}g}")
 
 
-def _to_single(value: Value) -> float:
-    return single(to_float(value))
-
-
 ARITHMETICS: Mapping[str, Arithmetic] = {
-    "exact": Arithmetic(exact, _kept, _kept),
-    "certified": Arithmetic(exact, arb, _kept),
     "float64": Arithmetic(floats, to_float, _as_it_is),
     "rounded": Arithmetic(floats, to_float, _to_figures),
-    "float32": Arithmetic(singles, _to_single, _as_it_is),
+    "balls": Arithmetic(exact, arb, _kept),
+    "exact": Arithmetic(exact, _kept, _kept),
 }
-"""By name: as the product does it, balls throughout, doubles as they are, doubles kept to twelve
-figures, single precision."""
+"""By name: doubles as they are, doubles kept to twelve figures, balls throughout, and rationals that
+become balls where a value is irrational, as the product does it."""
 FAILURES = (QuizgenError, ZeroDivisionError, OverflowError, ValueError)
 """What an arithmetic raises where it has no answer."""
 
@@ -130,10 +123,6 @@ class Faults:
     def __or__(self, other: Faults) -> Faults:
         """Either of them."""
         return Faults(*(a or b for a, b in zip(_flags(self), _flags(other), strict=True)))
-
-
-FAULTS = tuple(field.name for field in fields(Faults))
-"""What can go wrong, in the order of the page."""
 
 
 def _flags(faults: Faults) -> tuple[bool, ...]:
