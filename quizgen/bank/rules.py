@@ -11,6 +11,8 @@ from quizgen.bank.levels import Made
 from quizgen.maths.numbers import written
 
 Scalar = int | float | str
+Source = Scalar | tuple[Scalar | tuple[Scalar, ...], ...]
+"""What a figure's parameter is made of: a number, a formula or a phrase, a list or a table."""
 
 
 class DrawRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
@@ -49,7 +51,7 @@ class FigureRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     """
 
     name: str
-    values: dict[str, Scalar] = {}
+    values: dict[str, Source] = {}
     quiz: bool = True
     reads: tuple[str, ...] = ()
 

@@ -52,7 +52,7 @@ class Picture:
     @property
     def data(self) -> bytes:
         """The drawing without its title, so that every language shares one file."""
-        return _LANG.sub(b"", _TITLE.sub(b"", self.figure.svg, count=1), count=1)
+        return _LANG.sub(b"", _TITLE.sub(b"", self.figure.standalone_svg, count=1), count=1)
 
     @property
     def file(self) -> str:

@@ -16,7 +16,7 @@ Source = Callable[[Figure], str]
 
 def name(figure: Figure) -> str:
     """What its file is called; those that look the same are one."""
-    return f"{hashlib.sha256(figure.light).hexdigest()[:16]}.svg"
+    return f"{hashlib.sha256(figure.standalone_svg).hexdigest()[:16]}.svg"
 
 
 def path(figure: Figure) -> str:
@@ -53,4 +53,4 @@ def shown(item: Item) -> dict[str, bytes]:
 
 
 def _files(figures: Iterable[Figure | None]) -> dict[str, bytes]:
-    return {name(figure): figure.light for figure in figures if figure}
+    return {name(figure): figure.standalone_svg for figure in figures if figure}

@@ -31,7 +31,7 @@ def _layouts(way: Manner = OURS) -> jinja2.Environment:
         decimal=lambda lang: language(lang).decimal,
         squares=squares,
         drawing=_board,
-        svg=lambda figure: Markup(figure.svg.decode()),
+        svg=lambda figure: Markup(figure.inline_svg.decode()),
     )
     return layouts
 

@@ -8,7 +8,6 @@ import random
 from quizgen import figures
 from quizgen.bank.folder import builtin
 from quizgen.bank.solvers import module_of
-from quizgen.figures import _letters
 
 FIGURES = builtin().figures
 FOLDER = builtin().folder / "figures"
@@ -19,9 +18,9 @@ def module(name):
     return module_of(FOLDER, name) if name.startswith("_") else builtin().figure(name)
 
 
-def render(name, values, **wanted):
+def draw(name, values, *, quiz=False, lang="en", marks=None):
     """A figure by its name."""
-    return figures.render(module(name), values, **wanted)
+    return figures.draw_figure(module(name), values, quiz=quiz, lang=lang, marks=marks)
 
 
 MOSAIC = {
@@ -176,15 +175,3 @@ def draws():  # noqa: C901 - one loop a figure
     for k1 in (-0.3, -0.15, -0.05, 0, 0.05, 0.3):
         for k2 in (0, 0.05):
             yield "distorted_grid", {"k1": k1, "k2": k2, "c_x": rng.choice([0, 0.2]), "c_y": 0.1}
-
-
-def outline(label):
-    """Points of a label at size 1 from the start of its baseline, their codes, and its width."""
-    laid, wide = _letters.runs(label)
-    points, codes = [], b""
-    for run in laid:
-        shape = _letters.glyph(run.text, italic=run.italic)
-        (left, low), size = run.at, run.size
-        points += [(x * size + left, y * size + low) for x, y in shape.points]
-        codes += shape.codes
-    return points, codes, wide
