@@ -21,7 +21,7 @@ from quizgen.question.filling import tied
 from quizgen.question.shown import Maths
 from quizgen.typeset.nodes import RELATION, Node, Row
 
-_TITLE = re.compile(rb"<title>.*?</title>", re.DOTALL)
+_TITLE = re.compile(rb"<title>.*?</title>|<desc>.*?</desc>", re.DOTALL)
 _LANG = re.compile(rb' lang="[A-Za-z0-9-]+"')
 
 
@@ -52,7 +52,12 @@ class Picture:
     @property
     def data(self) -> bytes:
         """The drawing without its title, so that every language shares one file."""
-        return _LANG.sub(b"", _TITLE.sub(b"", self.figure.standalone_svg, count=1), count=1)
+        return _LANG.sub(b"", _TITLE.sub(b"", self.figure.standalone_svg), count=1)
+
+    @property
+    def shade(self) -> str:
+        """What a dark card does to it: line art is inverted, a photograph stays on white."""
+        return "keep" if b"<image" in self.data else "invert"
 
     @property
     def file(self) -> str:
@@ -259,7 +264,7 @@ def _(part: Hole, lang: str, *, ask: bool | None = None) -> str:
 def _(part: Picture, lang: str, *, ask: bool | None = None) -> str:
     del lang, ask
     alt = text(part.alt, quote=True)
-    return f'<img class="qg-{part.figure.dark}" src="{escape(part.file, quote=True)}" alt="{alt}">'
+    return f'<img class="qg-{part.shade}" src="{escape(part.file, quote=True)}" alt="{alt}">'
 
 
 @html.register

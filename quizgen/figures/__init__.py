@@ -87,7 +87,7 @@ def draw_figure(
 
 
 def describe_figure(figure: ModuleType, values: Mapping[str, Any], *, quiz: bool, lang: str) -> str:
-    """What a figure shows, in words, without drawing it; arguments and errors as ``draw_figure``."""
+    """What a figure shows, in words, not drawn; arguments and errors as ``draw_figure``."""
     values = complete_parameters(figure, values)
     return _describe(check_figure_module(figure), values, lang, quiz=quiz)
 

@@ -1,4 +1,4 @@
-"""Figures in words: numbers as figure and description print them, sentences from ``<lang>.toml``."""
+"""Figures in words: numbers as figures print them, sentences from ``<lang>.toml``."""
 
 from __future__ import annotations
 

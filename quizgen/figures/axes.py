@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import matplotlib as mpl
 import numpy as np
-from matplotlib import rcParams
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.axis import XAxis, YAxis
@@ -23,7 +23,8 @@ from matplotlib.transforms import Affine2D, IdentityTransform
 from quizgen.figures.sketch import Sketch
 from quizgen.figures.svg import house_font
 
-_IN_POINTS = IdentityTransform()  # type: ignore[no-untyped-call]
+_IN_POINTS = IdentityTransform()
+_settings: Any = mpl.rcParams
 _TOP_GAP = 8.0  # between the highest tick and the name of an upright axis, in points
 
 
@@ -120,7 +121,7 @@ class _LeanAxis:
         across, name, box = here.axis_name == "x", here.axis_name, here.axes.bbox
         settings = getattr(here, f"_{kind}_tick_kw")
         size, width, pad = (
-            settings.get(key, rcParams[f"{name}tick.{kind}.{key}"])
+            settings.get(key, _settings[f"{name}tick.{kind}.{key}"])
             for key in ("size", "width", "pad")
         )
         size *= settings.get("tick1On", True)
@@ -131,8 +132,8 @@ class _LeanAxis:
         at = here.axes.transData.transform(points)[:, 0 if across else 1]
         edge = box.y0 if across else box.x0
         if settings.get("gridOn"):
-            gc.set_foreground(rcParams["grid.color"])
-            gc.set_linewidth(rcParams["grid.linewidth"])
+            gc.set_foreground(_settings["grid.color"])
+            gc.set_linewidth(_settings["grid.linewidth"])
             self._draw_bars(renderer, gc, at, edge, box.y1 if across else box.x1)
         gc.set_foreground("ink")
         if spine.get_visible() and size:
@@ -140,7 +141,7 @@ class _LeanAxis:
             self._draw_bars(renderer, gc, at, edge - size, edge)
         if not settings.get("label1On", True):
             return float(size)
-        font = house_font(settings.get("labelsize", rcParams[f"{name}tick.labelsize"]))
+        font = house_font(settings.get("labelsize", _settings[f"{name}tick.labelsize"]))
         texts = getattr(here, kind).formatter.format_ticks(places)
         return self._draw_labels(renderer, gc, font, zip(at, texts, strict=True), size + pad)
 
@@ -179,7 +180,7 @@ class _LeanAxis:
         text = f"{text}  ({factor})" if factor and text else text or factor
         if not text or not here.label.get_visible():
             return
-        font = house_font(rcParams["axes.labelsize"])
+        font = house_font(_settings["axes.labelsize"])
         wide, tall, deep = renderer.get_text_width_height_descent(text, font, "$" in text)
         if here.axis_name == "x":
             x, y = box.x1 - wide, box.y0 - reach - 5 - tall + deep
@@ -189,11 +190,11 @@ class _LeanAxis:
         renderer.draw_text(gc, x, renderer.height - y, text, font, 0, "$" in text)
 
 
-class _X(_LeanAxis, XAxis):  # type: ignore[misc]
+class _X(_LeanAxis, XAxis):
     pass
 
 
-class _Y(_LeanAxis, YAxis):  # type: ignore[misc]
+class _Y(_LeanAxis, YAxis):
     pass
 
 
@@ -206,8 +207,9 @@ class HouseAxes(Axes):
         super().__init__(*args, **kwargs)
         for spine in self.spines.values():
             spine.get_position()  # matplotlib settles it when it makes a tick
-        for axis in (self.xaxis, self.yaxis):
-            axis.styled = False  # type: ignore[attr-defined]
+        axes: Any = (self.xaxis, self.yaxis)
+        for axis in axes:
+            axis.styled = False
 
     def _init_axis(self) -> None:
         self.xaxis, self.yaxis = _X(self, clear=False), _Y(self, clear=False)

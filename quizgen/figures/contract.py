@@ -74,7 +74,7 @@ def first_parameter(function: Any) -> str:
     return next(iter(signature(function).parameters), "")
 
 
-def needs_colour(module: ModuleType, values: Mapping[str, Any]) -> bool:
+def needs_colour(module: ModuleType | FigureModule, values: Mapping[str, Any]) -> bool:
     """Whether a figure cannot be read on grey paper."""
     rule = getattr(module, "COLOUR", False)
     return bool(rule(values) if callable(rule) else rule)

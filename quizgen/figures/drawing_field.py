@@ -44,7 +44,7 @@ class DrawingField(msgspec.Struct, frozen=True):
     marks : tuple of (str, point)
         Points with a label.
     axes : tuple of str
-        Names of the axes with their units, such as ``$\\lambda$ / nm``: across and upright.
+        Names of the axes with their units, such as ``$λ$ / nm``: across and upright.
     """
 
     view: tuple[float, float, float, float]

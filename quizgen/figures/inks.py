@@ -32,7 +32,10 @@ PAINTS = {light: _paint(name, light) for name, (light, _) in INKS.items()}
 """Hex colour to what an SVG inside a page is painted with."""
 
 
-def write_theme_css(selector: str = ":root") -> str:
-    """CSS rule that gives figures the colours of a dark page; black follows the text's colour."""
-    rules = (f"--fig-{name}:{dark}" for name, (_, dark) in INKS.items() if name != "ink")
-    return f"{selector}{{{';'.join(rules)}}}"
+def write_theme_css() -> str:
+    """CSS that gives figures the colours of a dark page; black follows the text's colour.
+
+    Paper is light even where the screen is dark: the rule is for screens alone.
+    """
+    rules = "; ".join(f"--fig-{name}: {dark}" for name, (_, dark) in INKS.items() if name != "ink")
+    return f"@media screen and (prefers-color-scheme: dark) {{ :root {{ {rules}; }} }}\n"

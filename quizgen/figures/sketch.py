@@ -17,10 +17,12 @@ from matplotlib.colors import to_rgba
 from matplotlib.path import Path
 from matplotlib.transforms import IdentityTransform
 
+from quizgen.errors import BankError
 from quizgen.figures.svg import house_font, shape_label
 
-_IN_POINTS = IdentityTransform()  # type: ignore[no-untyped-call]
+_IN_POINTS = IdentityTransform()
 _CIRCLE = Path.unit_circle()
+_CORNERS = np.asarray(_CIRCLE.vertices)
 _ALONG = {"l": 0.0, "c": 0.5, "r": 1.0}
 _UP = {"b": 0.0, "m": 0.5, "t": 1.0}
 _SLENDER = 0.34  # half the width of an arrow's head over its length
@@ -55,6 +57,8 @@ class _Text:
 class Sketch(Artist):
     """Lines, areas, arrows and labels; colours are names of the house's inks, or any of matplotlib.
 
+    What is drawn in units of axes is placed at once: set their limits first.
+
     Parameters
     ----------
     places : Transform
@@ -67,11 +71,18 @@ class Sketch(Artist):
         super().__init__()
         self.places = places
         self._acts: list[_Stroke | _Text] = []
+        self._probes: Any = None
         self.set_zorder(zorder)
 
     def to_points(self, points: Any) -> Any:
         """Coordinates in points of the figure, shape (n, 2)."""
+        if self._probes is None:
+            self._probes = self._probe()
         return self.places.transform(np.asarray(points, float).reshape(-1, 2))
+
+    def _probe(self) -> Any:
+        """Where two points lie: they move when the limits of the axes change."""
+        return self.places.transform(np.array([(1.0, 1.0), (2.0, 3.0)]))
 
     def in_points(self) -> Sketch:
         """The same sketch, drawn on in points of the figure."""
@@ -114,7 +125,7 @@ class Sketch(Artist):
     ) -> None:  # fmt: skip
         """Draw a disc; the radius is in points."""
         place = self.to_points(at)[0]
-        path = Path(_CIRCLE.vertices * radius + place, _CIRCLE.codes)
+        path = Path(_CORNERS * radius + place, _CIRCLE.codes)
         self._stroke(part, path, fill, stroke, width)
 
     def cross(
@@ -228,7 +239,7 @@ class Sketch(Artist):
         level = abs(sin(radians(angle))) < 0.5
         need = (width if level else height) + 2 * gap
         middle, unit = (a + b) / 2, (b - a) / max(length, 1e-9)
-        draw = {"stroke": stroke, "width": 0.6, "size": 5.5, "part": part}
+        draw: dict[str, Any] = {"stroke": stroke, "width": 0.6, "size": 5.5, "part": part}
         if length > need + 18:
             self._arrow(middle - unit * need / 2, a, **draw)
             self._arrow(middle + unit * need / 2, b, **draw)
@@ -273,6 +284,8 @@ class Sketch(Artist):
         """Hand everything to a renderer of matplotlib."""
         if not self.get_visible():
             return
+        if self._probes is not None and not np.allclose(self._probes, self._probe()):
+            raise BankError("the axes' limits changed after something was sketched: set them first")
         gc = renderer.new_gc()
         for act in self._acts:
             renderer.open_group("sketch", act.part or None)

@@ -8,7 +8,7 @@ STIX of the system, which has other outlines, from deciding the bytes of a figur
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import matplotlib as mpl
 
@@ -47,7 +47,8 @@ _SETTINGS: dict[str, Any] = {
     "axes.spines.top": False, "axes.spines.right": False, "axes.titley": 1.0,
     "axes.labelsize": 10, "axes.labelpad": 3, "axes.titlesize": 10.5, "axes.axisbelow": True,
     "axes.xmargin": 0.03, "axes.ymargin": 0.06, "axes.unicode_minus": True,
-    "figure.subplot.hspace": 0.55, "figure.subplot.wspace": 0.3, "axes.formatter.use_mathtext": True, "axes.formatter.limits": (-4, 5),
+    "figure.subplot.hspace": 0.55, "figure.subplot.wspace": 0.3,
+    "axes.formatter.use_mathtext": True, "axes.formatter.limits": (-4, 5),
     # Colours and dashes change together: lines differ on grey paper, too.
     "axes.prop_cycle": cycler(color=["blue", "red", "teal", "gold"]) + cycler(linestyle=_DASHES),
     "grid.color": "rule", "grid.linewidth": 0.4, "grid.linestyle": "-",
@@ -82,7 +83,7 @@ def _complete_settings() -> dict[str, Any]:
 class HouseColours:
     """Names of the house's inks inside, those of before afterwards: ``red`` is ours only here."""
 
-    _cache: dict[Any, Any] = {}
+    _cache: ClassVar[dict[Any, Any]] = {}
 
     def __enter__(self) -> None:
         names: Any = get_named_colors_mapping()
@@ -109,12 +110,13 @@ class HouseStyle(HouseColours):
 
     def __enter__(self) -> None:
         super().__enter__()
-        now = mpl.rcParams
+        now: Any = mpl.rcParams
         self._settings = {key: dict.__getitem__(now, key) for key in _COMPLETE}
         dict.update(now, _COMPLETE)
 
     def __exit__(self, *_: object) -> None:
-        dict.update(mpl.rcParams, self._settings)
+        now: Any = mpl.rcParams
+        dict.update(now, self._settings)
         super().__exit__()
 
 

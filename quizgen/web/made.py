@@ -124,7 +124,6 @@ class Made(msgspec.Struct, frozen=True):
     stem: Html
     figure: Html
     solved_figure: Html
-    dark: str
     parts: list[MadePart]
     check: Html
     note: Html
@@ -227,7 +226,6 @@ def made(wanted: Wanted, question: Question, key: Key, bank: Bank | None = None)
         stem=stem,
         figure=figure.inline_svg.decode() if figure else "",
         solved_figure=other.inline_svg.decode() if other else "",
-        dark=next((one.dark for one in (figure, solved) if one), ""),
         parts=[
             _part(part, solved_part, _names(part, spec, stem, lang), lang, bank)
             for part, solved_part, spec in zip(
