@@ -46,11 +46,12 @@ class KeepRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 class FigureRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     """The figure and the formulas of its parameters.
 
-    ``reads`` are drawn quantities whose numbers stand in it, in a quiz too: levels may ask for
-    steps that begin with them, as with numbers of the text.
+    Without a ``name`` it is the ``figure.py`` beside the template. ``reads`` are drawn quantities
+    whose numbers stand in it, in a quiz too: levels may ask for steps that begin with them, as with
+    numbers of the text.
     """
 
-    name: str
+    name: str = ""
     values: dict[str, Source] = {}
     quiz: bool = True
     reads: tuple[str, ...] = ()

@@ -150,7 +150,7 @@ class _LeanAxis:
         across, box, reach = here.axis_name == "x", here.axes.bbox, gap
         for place, label in labels:
             below = gap
-            for text in label.replace(r"\mathdefault", "").split("\n"):
+            for text in str(label).replace(r"\mathdefault", "").split("\n"):
                 if not text:
                     continue
                 maths = "$" in text

@@ -41,6 +41,8 @@ class DrawingField(msgspec.Struct, frozen=True):
         Height over width, where the axes do not have one scale.
     given : tuple of lines
         What is there already, in grey.
+    bars : bool
+        Whether what is there are bars of a histogram.
     marks : tuple of (str, point)
         Points with a label.
     axes : tuple of str
@@ -51,6 +53,7 @@ class DrawingField(msgspec.Struct, frozen=True):
     grid: tuple[float, float]
     tall: float = 0.0
     given: tuple[Line, ...] = ()
+    bars: bool = False
     marks: tuple[tuple[str, Point], ...] = ()
     axes: tuple[str, str] = ("", "")
 
@@ -132,7 +135,10 @@ def _draw_field(picture: FieldPicture) -> Figure:
         _draw_axes(sketch, field)
         for line in field.given:
             points = [field.to_picture(point) for point in line]
-            sketch.line(points, "grey", 1.2, dashes=(5.0, 2.0), part="given")
+            if field.bars:
+                sketch.line(points, "rule", 7.0, part="given")
+            else:
+                sketch.line(points, "grey", 1.2, dashes=(5.0, 2.0), part="given")
         for line in picture.lines:
             points = [field.to_picture(point) for point in line]
             sketch.line(points, "blue", 1.8, part="wanted")

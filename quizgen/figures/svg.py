@@ -3,7 +3,7 @@
 In: what matplotlib's artists draw. Out: the inside of an ``<svg>``, its extent, and the labels with
 their boxes. It differs from ``backend_svg``: numbers have two digits, neighbouring strokes of one
 style become one path, letters are outlines in whole fiftieths of a point kept a glyph each, inks of
-the house are CSS variables, nothing has an id but odd clips and hatches, and the picture is as large as
+the house are CSS variables, nothing has an id but odd clips and hatches, the picture is as large as
 what was drawn. Warm it takes 2 to 5 ms a figure where ``backend_svg`` takes 10 to 55.
 
 Text is outlines, as a page, Typst and Anki have different fonts and would break the layout.
@@ -48,6 +48,7 @@ _COMMANDS = [b"M", b"L", b"Q", b"C", b"z"]
 # Moves everything by less than anybody sees, so that no number lies halfway between two roundings
 # and falls to either side with the last bit of another processor.
 _OFF_TIES = 1e-7
+_SEAM = 0.5  # width of a line that closes the seam between two areas of a mesh
 _EM = 100  # size in points that letters are measured at
 _SUBSCRIPT = 0.7  # how large mathtext sets an index
 
@@ -296,6 +297,7 @@ class SvgRenderer(RendererBase):
         self.outside = 0  # markers that fall outside their axes, and so are not drawn
         self._elements: list[str] = []
         self._parts: list[str] = []
+        self._defined = set[str]()  # ids
         self._style: tuple[str, str] | None = None
         self._run: list[str] = []
         self._low, self._high = np.full(2, np.inf), np.full(2, -np.inf)
@@ -316,7 +318,7 @@ class SvgRenderer(RendererBase):
 
     def open_group(self, s: str, gid: str | None = None) -> None:
         """Name what follows: the ``gid`` of an artist becomes ``data-part``."""
-        self._parts.append(gid or (self._parts[-1] if self._parts else ""))
+        self._parts.append(escape(gid) if gid else self._parts[-1] if self._parts else "")
 
     def close_group(self, s: str) -> None:
         self._parts.pop()
@@ -337,7 +339,10 @@ class SvgRenderer(RendererBase):
         points = transform.transform(path.vertices)
         if path.codes is not None:
             points = points[path.codes != Path.CLOSEPOLY]
-        low, high = np.nanmin(points, axis=0), np.nanmax(points, axis=0)
+        points = points[np.isfinite(points).all(axis=1)]
+        if not len(points):
+            return
+        low, high = points.min(axis=0), points.max(axis=0)
         clip = None
         sides = self._clip_sides(gc)
         if sides is not None and ((low < sides[0] - 0.05).any() or (high > sides[1] + 0.05).any()):
@@ -402,13 +407,22 @@ class SvgRenderer(RendererBase):
         self.draw_path(gc, Path(points, np.tile(codes, len(places))), Affine2D(), rgbFace)
         gc.set_clip_rectangle(box)
 
+    def draw_quad_mesh(self, gc: Any, *args: Any) -> None:
+        """Cells without edges get thin ones of their own colour: viewers show seams otherwise."""
+        *others, edgecolors = args
+        if not len(edgecolors):
+            gc.set_linewidth(_SEAM)
+        super().draw_quad_mesh(gc, *others, edgecolors if len(edgecolors) else None)
+
     def draw_gouraud_triangles(
         self, gc: Any, triangles_array: Any, colors_array: Any, transform: Any
     ) -> None:
         """Fill each triangle with the mean of its corners: SVG has no shading of this kind."""
-        gc.set_linewidth(0)
+        gc.set_linewidth(_SEAM)
         for corners, colours in zip(triangles_array, colors_array, strict=True):
-            self.draw_path(gc, Path(corners, closed=False), transform, tuple(colours.mean(axis=0)))
+            colour = tuple(colours.mean(axis=0))
+            gc.set_foreground(colour, isRGBA=True)
+            self.draw_path(gc, Path(corners, closed=False), transform, colour)
 
     def _clip_sides(self, gc: Any) -> Any:
         """Corners of the clipping rectangle, from above; None without one."""
@@ -441,13 +455,19 @@ class SvgRenderer(RendererBase):
         stroke = found.decode("ascii").replace("\n", "")
         ink = write_paint(tuple(gc.get_hatch_color()), "stroke")
         ink += f' stroke-width="{gc.get_hatch_linewidth():g}"'
-        name = "h" + sha256((stroke + ink).encode()).hexdigest()[:8]
-        self._flush()
-        self._elements.append(
-            f'<pattern id="{name}" width="{size}" height="{size}" patternUnits="userSpaceOnUse">'
-            f'<path d="{stroke}"{ink}/></pattern>'
-        )
+        shape = f'width="{size}" height="{size}" patternUnits="userSpaceOnUse"'
+        name = self._define("pattern", f'<path d="{stroke}"{ink}/>', shape)
         self._add(gc, data, f' fill="url(#{name})"', join=False)
+
+    def _define(self, tag: str, inside: str, attributes: str = "") -> str:
+        """Put down an element once, and return its id."""
+        name = tag[0] + sha256(inside.encode()).hexdigest()[:8]
+        if name not in self._defined:
+            self._defined.add(name)
+            self._flush()
+            start = f'{tag} id="{name}" {attributes}'.strip()
+            self._elements.append(f"<{start}>{inside}</{tag}>")
+        return name
 
     def _add(self, gc: Any, data: str, style: str, *, join: bool) -> None:
         key = (self._parts[-1] if self._parts else "", style + self._write_clip(gc))
@@ -464,9 +484,7 @@ class SvgRenderer(RendererBase):
         whole = transform + self.flip
         found = _path.convert_to_string(shape, whole, None, False, None, 2, _COMMANDS, False)
         outline = found.decode("ascii").replace("\n", "")
-        name = "c" + sha256(outline.encode()).hexdigest()[:8]
-        self._flush()
-        self._elements.append(f'<clipPath id="{name}"><path d="{outline}"/></clipPath>')
+        name = self._define("clipPath", f'<path d="{outline}"/>')
         return f' clip-path="url(#{name})"'
 
     def _flush(self) -> None:
@@ -507,7 +525,7 @@ class SvgRenderer(RendererBase):
         self.labels.append(Label(self._localise(s), size, *map(float, (*low, *high))))
         self._flush()
         name = self._parts[-1] if self._parts and self._parts[-1] else "labels"
-        turn = f"rotate({-angle:g})" if angle else ""
+        turn = f"rotate({round(-angle, 2):g})" if angle else ""
         self._elements.append(
             f'<path data-part="{name}"'
             f' transform="translate({x + _OFF_TIES:.2f} {y + _OFF_TIES:.2f}){turn}'
@@ -524,21 +542,42 @@ class SvgRenderer(RendererBase):
         self._flush()
         placed = Affine2D().scale(1 / wide, 1 / high) + (transform or Affine2D().scale(wide, high))
         placed += Affine2D().translate(x, y) + self.flip
-        (x0, y0), (x1, y1) = placed.transform([(0, 0), (wide, high)])
-        pixels = im[:: 1 if y1 >= y0 else -1, :: 1 if x1 >= x0 else -1]
-        low, top = np.minimum((x0, y0), (x1, y1)), np.maximum((x0, y0), (x1, y1))
-        self._extend(low, top)
-        (left, upper), (w, h) = low, top - low
-        more = self._write_clip(gc)
+        corners = placed.transform([(0, 0), (wide, 0), (0, high), (wide, high)])
+        low, top = corners.min(axis=0), corners.max(axis=0)
+        (x0, y0), (x1, y1) = corners[0], corners[3]
+        w, h = top - low
+        clip = self._write_clip(gc) or self._clip_image(gc, low, top)
+        more = ""
         if w > 1.5 * wide:
             more += ' image-rendering="pixelated"'
-        file = b64encode(_write_png(pixels, palette)).decode()
+        if transform is not None and gc.get_alpha() != 1:  # else it is in the pixels
+            more += f' opacity="{gc.get_alpha():.3g}"'
+        if np.abs(corners[1] - corners[0])[1] < 0.01 > np.abs(corners[2] - corners[0])[0]:
+            im = im[:: 1 if y1 >= y0 else -1, :: 1 if x1 >= x0 else -1]
+            place = f'x="{low[0]:.2f}" y="{low[1]:.2f}" width="{w:.2f}" height="{h:.2f}"'
+        else:
+            numbers = (*(corners[1] - corners[0]), *(corners[2] - corners[0]), x0, y0)
+            matrix = " ".join(f"{number:.2f}" for number in numbers)
+            place = f'width="1" height="1" transform="matrix({matrix})"'
+        file = b64encode(_write_png(im, palette)).decode()
         name = self._parts[-1] if self._parts else ""
-        self._elements.append(
-            f'<image data-part="{name}" x="{left:.2f}" y="{upper:.2f}" width="{w:.2f}"'
-            f' height="{h:.2f}" preserveAspectRatio="none"{more}'
+        image = (
+            f'<image data-part="{name}" {place} preserveAspectRatio="none"{more}'
             f' href="data:image/png;base64,{file}"/>'
         )
+        # Around it: its own transform would move the clip, too.
+        self._elements.append(f"<g{clip}>{image}</g>" if clip else image)
+
+    def _clip_image(self, gc: Any, low: Any, top: Any) -> str:
+        """An attribute for a picture that reaches out of its axes; the rest grows the view."""
+        sides = self._clip_sides(gc)
+        if sides is not None and ((low < sides[0] - 0.05).any() or (top > sides[1] + 0.05).any()):
+            self._extend(np.maximum(low, sides[0]), np.minimum(top, sides[1]))
+            (x, y), (w, h) = sides[0], sides[1] - sides[0]
+            box = f'<rect x="{x:.2f}" y="{y:.2f}" width="{w:.2f}" height="{h:.2f}"/>'
+            return f' clip-path="url(#{self._define("clipPath", box)})"'
+        self._extend(low, top)
+        return ""
 
     def write(self, size: tuple[float, float] | None = None) -> Drawing:
         """Write what was drawn, as large as it is or of a fixed size in points.

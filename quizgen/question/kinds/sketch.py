@@ -61,7 +61,9 @@ def build(drawn: Draw, index: int) -> Built[Spec]:
         grid=right.point(answer.grid),
         tall=tall,
         given=tuple(map(tuple, right.lines(answer.given).values())),
+        bars=answer.bars,
         marks=tuple((label, right.point(at)) for label, at in answer.marks.items()),
+        axes=answer.axes,
     )
     return Built(
         spec,
