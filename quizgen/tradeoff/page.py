@@ -38,9 +38,9 @@ Pieces = tuple[str, str, str]
 def write(report: Report, folder: Path, command: str) -> list[Path]:
     """Write the page, its plot, and all that was measured (seconds; what fails is null)."""
     made = {
-        "tradeoff.html": whole_page(report, command).encode(),
         "digits.svg": draw_digits(report, words("en")["plot"]["alt"], "en").standalone_svg,
         "tradeoff.json": msgspec.json.format(msgspec.json.encode(report)) + b"\n",
+        "tradeoff.html": whole_page(report, command).encode(),
     }
     return write_all(folder, made)
 

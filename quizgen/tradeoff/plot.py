@@ -10,7 +10,7 @@ from quizgen.figures import Figure, plot_figure
 from quizgen.tradeoff.digits import MOST_DIGITS
 from quizgen.tradeoff.report import Report
 
-SIZE = (420.0, 180.0)
+SIZE = (380.0, 170.0)
 ITERATED = "inverse-distortion"  # loses its digits by its steps, not by a subtraction
 
 
@@ -24,6 +24,7 @@ def draw_digits(report: Report, alt: str, lang: str) -> Figure:
         ax.set_xticks([10.0**-n for n in range(0, 16, 3)])
         ax.set_yticks(range(0, MOST_DIGITS + 1, 4))
         ax.minorticks_off()
+        ax.tick_params(labelsize=10)
         ax.grid(True)
         ax.axvspan(1, report.exam, color="pale-gold", linewidth=0, zorder=0)
         for one in report.sweeps:
