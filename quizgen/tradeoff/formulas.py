@@ -1,8 +1,10 @@
 """Fourteen printed formulas of the chapter, each with what makes it difficult and how near that is.
 
 The distance to the difficulty is what a formula's subtraction leaves of 1: with 10^-6 left, six of
-sixteen digits are gone. Undistorting subtracts nothing that counts; its distance is that to the fold.
+sixteen digits are gone. Undistorting subtracts nothing that counts: there it is that to the fold.
 """
+
+# ruff: noqa: ARG005 - every column of a formula has its name
 
 from __future__ import annotations
 

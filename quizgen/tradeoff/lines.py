@@ -19,7 +19,7 @@ Column = npt.NDArray[np.floating[Any]]
 
 
 def two_sided_tail(k: Column) -> Column:
-    """Probability beyond k sigma on either side; 1 - erf(k/sqrt 2) subtracts what erfc never adds."""
+    """Probability beyond k sigma on either side, without a subtraction from 1."""
     tail: Column = _erfc(k * 0.5**0.5)
     return tail
 
@@ -52,8 +52,8 @@ def snr_loss(N: Column, s: Column) -> Column:
 def gamma_gap(a: Column, b: Column) -> Column:
     """Encoded mean less mean of the encoded, exponent 5/11, of two intensities with a mean > 0.
 
-    With d = (b - a)/(a + b) and e the exponent, (1 + d)**e and (1 - d)**e are exp(e (p +- q)), where
-    2 p = ln(1 - d**2) and q = artanh d: what is left of 1 less their mean has no small difference.
+    With d = (b - a)/(a + b) and e the exponent, (1 + d)**e and (1 - d)**e are exp(e (p +- q)),
+    where 2 p = ln(1 - d**2) and q = artanh d: 1 less their mean has no small difference.
     """
     e, d = 5 / 11, (b - a) / (a + b)
     p = 0.5 * np.log1p(-d * d)

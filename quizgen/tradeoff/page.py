@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from functools import cache
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +12,7 @@ import msgspec
 
 from quizgen.figures.inks import write_theme_css
 from quizgen.files import write_all
-from quizgen.locale import language, languages, numbers_in, table
+from quizgen.locale import language, languages, numbers_in
 from quizgen.maths.notation import people
 from quizgen.render.fonts import bangla_uri
 from quizgen.render.layouts import environment
@@ -25,6 +24,7 @@ from quizgen.tradeoff.report import Report
 from quizgen.tradeoff.rivals import Match
 from quizgen.tradeoff.solving import ARITHMETICS
 from quizgen.tradeoff.sweeps import EXAMS, PLACES, Sweep
+from quizgen.tradeoff.texts import script, style_sheet, words
 
 START = 2 * PLACES // 3
 """The place where the slider stands first: two thirds of the way to the hard end."""
@@ -43,11 +43,6 @@ def write(report: Report, folder: Path, command: str) -> list[Path]:
         "tradeoff.html": whole_page(report, command).encode(),
     }
     return write_all(folder, made)
-
-
-def words(lang: str) -> dict[str, Any]:
-    """All sentences of the page in one language."""
-    return table(lang, "tradeoff")
 
 
 def whole_page(report: Report, command: str) -> str:
@@ -73,16 +68,6 @@ def fragment(report: Report, command: str, lang: str) -> str:
     )  # fmt: skip
 
 
-def style_sheet() -> str:
-    """The style of what is measured."""
-    return (files("quizgen.tradeoff") / "pages" / "tradeoff.css").read_text("utf-8")
-
-
-def script() -> str:
-    """What moves the slider."""
-    return (files("quizgen.tradeoff") / "pages" / "tradeoff.js").read_text("utf-8")
-
-
 @cache
 def _layouts() -> jinja2.Environment:
     return environment("quizgen.tradeoff")
@@ -106,11 +91,12 @@ def _places(sweep: Sweep, moved: str, lang: str) -> list[list[Any]]:
     """Each position: where, whether an exam goes so far, in words, and the numbers in pieces."""
     text, sign = words(lang)["slider"], language(lang).decimal
     found = []
-    for i, (left, value, right) in enumerate(zip(sweep.left, sweep.moved, sweep.right, strict=True)):
-        at = numbers_in(lang, moved.format(short(value)).strip())
-        numbers = [pieces(right, ALL_DIGITS)]
-        numbers += [pieces(sweep.ways[way].values[i], sweep.ways[way].digits[i]) for way in LINES[1:]]
-        said = text["inside" if left >= sweep.exam_left * (1 - 1e-9) else "outside"]
+    for i, left in enumerate(sweep.left):
+        at = numbers_in(lang, moved.format(short(sweep.moved[i])).strip())
+        ways = [sweep.ways[way] for way in LINES[1:]]
+        numbers = [pieces(sweep.right[i], ALL_DIGITS)]
+        numbers += [pieces(way.values[i], way.digits[i]) for way in ways]
+        said = text["inside" if left >= sweep.exam_left else "outside"]
         found.append([at, said, *([part.replace(".", sign) for part in one] for one in numbers)])
     return found
 

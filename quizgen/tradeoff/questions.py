@@ -6,12 +6,11 @@ Like for like: one Python call that solves one question's whole chain, in each a
 from __future__ import annotations
 
 import statistics
-from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from datetime import UTC, datetime
 from functools import partial
 from importlib.resources import files
+from itertools import repeat
 
 import msgspec
 
@@ -23,11 +22,9 @@ from quizgen.bank.folder import Bank
 from quizgen.maths.chain import Chain
 from quizgen.maths.values import AnyNumber
 from quizgen.shapes import decoded
-from quizgen.tradeoff.solving import ARITHMETICS, FAILURES, Arithmetic, faults, solved
+from quizgen.tradeoff.solving import ARITHMETICS, FAILURES, Arithmetic, solved
 from quizgen.tradeoff.timing import Timing, in_turns
 
-ROUND = 10_000
-"""Questions that are drawn to count wrong keys."""
 _RUNS = 15
 _ALONE: tuple[Callable[[], object], ...] = (
     partial(srgb_decode, 0.5),
@@ -93,8 +90,8 @@ class Questions:
 
 def measure_questions(bank: Bank) -> Questions:
     """Time the built-in questions; the counts are those recorded."""
-    drawn = [draw(template, 0) for template in map(bank.template, bank.paths) if template.chain.steps]
-    drawn = [one for one in drawn if _is_solved(one, "balls")]
+    computing = [one for one in map(bank.template, bank.paths) if one.chain.steps]
+    drawn = [one for one in map(draw, computing, repeat(0)) if _is_solved(one, "balls")]
     systems = [name for name in ARITHMETICS if name != "rounded"]  # float64, rounded afterwards
     spent = [in_turns([_solving(one, name) for name in systems], _RUNS) for one in drawn]
     least = {name: [times[i].least for times in spent] for i, name in enumerate(systems)}
@@ -132,32 +129,3 @@ def _cost(seconds: Sequence[float], doubles: Sequence[float]) -> Cost:
 def recorded() -> Counted:
     """What was counted when it was last counted in full."""
     return decoded((files("quizgen.tradeoff") / "counted.json").read_bytes(), Counted)
-
-
-def count_wrong(bank: Bank, drawn: int = ROUND) -> Counted:
-    """Count the wrong keys of each arithmetic, in questions spread evenly over the templates.
-
-    Templates without a computation count, and have none.
-    """
-    wrong: dict[str, Counter[str]] = {system: Counter() for system in ARITHMETICS}
-    names = list(bank.paths)
-    for i in range(drawn):
-        name = names[i % len(names)]
-        template = bank.template(name)
-        if not template.chain.steps:
-            continue
-        one = draw(template, i // len(names))
-        for system, counts in wrong.items():
-            counts[name] += is_wrong(one, system)
-    kept = {system: dict(sorted((+counts).items())) for system, counts in wrong.items()}
-    return Counted(datetime.now(UTC).date().isoformat(), len(names), drawn, kept)
-
-
-def is_wrong(drawn: Draw, system: str) -> bool:
-    """Whether an arithmetic would print or mark a question wrongly, or have no key for it.
-
-    Of doubles as they are only the digits count: nobody marks by equality with them.
-    """
-    found = faults(drawn, system)
-    judged = found.accepted or found.rejected
-    return found.digit or found.unanswered or (judged and system != "float64")

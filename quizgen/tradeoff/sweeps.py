@@ -83,4 +83,5 @@ def _computed(formula: Formula, columns: Columns) -> dict[str, Column]:
 
 
 def _digits(formula: Formula, found: Column, right: Column) -> tuple[float, ...]:
-    return tuple(digits(float(v), r, formula.turn) for v, r in zip(found, right.tolist(), strict=True))
+    pairs = zip(found.tolist(), right.tolist(), strict=True)
+    return tuple(digits(value, truth, formula.turn) for value, truth in pairs)

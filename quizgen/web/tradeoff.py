@@ -13,7 +13,7 @@ from starlette.routing import Route
 from quizgen.bank.folder import Bank
 from quizgen.locale import languages
 from quizgen.shapes import decoded
-from quizgen.tradeoff.page import fragment, script, style_sheet, words
+from quizgen.tradeoff.texts import script, style_sheet, words
 from quizgen.web.made import Html
 from quizgen.web.site import Site
 from quizgen.web.views import lang_of, page
@@ -30,6 +30,7 @@ class Measurement:
 
     def run(self, bank: Bank) -> bytes:
         """Measure."""
+        from quizgen.tradeoff.page import fragment
         from quizgen.tradeoff.report import measure
 
         report = measure(bank)

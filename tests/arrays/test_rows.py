@@ -1,7 +1,7 @@
 """Every array function against 40-digit values on inputs chosen to break it.
 
 Rows of formulas that have no array function are tried on the exact path (``test_exact_path``), and
-on the plain lines of the accuracy page (``tests/tradeoff/test_formulas.py``).
+on the plain lines of the accuracy page (``tests/tradeoff/test_printed_formulas.py``).
 """
 
 from __future__ import annotations

@@ -4,6 +4,8 @@ Nothing here computes with the code under test; ``m`` is the module that has the
 or ``math``.
 """
 
+# ruff: noqa: N803, N806, ARG005 - letters of the textbook
+
 from __future__ import annotations
 
 import math

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import statistics
+import sys
 import timeit
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -13,9 +15,13 @@ from quizgen.bank.folder import builtin
 from quizgen.maths.numbers import to_float
 from quizgen.maths.precision import working_precision
 from quizgen.maths.systems import exact, floats
-from quizgen.tradeoff.questions import ROUND, Counted, count_wrong, is_wrong, measure_questions, recorded
-from quizgen.tradeoff.solving import ARITHMETICS, Faults, faults
+from quizgen.tradeoff.questions import Counted, measure_questions, recorded
+from quizgen.tradeoff.solving import ARITHMETICS
 from quizgen.tradeoff.timing import in_turns
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "tools"))
+
+from count import ROUND, count_wrong, faults, is_wrong
 
 THIRDS = "compare-two-gaussian-noises"
 """Its answers are 1/3, 2/3 and the like, to be given exactly."""
@@ -26,24 +32,24 @@ def found(name, seed, system):
 
 
 def test_a_third_is_a_third_only_exactly():
-    assert found(THIRDS, 0, "exact") == Faults()
-    assert found(THIRDS, 0, "rounded") == Faults(accepted=True, rejected=True)  # 0.333333333333 is
-    assert found(THIRDS, 0, "balls").rejected
+    assert found(THIRDS, 0, "exact") == set()
+    assert found(THIRDS, 0, "rounded") == {"accepted", "rejected"}  # 0.333333333333 is
+    assert "rejected" in found(THIRDS, 0, "balls")
 
 
 def test_doubles_round_the_wrong_way_where_the_value_ends_in_a_five():
     """84.375 mm to two places is 84.38, but its double lies below; twelve figures put it right."""
-    assert found("magnification-and-object-distance", 1, "float64").digit
-    assert not found("magnification-and-object-distance", 1, "rounded").digit
+    assert "digit" in found("magnification-and-object-distance", 1, "float64")
+    assert "digit" not in found("magnification-and-object-distance", 1, "rounded")
 
 
 def test_balls_cannot_tell_that_two_colours_are_equal():
-    assert found("rgb-to-hsv", 0, "balls").unanswered
+    assert found("rgb-to-hsv", 0, "balls") == {"unanswered"}
 
 
 def test_nobody_marks_by_equality_with_doubles():
     one = draw(builtin().template(THIRDS), 0)
-    assert faults(one, "float64").rejected
+    assert "rejected" in faults(one, "float64")
     assert not is_wrong(one, "float64")
 
 
@@ -92,7 +98,9 @@ def test_calls_are_timed_in_turns_after_a_round_that_warms_up():
 
 def test_every_arithmetic_is_timed_on_the_same_questions():
     bank = builtin()
-    few = SimpleNamespace(paths=[THIRDS, "thin-lens-image-distance", "rgb-to-hsv"], template=bank.template)
+    few = SimpleNamespace(
+        paths=[THIRDS, "thin-lens-image-distance", "rgb-to-hsv"], template=bank.template
+    )
     found = measure_questions(few)
     assert found.count == 2  # balls do not solve the colours
     assert found.costs.keys() == ARITHMETICS.keys()
@@ -122,7 +130,10 @@ def test_exact_takes_twice_as_long_as_float64_and_some_microseconds_more():
     for name in list(bank.paths)[::2]:
         if bank.template(name).chain.steps:
             one = draw(bank.template(name), 0)
-            ours, doubles = call_seconds(one, exact, lambda x: x), call_seconds(one, floats, to_float)
+            ours, doubles = (
+                call_seconds(one, exact, lambda x: x),
+                call_seconds(one, floats, to_float),
+            )
             ratios.append(ours / doubles)
             more.append(ours - doubles)
     low, _, high = statistics.quantiles(ratios, n=4)

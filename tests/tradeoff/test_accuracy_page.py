@@ -16,8 +16,9 @@ from quizgen.cli.tradeoff import tradeoff
 from quizgen.locale import languages
 from quizgen.tradeoff import page
 from quizgen.tradeoff.formulas import BY_NAME, FORMULAS
-from quizgen.tradeoff.page import fragment, pieces, short, time_text, whole_page, words, write
+from quizgen.tradeoff.page import fragment, pieces, short, time_text, whole_page, write
 from quizgen.tradeoff.questions import recorded
+from quizgen.tradeoff.texts import words
 
 SHOWN = [formula.name for formula in FORMULAS if formula.shown]
 
@@ -40,7 +41,8 @@ def test_the_sentence_on_exams_is_what_python_and_mpmath_find(english):
         worst.append(int(min(by_hand.printed_digits(formula.name, row) for row in rows)))
     first, second, *_ = sorted(worst)
     kept, left = re.search(
-        r"In an exam 13 of 14 printed formulas keep (\d+) digits or more.* and keeps (\d+)\.", english
+        r"In an exam 13 of 14 printed formulas keep (\d+) digits or more.* and keeps (\d+)\.",
+        english,
     ).groups()
     assert abs(int(kept) - second) <= 1
     assert abs(int(left) - first) <= 1
@@ -73,10 +75,14 @@ def newton(r_d, k1):
 
 def test_digits_of_arrays_are_those_of_python_loops(report):
     rng = np.random.default_rng(78)
-    rows = list(zip(*(c.tolist() for c in BY_NAME["inverse-distortion"].exam(rng, 60)), strict=True))
+    rows = list(
+        zip(*(c.tolist() for c in BY_NAME["inverse-distortion"].exam(rng, 60)), strict=True)
+    )
     right = [by_hand.truth("inverse-distortion", row) for row in rows]
     for name, compute in (("newton", newton), ("fixed-point", by_hand.undistort_in_five_steps)):
-        found = min(by_hand.digits_of("", compute(*row), r) for row, r in zip(rows, right, strict=True))
+        found = min(
+            by_hand.digits_of("", compute(*row), r) for row, r in zip(rows, right, strict=True)
+        )
         assert rival(report, "inverse-distortion", name).exam == pytest.approx(found, abs=1)
     assert rival(report, "inverse-distortion", "quizgen").hard > 15
     assert rival(report, "inverse-distortion", "newton").hard < 3
@@ -156,7 +162,12 @@ def test_right_digits_stand_apart_from_wrong_ones(value, right, written):
 
 
 def test_numbers_are_written_for_people():
-    assert [short(x) for x in (4.25, 0.003, 3.2e-7, 1e18)] == ["4.25", "0.003", "3.2·10⁻⁷", "1.0·10¹⁸"]
+    assert [short(x) for x in (4.25, 0.003, 3.2e-7, 1e18)] == [
+        "4.25",
+        "0.003",
+        "3.2·10⁻⁷",
+        "1.0·10¹⁸",
+    ]
     assert [time_text(x) for x in (3e-9, 4.44e-6, 0.123)] == ["3 ns", "4.4 µs", "120 ms"]
 
 
@@ -167,7 +178,9 @@ def test_german_numbers_have_a_comma(report):
 
 
 def shape(told):
-    return {key: shape(value) for key, value in told.items()} if isinstance(told, dict) else type(told)
+    return (
+        {key: shape(value) for key, value in told.items()} if isinstance(told, dict) else type(told)
+    )
 
 
 def test_words_are_complete_in_every_language():
@@ -193,7 +206,7 @@ def test_page_plot_and_numbers_are_written(report, tmp_path):
 
 
 def test_the_command_says_where_the_page_is(report, tmp_path, monkeypatch):
-    monkeypatch.setattr("quizgen.tradeoff.report.measure", lambda bank: report)
+    monkeypatch.setattr("quizgen.tradeoff.report.measure", lambda _bank: report)
     done = CliRunner().invoke(tradeoff, ["--out", str(tmp_path)])
     assert done.exit_code == 0, done.output
     assert done.output.startswith(f"{tmp_path / 'tradeoff.html'}: ")

@@ -86,7 +86,9 @@ def test_rearranged_formulas_keep_fourteen_digits_all_the_way(sweeps, name):
 
 def test_in_an_exam_thirteen_of_fourteen_printed_formulas_keep_eleven_digits(sweeps):
     """By Python's own functions and mpmath; the page's come from NumPy and Arb."""
-    worst = {name: min(by_hand.printed_digits(name, row) for row in exam_of(name)) for name in BY_NAME}
+    worst = {
+        name: min(by_hand.printed_digits(name, row) for row in exam_of(name)) for name in BY_NAME
+    }
     assert {name for name, count in worst.items() if count < 11} == {ITERATED}
     assert 6 <= worst[ITERATED] < 7
     for name, count in worst.items():

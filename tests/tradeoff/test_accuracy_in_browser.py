@@ -27,9 +27,7 @@ def page_file(report, tmp_path_factory):
 @pytest.fixture
 def opened(browser, page_file):
     def page(width, height=800, scheme="light"):
-        made = browser.new_page(
-            viewport={"width": width, "height": height}, color_scheme=scheme
-        )
+        made = browser.new_page(viewport={"width": width, "height": height}, color_scheme=scheme)
         made.goto(page_file.as_uri())
         return made
 
