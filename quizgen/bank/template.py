@@ -21,6 +21,7 @@ from quizgen.bank.about import About
 from quizgen.bank.compiled import Compiled
 from quizgen.bank.complaints import in_words
 from quizgen.bank.limits import misshapen, problems
+from quizgen.bank.pictures import PictureFile
 from quizgen.bank.quantities import Quantities
 from quizgen.bank.rules import Rules, minutes_of
 from quizgen.bank.solvers import module_of
@@ -62,6 +63,8 @@ class Template:
         ``digest`` leaves it out.
     figure : module, optional
         What draws its figure.
+    pictures : mapping of str to PictureFile
+        The files that its words show, by their names.
     """
 
     id: str
@@ -73,6 +76,7 @@ class Template:
     about: About = field(default=About())
     quantities: Quantities = field(default=Quantities())
     figure: ModuleType | None = None
+    pictures: Mapping[str, PictureFile] = field(default_factory=dict)
 
     def __getstate__(self) -> dict[str, object]:
         """What another process is told: where what draws the figure stands."""

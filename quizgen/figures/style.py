@@ -66,9 +66,10 @@ _SETTINGS: dict[str, Any] = {
     "boxplot.boxprops.linewidth": 0.9, "boxplot.whiskerprops.linewidth": 0.8,
     "boxplot.capprops.linewidth": 0.8, "boxplot.flierprops.markersize": 3.5,
     "path.simplify": True, "path.simplify_threshold": 0.06, "path.sketch": None,
+    "backend": "agg",  # boxplot() asks for it, and pyplot would be loaded to decide on one
     "svg.fonttype": "path", "svg.hashsalt": "quizgen", "text.hinting": "none",
 }  # fmt: skip
-# Asking for "backend" loads pyplot, and none of these decides what is drawn.
+# None of these decides what is drawn; asking the process for its backend would load pyplot.
 _NOT_DRAWN = ("backend", "webagg", "savefig", "animation", "keymap", "tk.", "interactive",
               "toolbar", "timezone", "macosx", "date")  # fmt: skip
 
