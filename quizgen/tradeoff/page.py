@@ -61,9 +61,9 @@ def fragment(report: Report, command: str, lang: str) -> str:
     text = words(lang)
     return _layouts().get_template("measured.html.j2").render(
         text=text, lang=lang, start=START, lines=LINES, command=command, report=report,
-        formulas=_formulas(report, lang), questions=_questions(report, lang),
+        formulas=describe_formulas(report, lang), questions=describe_questions(report, lang),
         plot=draw_digits(report, text["plot"]["alt"], lang).inline_svg.decode(),
-        digits_said=_digits_sentence(report, lang), arrays=_arrays(report, lang),
+        digits_said=describe_digits(report, lang), arrays=describe_arrays(report, lang),
         measured=text["page"]["measured"].format(machine=report.machine, date=report.date),
     )  # fmt: skip
 
@@ -76,7 +76,7 @@ def _layouts() -> jinja2.Environment:
 # The slider
 
 
-def _formulas(report: Report, lang: str) -> list[dict[str, Any]]:
+def describe_formulas(report: Report, lang: str) -> list[dict[str, Any]]:
     """What the slider shows of each of its formulas."""
     sweeps = {one.name: one for one in report.sweeps}
     return [
@@ -155,7 +155,8 @@ def _two(value: float) -> str:
 # Questions
 
 
-def _questions(report: Report, lang: str) -> dict[str, Any]:
+def describe_questions(report: Report, lang: str) -> dict[str, Any]:
+    """What a question costs in each arithmetic: sentences, and rows of a name, a remark, cells."""
     found, text = report.questions, words(lang)["questions"]
     counted, exact = found.counted, found.costs["exact"]
     careful = counted.wrong["rounded"]
@@ -193,14 +194,16 @@ def _wrong(report: Report, name: str) -> str:
 # Digits and arrays
 
 
-def _digits_sentence(report: Report, lang: str) -> str:
+def describe_digits(report: Report, lang: str) -> str:
+    """How many printed formulas keep how many digits in an exam."""
     kept, digits = report.kept
     left = next(int(one.exam_digits) for one in report.sweeps if one.name == ITERATED)
     said: str = words(lang)["plot"]["sentence"]
     return said.format(kept=kept, count=len(report.sweeps), digits=digits, left=left, exams=EXAMS)
 
 
-def _arrays(report: Report, lang: str) -> dict[str, Any]:
+def describe_arrays(report: Report, lang: str) -> dict[str, Any]:
+    """Every formula's title with the rows of its ways, and what one value costs."""
     text, alone = words(lang)["arrays"], [one.least for one in report.questions.alone]
     return {
         "groups": [(words(lang)["formula"][match.formula]["title"], _rows(match, lang))

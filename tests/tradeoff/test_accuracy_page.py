@@ -123,7 +123,7 @@ def read(parts):
 
 
 def test_the_slider_shows_right_values_and_strikes_out_wrong_digits(report):
-    shown = {one["name"]: one for one in page._formulas(report, "en")}
+    shown = {one["name"]: one for one in page.describe_formulas(report, "en")}
     assert list(shown) == SHOWN
     for name, one in shown.items():
         formula = BY_NAME[name]
@@ -140,7 +140,7 @@ def test_the_slider_shows_right_values_and_strikes_out_wrong_digits(report):
 
 
 def test_the_slider_says_how_far_an_exam_goes(report):
-    for one in page._formulas(report, "en"):
+    for one in page.describe_formulas(report, "en"):
         said = [place[1] for place in one["places"]]
         assert said == sorted(said)  # "An exam ..." before "No exam ..."
         assert {said[0], said[-1]} == {"An exam goes this far.", "No exam goes this far."}
