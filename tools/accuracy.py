@@ -1,4 +1,4 @@
-"""Measure again what accuracy costs and put sentences, tables and the plot into ``docs/accuracy.md``."""
+"""Measure again what accuracy costs: sentences, tables and the plot of ``docs/accuracy.md``."""
 
 from __future__ import annotations
 
@@ -24,7 +24,8 @@ def told(report: Report) -> str:
         questions["lead"],
         questions["sentence"],
         rows(text["questions"]["columns"], [
-            (f"{name} ({fails})" if fails else name, *cells) for name, fails, *cells in questions["rows"]
+            (f"{name} ({fails})" if fails else name, *cells)
+            for name, fails, *cells in questions["rows"]
         ]),
         describe_digits(report, "en"),
         f"![{text['plot']['alt']}](accuracy/digits.svg)",

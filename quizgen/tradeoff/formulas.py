@@ -9,7 +9,7 @@ sixteen digits are gone. Undistorting subtracts nothing that counts: there it is
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -25,7 +25,7 @@ from quizgen.tradeoff import lines
 from quizgen.tradeoff.lines import Column
 
 Random = np.random.Generator
-Columns = list[Column]
+Columns = Sequence[Column]
 _HARDEST = 1e-15
 
 

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from quizgen.arrays.aliases import Array
 from quizgen.arrays.double_double import pairs
 
 Column = npt.NDArray[np.floating[Any]]
@@ -37,7 +38,7 @@ def blur_disc(f: Column, N: Column, s: Column, z: Column) -> Column:
     return (f / N) * (f / (s - f)) * (np.abs(z - s) / z)
 
 
-def far_limit(f: Column, N: Column, c: Column, s: Column) -> Column:
+def far_limit(f: Array, N: Array, c: Array, s: Array) -> Array:
     """Far limit of the depth of field; only the difference that cancels has twice the digits."""
     f2, N2, c2, s2 = pairs(f, N, c, s)
     rest = (f2 * f2 - N2 * c2 * (s2 - f2)).rounded()
