@@ -264,25 +264,30 @@ class Bank:
         BankError
             If it does not exist or fails, or the bank is not trusted.
         """
+        file = self.figure_file(name)
+        return module_of(file.parent, file.stem)
+
+    def figure_file(self, name: str) -> Path:
+        """The module of a figure, not imported; errors as ``figure``, but those of its code."""
         if name in self.figures:
-            self._must_be_trusted(self._figures / f"{name}.py")
-            return module_of(self._figures, name)
+            file = self._figures / f"{name}.py"
+            self._must_be_trusted(file)
+            return file
         if name not in builtin().figures:
             known = sorted({*self.figures, *builtin().figures})
             raise _MissingError(f"unknown figure {name!r}; there are {', '.join(known)}")
-        return builtin().figure(name)
+        return builtin().figure_file(name)
 
-    def _figure_of(self, name: str) -> ModuleType | None:
+    def _figure_of(self, name: str) -> Path | None:
         """What draws a template's figure: the module that it names, or the one beside it."""
         rule = self.rules(name).figure
         if rule is None or rule.name:
-            return self.figure(rule.name) if rule else None
-        folder = self.folder_of(name)
-        file = folder / f"{OWN_FIGURE}.py"
+            return self.figure_file(rule.name) if rule else None
+        file = self.folder_of(name) / f"{OWN_FIGURE}.py"
         if not file.is_file():
             raise _MissingError(f"[figure] has no name, and there is no {file.name} beside it")
         self._must_be_trusted(file)
-        return module_of(folder, OWN_FIGURE)
+        return file
 
     def _must_be_trusted(self, file: Path) -> None:
         if not self.trusted:

@@ -54,7 +54,10 @@ _SUBSCRIPT = 0.7  # how large mathtext sets an index
 
 
 class Label(msgspec.Struct, frozen=True):
-    """A text in a figure: what it says, its smallest letters and its box, in points from above."""
+    """A text in a figure: what it says, its smallest letters and its box, in points from above.
+
+    ``angle`` is what it is turned by, in degrees counterclockwise.
+    """
 
     text: str
     size: float
@@ -62,6 +65,7 @@ class Label(msgspec.Struct, frozen=True):
     top: float
     right: float
     bottom: float
+    angle: float = 0.0
 
 
 class Drawing(msgspec.Struct, frozen=True):
@@ -73,6 +77,7 @@ class Drawing(msgspec.Struct, frozen=True):
     origin: tuple[float, float]
     labels: tuple[Label, ...]
     outside: int
+    unnamed_axes: int
 
 
 _SENTENCE = re.compile(r"(?<=[.।])\s+")
@@ -295,6 +300,7 @@ class SvgRenderer(RendererBase):
         self.flip = Affine2D().scale(1, -1).translate(_OFF_TIES, height + _OFF_TIES)
         self.labels: list[Label] = []
         self.outside = 0  # markers that fall outside their axes, and so are not drawn
+        self.unnamed_axes = 0  # that have numbers, and nothing that says of what
         self._elements: list[str] = []
         self._parts: list[str] = []
         self._defined = set[str]()  # ids
@@ -522,7 +528,7 @@ class SvgRenderer(RendererBase):
         low, high = turned.min(axis=0), turned.max(axis=0)
         self._extend(low, high + np.array([0, 0.2 * shape.height]))  # room for g and y
         size = shape.least
-        self.labels.append(Label(self._localise(s), size, *map(float, (*low, *high))))
+        self.labels.append(Label(self._localise(s), size, *map(float, (*low, *high, angle))))
         self._flush()
         name = self._parts[-1] if self._parts and self._parts[-1] else "labels"
         turn = f"rotate({round(-angle, 2):g})" if angle else ""
@@ -599,7 +605,8 @@ class SvgRenderer(RendererBase):
                 f"something is drawn far outside: the picture would be {wide:g} by {high:g} pt"
             )
         body = "".join(self._elements)
-        return Drawing(body, wide, high, (left, top), tuple(self.labels), self.outside)
+        counted = self.outside, self.unnamed_axes
+        return Drawing(body, wide, high, (left, top), tuple(self.labels), *counted)
 
 
 def _cut(path: Path, transform: Any, box: Bbox, *, filled: bool) -> tuple[Path, Any]:
@@ -634,6 +641,13 @@ def _write_png(pixels: Any, palette: Any = None) -> bytes:
     if (pixels[..., 3] < 255).any():
         return png.encode(pixels)
     rgb = np.ascontiguousarray(pixels[..., :3])
+    return _encode_colours(rgb.shape, rgb.tobytes())
+
+
+@lru_cache(64)
+def _encode_colours(shape: tuple[int, ...], data: bytes) -> bytes:
+    """A PNG file, kept: a question and its solution show the same photographs."""
+    rgb = np.frombuffer(data, np.uint8).reshape(shape)
     codes = rgb.astype(np.uint32) @ np.array([1 << 16, 1 << 8, 1], np.uint32)
     known, indices = np.unique(codes, return_inverse=True)
     if len(known) > 256 or (rgb[..., :1] == rgb).all():

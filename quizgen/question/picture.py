@@ -28,8 +28,11 @@ def described(drawn: Draw, lang: str, *, quiz: bool) -> str | None:
 
 
 def _shown(show: Callable[..., Shown], drawn: Draw, lang: str, *, quiz: bool) -> Shown | None:
-    rule, figure = drawn.template.rules.figure, drawn.template.figure
-    if rule is None or figure is None or (quiz and not rule.quiz):
+    rule = drawn.template.rules.figure
+    if rule is None or (quiz and not rule.quiz):
+        return None
+    figure = drawn.template.figure
+    if figure is None:
         return None
     given: Mapping[str, Any] = {name: _parameter(drawn, s) for name, s in rule.values.items()}
     with located(drawn.template.file, BankError):
@@ -39,7 +42,7 @@ def _shown(show: Callable[..., Shown], drawn: Draw, lang: str, *, quiz: bool) ->
 
 
 def _parameter(drawn: Draw, source: Source) -> Any:
-    """A number as written, a drawn phrase by its name, the value of a formula, or lists of these."""
+    """A number as written, a drawn phrase by its name, a formula's value, or lists of these."""
     if isinstance(source, tuple):
         return [_parameter(drawn, one) for one in source]
     if not isinstance(source, str):

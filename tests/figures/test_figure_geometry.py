@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import itertools
 import re
-from fractions import Fraction
 from xml.etree import ElementTree as ET
 
 import cv2
@@ -13,7 +11,6 @@ import pytest
 from figure_cases import module, render
 from scipy.stats import norm
 
-neighbours = module("bayer").neighbours
 shown_extent = module("distorted_grid").shown_extent
 
 
@@ -53,99 +50,6 @@ def crossing(a, b):
 
 def length(line):
     return float(np.hypot(*(line[-1] - line[0])))
-
-
-# pinhole -----------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(("f", "p_z", "p_y"), [(2, 4, 9), (3, 6, -5), (6, 2, 7), (2, 5, 1)])
-def test_pinhole_is_to_scale(f, p_z, p_y):
-    got = parts("pinhole", f=f, p_z=p_z, p_y=p_y)
-    origin, (ray_end) = got["ray"][0][0], got["ray"][0][1]
-    point, image = got["leg-point"][0], got["leg-image"][0]
-    assert (image[0] - origin)[0] / (point[0] - origin)[0] == pytest.approx(f / p_z, abs=2e-3)
-    assert length(image) / length(point) == pytest.approx(f / p_z, abs=4e-3)
-    assert np.sign(point[1] - point[0])[1] == np.sign(p_y)
-    assert max(point[1], image[1], key=lambda p: p[0]) == pytest.approx(ray_end)
-    assert "break" not in got
-
-
-@pytest.mark.parametrize(
-    "values",
-    [
-        {"f": 50, "p_z": 600, "p_y": 30, "metric": 1},
-        {"f": 6, "p_z": 5, "p_y": -14},
-    ],
-)
-def test_pinhole_stays_similar_when_not_to_scale(values):
-    got = parts("pinhole", physical=1, **values)
-    origin = got["ray"][0][0]
-    slopes = [
-        (tip - origin)[1] / (tip - origin)[0]
-        for tip in (got["leg-point"][0][1], got["leg-image"][0][1], got["physical-ray"][0][1])
-    ]
-    assert slopes == pytest.approx([slopes[0]] * 3, rel=2e-3)
-    assert "break" in got
-    virtual = got["leg-image"][0][1] - origin
-    assert got["physical-ray"][0][1] - origin == pytest.approx(-virtual, abs=0.02)
-
-
-def test_shaded_triangles_have_the_legs_and_the_ray_as_sides():
-    got = parts("pinhole", f=2, p_z=4, p_y=9)
-    for part, leg in (("outer", "leg-point"), ("inner", "leg-image")):
-        origin, foot, tip = got[part][0]
-        assert origin == pytest.approx(got["ray"][0][0])
-        assert np.array([foot, tip]) == pytest.approx(got[leg][0])
-
-
-def test_y_down_turns_the_picture_over():
-    up, down = (parts("pinhole", f=2, p_z=4, p_y=9, y_down=d) for d in (0, 1))
-    assert up["leg-point"][0][1][1] > up["leg-point"][0][0][1]
-    assert down["leg-point"][0][1][1] < down["leg-point"][0][0][1]
-    assert down["axis-y"][0][1][1] < down["axis-y"][0][0][1]
-
-
-# thin lens ---------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("f", "z"), [(50, 200), (20, 25), (30, 45), (85, 255), (24, 60), (50, 250)]
-)
-def test_rays_meet_at_the_real_image(f, z):
-    got = parts("thin_lens", f=f, z=z, quiz=True)
-    rays = [got[f"ray-{name}"][0] for name in ("parallel", "central", "focal")]
-    lens_x = rays[1][1][0]
-    meet = [crossing(a[1:], b[1:]) for a, b in itertools.combinations(rays, 2)]
-    focus = crossing(rays[0][1:], got["axis"][0])
-    image = 1 / (Fraction(1, f) - Fraction(1, z))  # the lens equation, exactly
-    scale = (focus[0] - lens_x) / f
-    for point in meet:
-        assert (point[0] - lens_x) / scale == pytest.approx(float(image), rel=5e-3)
-        assert point == pytest.approx(
-            got["image"][0][0] + [0, rays[0][2][1] - got["image"][0][0][1]], abs=0.1
-        )
-    assert (lens_x - rays[0][0][0]) / scale == pytest.approx(z, rel=5e-3)
-    height = rays[0][0][1] - got["axis"][0][0][1]
-    assert (got["axis"][0][0][1] - meet[0][1]) / height == pytest.approx(float(image / z), rel=2e-2)
-
-
-@pytest.mark.parametrize(("f", "z"), [(50, 30), (50, 25), (100, 70)])
-def test_backward_rays_meet_at_the_virtual_image(f, z):
-    got = parts("thin_lens", f=f, z=z)
-    rays = [got[f"ray-{name}"][0] for name in ("parallel", "central", "focal")]
-    lens_x = rays[1][1][0]
-    scale = (crossing(rays[0][1:], got["axis"][0])[0] - lens_x) / f
-    image = 1 / (Fraction(1, f) - Fraction(1, z))
-    for a, b in itertools.combinations(rays, 2):
-        assert (crossing(a[1:], b[1:])[0] - lens_x) / scale == pytest.approx(float(image), rel=5e-3)
-
-
-def test_object_in_the_focal_plane_has_no_image():
-    got = parts("thin_lens", f=50, z=50)
-    slopes = [np.diff(got[f"ray-{name}"][0][1:], axis=0)[0] for name in ("parallel", "central")]
-    assert slopes[0][1] / slopes[0][0] == pytest.approx(slopes[1][1] / slopes[1][0], rel=2e-3)
-    assert "image" not in got
-    assert "no image" in render("thin_lens", {"f": 50, "z": 50}, quiz=False, lang="en").alt
 
 
 # Gaussian ----------------------------------------------------------------------------------
@@ -238,79 +142,6 @@ def test_only_lines_through_the_principal_point_stay_straight():
     # the line x = a sags by a k1 b² between its middle and y = b (E02): here 0.5 and 1
     scale = np.ptp(np.concatenate(got["undistorted"])[:, 0]) / 2
     assert sags[1] / scale == pytest.approx(0.5 * 0.1, abs=2e-3)
-
-
-# Blur disc ---------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(("z_p", "z_s"), [(50, 65), (50, 35), (60, 78)])
-def test_blur_disc_is_cut_from_the_cone(z_p, z_s):
-    got = parts("blur_disc", D=25, z_p=z_p, z_s=z_s)
-    upper, lower = got["rays"]
-    aperture = upper[0][1] - lower[0][1]
-    sensor = got["sensor"][0]
-    hits = [crossing(ray[:2], sensor)[1] for ray in (upper, lower)]
-    assert abs(hits[0] - hits[1]) == pytest.approx(length(got["disc"][0]), abs=0.05)
-    assert length(got["disc"][0]) / aperture == pytest.approx(abs(z_s - z_p) / z_p, abs=1e-3)
-
-
-def test_blur_disc_of_the_curriculum():
-    # S11: D 25, z'_p 50, z'_s 50.2 -> 0.1 mm
-    alt = render("blur_disc", {"D": 25, "z_p": 50, "z_s": 50.2}, quiz=False, lang="en").alt
-    assert alt.endswith("D is 25 mm; the diameter of the disc is c = 0.1 mm.")
-
-
-# Bayer -------------------------------------------------------------------------------------
-
-OPENCV = [
-    cv2.COLOR_BayerBG2RGB,
-    cv2.COLOR_BayerRG2RGB,
-    cv2.COLOR_BayerGB2RGB,
-    cv2.COLOR_BayerGR2RGB,
-]
-
-
-@pytest.mark.parametrize("phase", range(4))
-def test_neighbours_are_those_of_opencv(phase):
-    raw = np.random.default_rng(phase).integers(5, 58, (6, 6), dtype=np.uint8) * 4
-    colours = cv2.cvtColor(raw, OPENCV[phase])
-    for y, x in itertools.product((2, 3), (2, 3)):
-        values = {"phase": phase, "size": 6, "x": x, "y": y}
-        for index, channel in enumerate("RGB"):
-            used = neighbours(values, channel)
-            if (x, y) not in used and colours[y, x, index] != raw[y, x]:
-                mean = np.mean([raw[b, a] for a, b in used])
-                assert colours[y, x, index] == pytest.approx(mean, abs=0.5)
-
-
-def test_arrows_come_from_the_sites_that_are_used():
-    got = parts("bayer", v01=100, v10=120, v12=110, v21=130)
-    assert (len(got["use-G"]), len(got["use-R"])) == (4, 4)
-    middle = (
-        got["marked"][0].mean(axis=0)
-        if len(got["marked"][0]) == 4
-        else got["marked"][0][:4].mean(axis=0)
-    )
-    for start, end in got["use-G"] + got["use-R"]:
-        assert np.hypot(*(end - middle)) < np.hypot(*(start - middle))
-    assert "use-G" not in parts("bayer", quiz=True, v01=100, v10=120, v12=110, v21=130)
-
-
-def test_reference_site_of_the_notes():
-    # W15 / S14: 115 and 65
-    values = {
-        "v00": 60,
-        "v01": 100,
-        "v02": 64,
-        "v10": 120,
-        "v12": 110,
-        "v20": 70,
-        "v21": 130,
-        "v22": 66,
-    }
-    alt = render("bayer", values, quiz=False, lang="en").alt
-    assert "G = (100 + 120 + 110 + 130) / 4 = 115." in alt
-    assert "R = (60 + 64 + 70 + 66) / 4 = 65." in alt
 
 
 # blur curve --------------------------------------------------------------------------------

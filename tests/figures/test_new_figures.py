@@ -254,6 +254,16 @@ def test_the_counts_are_those_of_the_sites_that_are_drawn(phase, columns, rows):
         assert line.endswith(f" = {sites.count(letter)}")
 
 
+def test_a_tile_from_the_middle_of_a_sensor_counts_as_the_sensor_does():
+    values = {"size": 6, "left": 14, "top": 6, "x": 3, "y": 2, "channel": 1}
+    figure = draw("bayer", values)  # column 17 and row 8 of RGGB: green, in a row with red
+    assert "column 17, row 8 (G)" in figure.alt
+    assert "(16, 8), (18, 8)" in figure.alt
+    assert {"14", "19", "6", "11"} <= set(read_labels(figure))
+    with pytest.raises(BankError, match="left and top are not even"):
+        draw("bayer", {**values, "left": 13})
+
+
 # Formula sketches --------------------------------------------------------------------------
 
 

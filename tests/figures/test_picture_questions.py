@@ -9,29 +9,10 @@ from quizgen.arrays import luminosity
 from quizgen.bank.draw import draw
 from quizgen.question.kinds import build
 
-artefacts = module("artefacts")
-depth_of_field = module("depth_of_field")
-focus_photos = module("focus_photos")
-grey_edits = module("grey_edits")
-noise = module("noise")
 staircase = module("staircase")
 
 SEEDS = range(60)
 LAMPS = "two-lamps-by-day-and-by-night"
-NAMES = {
-    "blooming": "blooming",
-    "streak": "streak",
-    "rolling": "rolling shutter",
-    "vignetting": "vignetting",
-    "lateral": "lateral colour",
-    "barrel": "barrel",
-    "pincushion": "pincushion",
-    "motion": "motion blur",
-    "defocus": "defocus",
-    "moire": "false colour",
-    "clipping": "clipping",
-    "hot": "hot pixels",
-}
 
 
 def _drawn(bank, name, seed, part=0):
@@ -39,36 +20,6 @@ def _drawn(bank, name, seed, part=0):
     drawn = draw(bank.template(name), seed)
     ((_, right),) = build(drawn, part).right
     return {key: float(value) for key, value in drawn.shown.items()}, right
-
-
-@pytest.mark.parametrize("seed", SEEDS)
-def test_the_named_artefact_is_the_one_shown(bank, seed):
-    given, key = _drawn(bank, "name-artefact-from-photo", seed)
-    assert artefacts.KINDS[int(given["k"])] == NAMES[key]
-
-
-@pytest.mark.parametrize("seed", SEEDS)
-def test_the_noise_asked_for_stands_where_the_key_says(bank, seed):
-    given, key = _drawn(bank, "recognise-noise-from-histograms", seed)
-    place = ("left", "middle", "right").index(key)
-    asked = ("clean", "gaussian", "impulse")[int(given["asked"])]
-    assert noise.noise_order(given["order"])[place] == asked
-
-
-@pytest.mark.parametrize("seed", SEEDS)
-def test_the_wide_aperture_stands_where_the_key_says(bank, seed):
-    given, key = _drawn(bank, "which-photo-which-f-number", seed)
-    shown = {"N_1": given["N_b"], "N_2": given["N_a"], "order": given["order"]}
-    pair = depth_of_field.f_numbers(shown)
-    assert pair[("left", "right").index(key)] == min(pair) == given["N_a"]
-
-
-@pytest.mark.parametrize("seed", SEEDS)
-def test_the_object_in_focus_is_the_one_of_the_key(bank, seed):
-    given, key = _drawn(bank, "which-photo-which-f-number", seed, part=1)
-    objects = [given[name] for name in ("z_1", "z_2", "z_3")]
-    assert objects == sorted(objects)
-    assert objects[("nearer", "middle", "farther").index(key)] == given["s"]
 
 
 @pytest.mark.parametrize("seed", SEEDS)
@@ -147,30 +98,3 @@ def test_the_staircase_rises_where_the_key_says(bank, seed):
     assert q == pytest.approx(k / len(rises), abs=0.0001)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
-def test_the_edits_stand_where_the_key_says(bank, seed):
-    drawn = draw(bank.template("edit-from-photo-and-histogram"), seed)
-    given = {key: float(value) for key, value in drawn.shown.items()}
-    order = grey_edits.edit_order(given["order"])
-    places = [order.index(edit) for edit in ("coarse", "squeezed", "brightened")]
-    assert [given[name] for name in ("p_n", "p_r", "p_s")] == places
-    assert [drawn.words[name] for name in ("place_n", "place_r", "place_s")] == [
-        f"picture-{place + 1}" for place in places
-    ]
-
-
-@pytest.mark.parametrize("seed", SEEDS)
-def test_each_photo_was_taken_with_the_setting_of_the_key(bank, seed):
-    drawn = draw(bank.template("which-photo-which-focus"), seed)
-    given = {key: float(value) for key, value in drawn.shown.items()}
-    built = build(drawn, 0)
-    settings = {
-        "focus-near": (given["z_1"], given["N_w"]),
-        "focus-middle": (given["z_2"], given["N_w"]),
-        "focus-far": (given["z_3"], given["N_w"]),
-        "stopped": (given["z_2"], given["N_s"]),
-    }
-    targets = dict(built.targets)
-    key = [settings[targets[place]] for _, place in sorted(built.spec.pairs.items())]
-    assert [name for _, name in built.options] == ["one", "two", "three"]
-    assert key == list(focus_photos.settings(given))
