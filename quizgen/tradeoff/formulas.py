@@ -240,7 +240,7 @@ FORMULAS = (
         lambda r, k: 1 - r / (2 / (3 * np.sqrt(-3 * k))),
         lambda u: [_FOLD * (1 - u), _same(_K1, u)],
         stable=inverse_radius, printed=lines.fixed_point,
-        shown=Shown("1 − r/r<sub>max</sub>", "", lambda r, k: 1 - r / _FOLD,
+        shown=Shown("1 − r/fold", "", lambda r, k: 1 - r / _FOLD,
                     "r ← r<sub>d</sub>/(1 + k₁r²), × 5", "r + k₁r³ = r<sub>d</sub>"),
     ),
     Formula(

@@ -95,13 +95,13 @@ def _places(sweep: Sweep, moved: str, lang: str) -> list[list[Any]]:
         at = numbers_in(lang, moved.format(short(sweep.moved[i])).strip())
         ways = [sweep.ways[way] for way in LINES[1:]]
         numbers = [pieces(sweep.right[i], ALL_DIGITS)]
-        numbers += [pieces(way.values[i], way.digits[i]) for way in ways]
+        numbers += [pieces(way.values[i], way.digits[i], text["failed"]) for way in ways]
         said = text["inside" if left >= sweep.exam_left else "outside"]
         found.append([at, said, *([part.replace(".", sign) for part in one] for one in numbers)])
     return found
 
 
-def pieces(value: float, right: float) -> Pieces:
+def pieces(value: float, right: float, failed: str = "–") -> Pieces:
     """A number of seventeen digits: those that are right, the rest, its power of ten.
 
     Examples
@@ -109,9 +109,10 @@ def pieces(value: float, right: float) -> Pieces:
     >>> pieces(0.5, 17.0), pieces(-1.25, 3.0)
     (('5.0000000000000000', '', '·10⁻¹'), ('-1.25', '00000000000000', ''))
     """
-    if not math.isfinite(value) or value == 0:
-        shown = "0" if value == 0 else "–"
-        return (shown, "", "") if right >= ALL_DIGITS else ("", shown, "")
+    if not math.isfinite(value):
+        return "", "", failed
+    if value == 0:
+        return ("0", "", "") if right >= ALL_DIGITS else ("", "0", "")
     mantissa, power = f"{value:.16e}".split("e")
     tail = f"·{people.power_of_ten(int(power))}" if int(power) else ""
     if right >= ALL_DIGITS:

@@ -154,7 +154,7 @@ def test_the_slider_says_how_far_an_exam_goes(report):
         (3.0, 1, ("3", ".0000000000000000", "")),
         (6e-16, 0, ("", "5.9999999999999999", "·10⁻¹⁶")),
         (0.0, 0, ("", "0", "")),
-        (math.nan, 0, ("", "–", "")),
+        (math.nan, 0, ("", "", "–")),
     ],
 )
 def test_right_digits_stand_apart_from_wrong_ones(value, right, written):
