@@ -62,7 +62,7 @@ def test_the_sentence_on_questions_is_what_was_counted(english):
 
 def test_a_question_costs_what_was_measured(english, report):
     cost = report.questions.costs["exact"]
-    assert f"Exactness costs a question {time_text(cost.more)}, × " in english
+    assert f"Exactness costs a question {time_text(cost.more)}, ×\xa0" in english
     assert report.questions.costs["float64"].seconds < cost.seconds
 
 
@@ -168,7 +168,7 @@ def test_numbers_are_written_for_people():
         "3.2·10⁻⁷",
         "1.0·10¹⁸",
     ]
-    assert [time_text(x) for x in (3e-9, 4.44e-6, 0.123)] == ["3 ns", "4.4 µs", "120 ms"]
+    assert [time_text(x) for x in (3e-9, 4.44e-6, 0.123)] == ["3\xa0ns", "4.4\xa0µs", "120\xa0ms"]
 
 
 def test_german_numbers_have_a_comma(report):
