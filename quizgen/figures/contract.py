@@ -107,6 +107,8 @@ class Figure:
         Whether it cannot be read on grey paper.
     outside : int
         Markers that fall outside their axes, and are not drawn.
+    unnamed_axes : int
+        Axes that have numbers, and nothing that says of what.
     """
 
     inline_svg: bytes = field(repr=False)
@@ -118,6 +120,7 @@ class Figure:
     labels: tuple[Label, ...] = field(default=(), repr=False)
     needs_colour: bool = False
     outside: int = 0
+    unnamed_axes: int = 0
 
     @cached_property
     def standalone_svg(self) -> bytes:

@@ -10,7 +10,6 @@ import os
 import pickle
 from collections.abc import Callable
 from functools import cache, lru_cache
-from inspect import signature
 from pathlib import Path
 from threading import RLock
 from typing import Any
@@ -21,7 +20,7 @@ import numpy as np
 
 from quizgen import kept
 from quizgen.figures.axes import Sheet
-from quizgen.figures.contract import FigureModule, first_parameter
+from quizgen.figures.contract import FigureModule, first_parameter, parameters_of
 from quizgen.figures.kit import COLUMN
 from quizgen.figures.style import HouseStyle
 from quizgen.figures.svg import Drawing, SvgRenderer
@@ -84,7 +83,7 @@ def draw_module(
     A drawing is kept under the digest of all that decides its bytes: the figure's code and its
     neighbours', the engine, the camera, the versions of matplotlib and NumPy, and the values.
     """
-    wants_lang = "lang" in signature(module.draw).parameters
+    wants_lang = "lang" in parameters_of(module.draw)
     told = msgspec.json.encode((items, quiz, lang if wants_lang else "", decimal, marks))
     name = str(module.__file__)  # type: ignore[attr-defined]
     key = kept.digest_of(_digest_engine(), _digest_folder(module), name.encode(), told)

@@ -22,6 +22,9 @@ from math import ceil, floor
 from pathlib import Path as FilePath
 from typing import Any
 
+import quizgen.figures.font_list  # noqa: F401 - before all that sets text
+
+# isort: split
 import msgspec
 import numpy as np
 from matplotlib import _path as _untyped_path
@@ -555,7 +558,7 @@ class SvgRenderer(RendererBase):
         clip = self._write_clip(gc) or self._clip_image(gc, low, top)
         more = ""
         if w > 1.5 * wide:
-            more += ' image-rendering="pixelated"'
+            more += ' style="image-rendering:pixelated"'  # Typst knows no such attribute
         if transform is not None and gc.get_alpha() != 1:  # else it is in the pixels
             more += f' opacity="{gc.get_alpha():.3g}"'
         if np.abs(corners[1] - corners[0])[1] < 0.01 > np.abs(corners[2] - corners[0])[0]:

@@ -70,8 +70,8 @@ def draw(fig: Any, values: Values, *, quiz: bool) -> None:
     require("bayer", max(x, y) < size, "the marked site lies outside the tile")
     asked = f"the marked site is {own} itself; ask for another channel"
     require("bayer", channel == 0 or "RGB"[channel - 1] != own, asked)
-    left, top = _first_site(values)
-    require("bayer", not left % 2 and not top % 2, "left and top are not even")
+    column, row = _first_site(values)
+    require("bayer", not column % 2 and not row % 2, "left and top are not even")
     art = fig.sketch()
     cell = max(34.0, float(184 // size))
     for colour, (squares, strokes) in _lay_out_sites(int(values["phase"]), size, cell).items():
@@ -86,8 +86,8 @@ def draw(fig: Any, values: Values, *, quiz: bool) -> None:
     if "left" in values or "top" in values:
         for place in range(size):
             at = (place + 0.5) * cell
-            art.label((at, size * cell + 4), str(left + place), "cb", 9, fill="grey")
-            art.label((-5, size * cell - at), str(top + place), "r", 9, fill="grey")
+            art.label((at, size * cell + 4), str(column + place), "cb", 9, fill="grey")
+            art.label((-5, size * cell - at), str(row + place), "r", 9, fill="grey")
     left, low = x * cell, (size - 1 - y) * cell
     marked = [(left, low), (left + cell, low), (left + cell, low + cell), (left, low + cell)]
     art.area(marked, None, "ink", 2.4, part="marked")

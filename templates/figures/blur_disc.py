@@ -21,7 +21,7 @@ from quizgen.figures.kit import (
     strip_mathtext,
 )
 
-from ._marks import format_learned
+from ._plots import format_learned
 from ._optics import clamp, draw_axis, draw_lens, draw_lines
 
 PARAMETERS = {

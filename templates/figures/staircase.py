@@ -6,8 +6,6 @@ from itertools import pairwise
 from math import ceil, floor
 from typing import Any
 
-from matplotlib.collections import LineCollection
-
 from quizgen.figures.kit import (
     Parameter,
     Values,
@@ -17,6 +15,8 @@ from quizgen.figures.kit import (
     load_alt_words,
     strip_mathtext,
 )
+
+from ._plots import trace_lines
 
 PARAMETERS = {
     "n": Parameter("", "number of levels", low=2.0, high=16.0, whole=True),
@@ -64,10 +64,8 @@ def draw(ax: Any, values: Values, *, quiz: bool) -> None:
         art.label((0, 1.12 * (n - 1)), text, "l", 10, "red", shift=(28, 11.5), part="answer")
     rises = [[(jump, level), (jump, level + 1)] for level, jump in enumerate(jumps)]
     treads = _list_treads(jumps, 1.0)
-    for part, lines, width, dashes in (("rises", rises, 0.6, (0, (1.2, 1.6))),
-                                       ("staircase", treads, 1.8, "-")):  # fmt: skip
-        drawn = LineCollection(lines, colors="blue", linewidths=width, linestyles=dashes, gid=part)
-        ax.add_collection(drawn, autolim=False)
+    art.shape(trace_lines(rises), None, "blue", 0.4, part="rises")
+    art.shape(trace_lines(treads), None, "blue", 1.8, part="staircase")
     for at, level in ((0, 0), (1, n - 1)):
         if at in jumps:  # a tread of a single point
             art.dot((at, level), 2.2, "blue", part="staircase")

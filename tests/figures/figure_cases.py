@@ -95,7 +95,7 @@ HIDDEN = {
     "reflectance_spectra": ["0.72", "0.15"],
     "gaussian_contours": ["0.6944", "0.01874"],
     "imaging_pipeline": ["demosaicing", "gamma"],
-    "bayer_counts": ["13", "9"],
+    "bayer_counts": ["12", "9"],
     "formula_sketch": [],
 }
 

@@ -136,6 +136,18 @@ def test_images_of_parallel_lines_meet_in_the_vanishing_point():
     assert np.allclose(ends, goal, atol=0.05)
 
 
+@pytest.mark.parametrize("name", ["pixel_grid", "vanishing_point"])
+def test_a_pixel_of_a_learner_is_ringed_where_it_lies(name):
+    drawn = read_parts(draw(name, REFERENCE[name], marks={"u": 200, "v": 100}))
+    assert place_in_frame(drawn, centre(drawn["learned"])) == pytest.approx((200, 100), abs=1)
+
+
+def test_a_pixel_far_outside_is_an_arrow_at_the_edge():
+    drawn = read_parts(draw("pixel_grid", REFERENCE["pixel_grid"], marks={"u": 99999}))
+    u, v = place_in_frame(drawn, drawn["learned"][0][0])
+    assert (u, v) == pytest.approx((640, 170), abs=1)
+
+
 # CCD ---------------------------------------------------------------------------------------
 
 

@@ -1,14 +1,29 @@
-"""Values of a learner beside the right ones: in gold, with the number; outside, at the edge."""
+"""What plots share: many lines as one path, and values of a learner beside the right ones.
+
+A learner's values are gold and have their number; what lies outside stands at the edge.
+"""
 
 from __future__ import annotations
 
 from math import floor, log10
 from typing import Any
 
+import numpy as np
+from matplotlib.path import Path
+
 from quizgen.figures.kit import format_derived
 
 Box = tuple[float, float, float, float]
 """Left, low, right and top of axes, in points of the figure."""
+
+
+def trace_lines(lines: Any) -> Path:
+    """Lines of equally many points, shape (lines, points, 2), as one path."""
+    lines = np.asarray(lines, float)
+    count, points = lines.shape[:2]
+    codes = np.full((count, points), Path.LINETO)
+    codes[:, 0] = Path.MOVETO
+    return Path(lines.reshape(-1, 2), codes.ravel())
 
 
 def format_learned(value: float) -> str:
