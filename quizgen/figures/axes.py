@@ -10,6 +10,9 @@ from __future__ import annotations
 import re
 from typing import Any
 
+import quizgen.figures.font_list  # noqa: F401 - before all that sets text
+
+# isort: split
 import matplotlib as mpl
 import numpy as np
 from matplotlib.artist import Artist

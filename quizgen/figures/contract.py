@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, lru_cache
 from inspect import signature
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, Protocol, cast
@@ -69,9 +69,15 @@ def check_figure_module(module: ModuleType) -> FigureModule:
     return cast("FigureModule", module)
 
 
+@lru_cache(256)
+def parameters_of(function: Any) -> tuple[str, ...]:
+    """Names of a function's parameters; finding them out takes as long as a kept figure."""
+    return tuple(signature(function).parameters)
+
+
 def first_parameter(function: Any) -> str:
     """Name of a function's first parameter."""
-    return next(iter(signature(function).parameters), "")
+    return next(iter(parameters_of(function)), "")
 
 
 def needs_colour(module: ModuleType | FigureModule, values: Mapping[str, Any]) -> bool:
@@ -114,7 +120,7 @@ class Figure:
     inline_svg: bytes = field(repr=False)
     width_pt: float
     height_pt: float
-    alt: str
+    alt: str = field(repr=False)
     lang: str
     origin_pt: tuple[float, float] = (0.0, 0.0)
     labels: tuple[Label, ...] = field(default=(), repr=False)
