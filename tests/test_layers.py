@@ -39,7 +39,7 @@ LAYERS = {
     "render": "errors outside files kept locale typeset bank question paper",
     "cards": "errors executors shapes outside files locale maths typeset bank figures question paper render",
     "export": "errors files locale maths typeset bank figures marking question paper responses render",
-    "tradeoff": "errors shapes outside files locale maths arrays typeset bank camera figures marking question paper render",
+    "tradeoff": "errors shapes files locale maths arrays bank figures render",
     "classes": "errors executors shapes outside files locale maths bank marking question paper responses render",
     "web": "errors executors shapes outside files png locale maths typeset bank camera figures marking question paper practice render "
     "cards tradeoff classes",
