@@ -86,6 +86,8 @@ def needs_colour(module: ModuleType | FigureModule, values: Mapping[str, Any]) -
     return bool(rule(values) if callable(rule) else rule)
 
 
+_WORDS = re.compile(rb"<title>.*?</title>(<desc>.*?</desc>)?", re.DOTALL)
+_LANGUAGE = re.compile(rb' lang="[A-Za-z0-9-]+"')
 _VARIABLE = re.compile(rb"var\(--fig-[a-z-]+,(#[0-9a-f]{6})\)")
 
 
@@ -130,8 +132,12 @@ class Figure:
 
     @cached_property
     def standalone_svg(self) -> bytes:
-        """The same in fixed colours on light paper, for files: they know no variables of a page."""
-        return _VARIABLE.sub(rb"\1", self.inline_svg).replace(b"currentColor", b"#000000")
+        """The same for files: in fixed colours on light paper, as they know no variables of a page.
+
+        Without its words, which stand beside it, so that all languages share one file.
+        """
+        bare = _WORDS.sub(b"", _LANGUAGE.sub(b"", self.inline_svg, count=1), count=1)
+        return _VARIABLE.sub(rb"\1", bare).replace(b"currentColor", b"#000000")
 
     def __eq__(self, other: object) -> bool:
         """Whether they show the same and say the same of it."""

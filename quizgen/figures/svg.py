@@ -421,7 +421,8 @@ class SvgRenderer(RendererBase):
         *others, edgecolors = args
         if not len(edgecolors):
             gc.set_linewidth(_SEAM)
-        super().draw_quad_mesh(gc, *others, edgecolors if len(edgecolors) else None)
+        draw: Any = super().draw_quad_mesh  # its stub lacks arguments
+        draw(gc, *others, edgecolors if len(edgecolors) else None)
 
     def draw_gouraud_triangles(
         self, gc: Any, triangles_array: Any, colors_array: Any, transform: Any

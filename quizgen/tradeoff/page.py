@@ -137,12 +137,12 @@ def short(value: float) -> str:
 
 
 def time_text(seconds: float) -> str:
-    """A time in two figures, with its unit on the same line.
+    r"""A time in two figures, with its unit on the same line.
 
     Examples
     --------
     >>> time_text(4.4e-6), time_text(1.86e-9), time_text(0.000123)
-    ('4.4\\xa0µs', '1.9\\xa0ns', '120\\xa0µs')
+    ('4.4\xa0µs', '1.9\xa0ns', '120\xa0µs')
     """
     size, unit = next((size, unit) for size, unit in _UNITS if seconds >= size)
     return f"{_two(seconds / (size or 1e-9))}\N{NO-BREAK SPACE}{unit}"
