@@ -24,6 +24,7 @@ from quizgen.figures.contract import FigureModule, first_parameter, parameters_o
 from quizgen.figures.kit import COLUMN
 from quizgen.figures.style import HouseStyle
 from quizgen.figures.svg import Drawing, SvgRenderer
+from quizgen.shapes import describe
 
 _LOCK = RLock()
 if hasattr(os, "register_at_fork"):
@@ -33,6 +34,7 @@ if hasattr(os, "register_at_fork"):
     )
 
 _KIND = "figures"
+describe(Drawing)
 _DECODER = msgspec.msgpack.Decoder(Drawing)
 _PACKAGE = Path(__file__).parent.parent
 _CODE = ("figures", "camera", "arrays", "png.py")  # of quizgen, that decides what is drawn
