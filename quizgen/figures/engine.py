@@ -34,8 +34,6 @@ if hasattr(os, "register_at_fork"):
     )
 
 _KIND = "figures"
-describe(Drawing)
-_DECODER = msgspec.msgpack.Decoder(Drawing)
 _PACKAGE = Path(__file__).parent.parent
 _CODE = ("figures", "camera", "arrays", "png.py")  # of quizgen, that decides what is drawn
 
@@ -90,7 +88,7 @@ def draw_module(
     name = str(module.__file__)  # type: ignore[attr-defined]
     key = kept.digest_of(_digest_engine(), _digest_folder(module), name.encode(), told)
     if (found := kept.find(_KIND, key)) is not None:
-        return _DECODER.decode(found)
+        return _decoder().decode(found)
     extra = {"lang": lang} if wants_lang else {}
 
     def draw(place: Any) -> None:
@@ -103,6 +101,12 @@ def draw_module(
     drawing = draw_sheet(draw, size, decimal, axes=first_parameter(module.draw) == "ax")
     kept.keep(_KIND, key, msgspec.msgpack.encode(drawing))
     return drawing
+
+
+@cache
+def _decoder() -> msgspec.msgpack.Decoder[Drawing]:
+    describe(Drawing)
+    return msgspec.msgpack.Decoder(Drawing)
 
 
 @cache
