@@ -6,9 +6,9 @@ import math
 import warnings
 from pathlib import Path
 
-import by_hand
 import mpmath as mp
 import numpy as np
+import printed_by_hand
 import pytest
 
 from quizgen.errors import MathError
@@ -42,7 +42,7 @@ def test_right_values_are_those_of_mpmath(name):
     exam = formula.exam(np.random.default_rng(1), 9)
     for columns in (path, exam):
         for row, right in zip(rows_of(columns), truths(formula, columns), strict=True):
-            assert right == pytest.approx(float(by_hand.truth(name, row)), rel=2e-16), row
+            assert right == pytest.approx(float(printed_by_hand.truth(name, row)), rel=2e-16), row
 
 
 @pytest.mark.parametrize("name", BY_NAME)
@@ -81,13 +81,14 @@ def test_rearranged_formulas_keep_fourteen_digits_all_the_way(sweeps, name):
     assert min(sweeps[name].ways["stable"].digits) >= 14
     for row in exam_of(name, 20):
         found = float(BY_NAME[name].stable(*(np.array([x]) for x in row))[0])
-        assert by_hand.digits_of(name, found, by_hand.truth(name, row)) >= 14, row
+        assert printed_by_hand.digits_of(name, found, printed_by_hand.truth(name, row)) >= 14, row
 
 
 def test_in_an_exam_thirteen_of_fourteen_printed_formulas_keep_eleven_digits(sweeps):
     """By Python's own functions and mpmath; the page's come from NumPy and Arb."""
     worst = {
-        name: min(by_hand.printed_digits(name, row) for row in exam_of(name)) for name in BY_NAME
+        name: min(printed_by_hand.printed_digits(name, row) for row in exam_of(name))
+        for name in BY_NAME
     }
     assert {name for name, count in worst.items() if count < 11} == {ITERATED}
     assert 6 <= worst[ITERATED] < 7
