@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from quizgen.camera.blocks import times
-from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, PointByPoint
+from quizgen.camera.effect import Effect, PointByPoint, Size
 from quizgen.camera.settings import AnySetting
 from quizgen.camera.view import View
 
@@ -16,7 +15,7 @@ def amplifier(
     factor: Callable[[View], float],
     *,
     settings: tuple[AnySetting, ...],
-    decides: tuple[str, ...],
+    answers: tuple[str, ...],
 ) -> Effect:
     """An effect of the sensor that multiplies by a factor >= 0, absent where that is 1.
 
@@ -27,19 +26,19 @@ def amplifier(
         What a camera multiplies by.
     settings : tuple of Setting
         What the factor depends on.
-    decides : tuple of str
+    answers : tuple of str
         Kinds of question whose answer it is.
     """
     return Effect(
         name=name,
         stage="sensor",
-        decides=decides,
+        answers=answers,
         settings=settings,
-        present=lambda view: factor(view) != 1.0,
-        run=PointByPoint(lambda view, _: times(factor(view))),
-        cost=measured((0.0786, 18)),
-        skipped=lambda facts, view: facts.amplified(abs(factor(view) - 1.0)),
-        carried=lambda error, _, view: error.amplified(factor(view), factor(view)),
-        knows_where=True,
-        after=lambda facts, view: facts.scaled(factor(view)),
+        is_present=lambda view: factor(view) != 1.0,
+        run=PointByPoint(lambda view: times(factor(view))),
+        omission_bound=lambda signal, view: abs(factor(view) - 1.0) * signal.size,
+        carry_error=lambda error, _, view: error * factor(view),
+        range_after=lambda signal, view: signal.scaled(factor(view), factor(view)),
+        size=Size(factor, "makes the picture {:.3g} times as bright"),
+        always="brightness",
     )

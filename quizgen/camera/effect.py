@@ -1,4 +1,4 @@
-"""What an effect is: one module with its settings, its work, its bound and its cost."""
+"""What an effect is: one module with its settings, its work, its bound, and how it is seen."""
 
 from __future__ import annotations
 
@@ -9,61 +9,93 @@ import msgspec
 
 from quizgen.camera.blocks import Work, in_turn
 from quizgen.camera.draw import Layer, Stack, composite
-from quizgen.camera.facts import NO_ERROR, Error, Facts
 from quizgen.camera.scene import Image, Scene
 from quizgen.camera.settings import AnySetting
 from quizgen.camera.view import View
 
 Stage = Literal["scene", "optics", "sensor", "processing", "edit"]
-Run = Callable[[Stack, View, str], Stack]
-Bound = Callable[[Facts, View], Error]
-Carry = Callable[[Error, Facts, View], Error]
-After = Callable[[Facts, View], Facts]
-Cost = Callable[[View, str, bool], float]
-Check = Callable[[View], None]
-Has = Callable[[View], bool]
-Outside = Callable[[View], tuple[float, float]]
 
 
-def _anything(facts: Facts, view: View) -> Error:
-    """Nothing is known: skipping may change everything."""
-    return Error(float("inf"))
+class Signal(msgspec.Struct, frozen=True):
+    """Between which numbers every value of a picture lies, luck and rounding included.
+
+    Parameters
+    ----------
+    low, high : float
+        1 = white.
+    """
+
+    low: float
+    high: float
+
+    @property
+    def span(self) -> float:
+        """Largest minus smallest value."""
+        return self.high - self.low
+
+    @property
+    def size(self) -> float:
+        """Largest magnitude."""
+        return max(abs(self.low), abs(self.high))
+
+    def widened(self, down: float, up: float) -> Signal:
+        """With more room below and above."""
+        return Signal(self.low - down, self.high + up)
+
+    def scaled(self, least: float, most: float) -> Signal:
+        """Every value times a factor of its own between two that are >= 0."""
+        return Signal(
+            min(self.low * least, self.low * most), max(self.high * least, self.high * most)
+        )
+
+    def clipped(self, low: float, high: float) -> Signal:
+        """Cut at two values."""
+        return Signal(min(max(self.low, low), high), max(min(self.high, high), low))
+
+    def outside(self, low: float, high: float) -> float:
+        """How far any value stands beyond two others."""
+        return max(self.high - high, low - self.low, 0.0)
 
 
-def _possible(view: View) -> None:
-    """Nothing can be wrong with it."""
+Run = Callable[[Stack, View], Stack]
+Bound = Callable[[Signal, View], float]
+Carry = Callable[[float, Signal, View], float]
 
 
-def same_error(error: Error, facts: Facts, view: View) -> Error:
+def _bound_nothing(signal: Signal, view: View) -> float:
+    """Nothing is known: leaving it out may change everything."""
+    return float("inf")
+
+
+def keep_error(error: float, signal: Signal, view: View) -> float:
     """Differences pass through unchanged (averages, shifts, additions)."""
     return error
 
 
-def same_facts(facts: Facts, view: View) -> Facts:
-    """The picture's range and steps do not grow."""
-    return facts
+def keep_range(signal: Signal, view: View) -> Signal:
+    """No value leaves the range (averages, shifts)."""
+    return signal
 
 
-def no_bound(facts: Facts, view: View) -> Error:
-    """Nothing to lose."""
-    return NO_ERROR
-
-
-def nothing_outside(view: View) -> tuple[float, float]:
+def look_nowhere(view: View) -> tuple[float, float]:
     """Every pixel comes from inside the picture."""
     return 0.0, 0.0
 
 
-def same_stack(stack: Stack, view: View, rung: str) -> Stack:
+def keep_stack(stack: Stack, view: View) -> Stack:
     """Nothing is left to do once the scene is drawn."""
     return stack
 
 
-def on_picture(work: Callable[[Image, View, str], Image]) -> Run:
+def _accept(view: View) -> None:
+    """Nothing can be wrong with it."""
+
+
+def on_picture(work: Callable[[Image, View], Image]) -> Run:
     """Work on one picture: the layers are laid over each other first."""
 
-    def run(stack: Stack, view: View, rung: str) -> Stack:
-        return (Layer(work(composite(stack), view, rung)),)
+    def run(stack: Stack, view: View) -> Stack:
+        return (Layer(work(composite(stack), view)),)
 
     return run
 
@@ -77,14 +109,14 @@ class LayerByLayer(msgspec.Struct, frozen=True):
     Parameters
     ----------
     work : callable
-        ``work(layer, view, rung)`` gives the layer afterwards.
+        ``work(layer, view)`` gives the layer afterwards.
     """
 
-    work: Callable[[Layer, View, str], Layer]
+    work: Callable[[Layer, View], Layer]
 
-    def __call__(self, stack: Stack, view: View, rung: str = "") -> Stack:
+    def __call__(self, stack: Stack, view: View) -> Stack:
         """Run it alone."""
-        return tuple(self.work(layer, view, rung) for layer in stack)
+        return tuple(self.work(layer, view) for layer in stack)
 
 
 class PointByPoint(msgspec.Struct, frozen=True):
@@ -95,21 +127,32 @@ class PointByPoint(msgspec.Struct, frozen=True):
     Parameters
     ----------
     work : callable
-        ``work(view, rung)`` gives what changes a piece in place, see `quizgen.camera.blocks`.
+        ``work(view)`` gives what changes a piece in place, see `quizgen.camera.blocks`.
     """
 
-    work: Callable[[View, str], Work]
+    work: Callable[[View], Work]
 
-    def __call__(self, stack: Stack, view: View, rung: str = "") -> Stack:
+    def __call__(self, stack: Stack, view: View) -> Stack:
         """Run it alone."""
-        return (Layer(in_turn(composite(stack), [self.work(view, rung)])[0]),)
+        return (Layer(in_turn(composite(stack), [self.work(view)])[0]),)
 
 
-class Rung(msgspec.Struct, frozen=True):
-    """A cheaper way to compute an effect: its name and how far it is from the exact way."""
+class Size(msgspec.Struct, frozen=True):
+    """What an effect does to a picture, in its own terms, and from where on a person sees it.
 
-    name: str
-    error: Bound
+    Parameters
+    ----------
+    of : callable
+        The size for a view in px.
+    says : str
+        A phrase with ``{:.3g}`` for it, such as ``moves points by up to {:.3g} px``.
+    least : float
+        The smallest size that is seen.
+    """
+
+    of: Callable[[View], float]
+    says: str
+    least: float = 0.0
 
 
 class Effect(msgspec.Struct, frozen=True, kw_only=True):
@@ -120,70 +163,58 @@ class Effect(msgspec.Struct, frozen=True, kw_only=True):
     name : str
         The field's term; the module is called so too, and the stream of its random numbers.
     stage : str
-        Up to ``optics`` layers are kept apart; what a ``sensor`` limit never meets costs nothing.
-    decides : tuple of str
+        Up to ``optics`` layers are kept apart.
+    answers : tuple of str
         Kinds of question whose answer is this effect.
     settings : tuple of Setting
         Keys of ``[camera]`` that belong to it alone.
-    present : callable
+    is_present : callable
         Whether the camera's settings differ from the identity.
     run : callable
-        ``run(stack, view, rung) -> stack``; see `on_picture` and `PointByPoint`.
-    cost : callable
-        ``cost(view, rung, opencv_used)``, predicted time in ms of a view in px.
-    skipped : callable
-        Error of leaving it out, from the facts of its input (1 = white). By default anything, so
-        that it is never skipped.
-    carried : callable
-        What becomes of an error that is already there.
-    knows_where : bool
-        Whether ``carried`` says what becomes of errors beyond 0 and 1 and of those in the light
-        alone; otherwise they count as if they were everywhere.
-    after : callable
-        Facts of the output.
-    rungs : tuple of Rung
-        Cheaper ways, from dear to cheap.
+        ``run(stack, view) -> stack``; see `on_picture` and `PointByPoint`.
+    omission_bound : callable
+        ``omission_bound(signal, view)``: no value of a picture changes by more if it is left out
+        (1 = white; ``signal`` is what comes in). By default anything, so that it never is.
+    carry_error : callable
+        ``carry_error(error, signal, view)``: how far two pictures are apart after it that were so
+        far apart before.
+    range_after : callable
+        ``range_after(signal, view)``: the `Signal` of what comes out.
+    size : Size, optional
+        What it does, in its own terms; without one only differences in grey levels are told.
+    speckles : bool
+        Whether it is seen by the spread of single pixels, as noise is.
+    needs_effects : tuple of str
+        Effects without which its picture is wrong, such as vignetting before a flat field.
     pair : str
         Effects with the same pair run together or not at all.
-    random : bool
-        Whether it draws random numbers.
     outside : callable
         How far outside a view the light of its pixels can come from, across and down, px.
-    looks : int, optional
-        How far around a pixel everything lies that its value is made of, px, where that is known
-        of an effect that does not go point by point.
     check : callable
         Raises `SceneError` if it cannot be computed for a camera before a picture of this size.
     prepare : callable, optional
         ``prepare(scene, view) -> scene``, before anything is drawn.
-    reason : str
-        Why it runs whatever the budget; empty where the budget decides.
+    always : str
+        Why it runs whatever is asked; empty where it is left out unless it is asked about.
     needs : str
         What its settings do nothing without.
     """
 
     name: str
     stage: Stage
-    decides: tuple[str, ...]
+    answers: tuple[str, ...]
     settings: tuple[AnySetting, ...] = ()
-    present: Has
+    is_present: Callable[[View], bool]
     run: Run
-    cost: Cost
-    skipped: Bound = _anything
-    carried: Carry = same_error
-    knows_where: bool = False
-    after: After = same_facts
-    rungs: tuple[Rung, ...] = ()
+    omission_bound: Bound = _bound_nothing
+    carry_error: Carry = keep_error
+    range_after: Callable[[Signal, View], Signal] = keep_range
+    size: Size | None = None
+    speckles: bool = False
+    needs_effects: tuple[str, ...] = ()
     pair: str = ""
-    random: bool = False
-    outside: Outside = nothing_outside
-    looks: int | None = None
-    check: Check = _possible
+    outside: Callable[[View], tuple[float, float]] = look_nowhere
+    check: Callable[[View], None] = _accept
     prepare: Callable[[Scene, View], Scene] | None = None
-    reason: str = ""
+    always: str = ""
     needs: str = ""
-
-    @property
-    def around(self) -> int | None:
-        """How far around a pixel it looks, px; None where that may be anywhere."""
-        return 0 if isinstance(self.run, PointByPoint) else self.looks

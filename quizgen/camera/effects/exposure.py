@@ -47,5 +47,5 @@ EFFECT = amplifier(
     "exposure",
     factor,
     settings=(EXPOSURE, LIGHT_VALUE),
-    decides=("exposure", "aperture", "shutter"),
+    answers=("exposure", "aperture", "shutter", "clipping"),
 )

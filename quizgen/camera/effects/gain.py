@@ -17,4 +17,4 @@ def gain(view: View) -> float:
     return view.camera[ISO] / BASE_ISO
 
 
-EFFECT = amplifier("gain", gain, settings=(ISO,), decides=("iso", "exposure", "noise", "snr"))
+EFFECT = amplifier("gain", gain, settings=(ISO,), answers=("iso", "exposure", "noise", "snr"))

@@ -1,0 +1,392 @@
+"""Photographs for questions: what is asked can be seen, and what is read off is right.
+
+Nothing is believed that can be measured: the photograph is taken with and without what is asked,
+and where something else runs, with and without that. A picture that does not show what it asks
+about is an error that says by how much it fails.
+"""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Collection, Hashable, Iterable, Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quizgen.camera import effects
+from quizgen.camera.camera import Camera
+from quizgen.camera.filters import opencv
+from quizgen.camera.planning import NO_SELECTION, Plan, Selection, plan_question
+from quizgen.camera.prepared import GREY_LEVELS, Prepared
+from quizgen.camera.scene import Image, Question, Reading, Scene, SceneError
+from quizgen.camera.simulate import Photo, run
+from quizgen.camera.view import View
+from quizgen.outside import located
+
+LEAST_LEVELS = 8.0
+"""Grey levels from which on two pictures beside each other are seen to differ at a place."""
+LEAST_SHARE = 1e-3
+"""Share of the pixels that must differ so much: 14 of 144 x 96."""
+LEAST_SPREAD = 2.0
+"""Grey levels (root mean square) from which on noise is seen."""
+LEAST_SPECKS = 4, 32.0
+"""Single pixels, and their grey levels, that are seen however little they spread all."""
+
+# Rec. 601, by which PDF and printers turn colours to grey (ISO 32000-1, 10.3.3).
+_LUMA = np.array([0.3, 0.59, 0.11])
+
+
+class InvisibleEffectError(SceneError):
+    """What a picture is asked about cannot be seen in it."""
+
+
+class MovedReadingError(SceneError):
+    """What is read off a picture is not what the key says, or something else decides about it."""
+
+
+@dataclass(frozen=True)
+class Visibility:
+    """How an effect shows in a picture, measured against the same picture without it.
+
+    Parameters
+    ----------
+    kind : str
+        What is asked, or the effect.
+    levels : float
+        Largest difference of any channel, in grey levels.
+    share : float
+        Of the pixels, where it is at least `LEAST_LEVELS`.
+    mean : float
+        Mean difference there, in grey levels.
+    spread : float
+        Root mean square of the differences of all pixels, in grey levels.
+    says : tuple of str
+        What the effects do in their own terms.
+    too_small : str
+        Why its own measure is too small; empty where it is large enough.
+    speckles : bool
+        Whether it is seen by the spread of single pixels.
+    specks : int
+        Pixels that differ by the grey levels of `LEAST_SPECKS`.
+    grey : Visibility or None
+        The same in a greyscale print.
+    """
+
+    kind: str
+    levels: float
+    share: float
+    mean: float
+    spread: float
+    says: tuple[str, ...] = ()
+    too_small: str = ""
+    speckles: bool = False
+    specks: int = 0
+    grey: Visibility | None = None
+
+    @property
+    def is_visible(self) -> bool:
+        """Whether somebody who looks at both pictures sees it."""
+        if self.too_small:
+            return False
+        if self.speckles and (self.spread >= LEAST_SPREAD or self.specks >= LEAST_SPECKS[0]):
+            return True
+        return self.share >= LEAST_SHARE
+
+    @property
+    def needs_colour(self) -> bool:
+        """Whether it is seen in colour and not in a greyscale print."""
+        return self.is_visible and self.grey is not None and not self.grey.is_visible
+
+    def explain(self) -> str:
+        """One sentence: what it does, and what of that is seen."""
+        does = f"{' and '.join(self.says)}; " if self.says else ""
+        if self.too_small:
+            return f"{does}{self.too_small}"
+        if self.speckles:
+            return f"{does}spreads grey levels by {self.spread:.2g}"
+        if self.share:
+            return f"{does}changes {self.share:.2g} of the pixels by {self.mean:.2g} grey levels"
+        return f"{does}changes no pixel by more than {self.levels:.2g} grey levels"
+
+
+@dataclass(frozen=True)
+class QuestionPhoto:
+    """A photograph that was measured to show what is asked.
+
+    Parameters
+    ----------
+    photo : Photo
+    without : Photo
+        The same without what is asked.
+    plan : Plan
+        What ran, what was left out and why.
+    seen : tuple of Visibility
+        Of every kind that is asked.
+    readings : dict of str to float
+        What was read off the picture.
+    """
+
+    photo: Photo
+    without: Photo
+    plan: Plan
+    seen: tuple[Visibility, ...]
+    readings: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def needs_colour(self) -> bool:
+        """Whether something that is asked is not seen in a greyscale print."""
+        return any(one.needs_colour for one in self.seen)
+
+
+def measure_visibility(
+    shown: Image, plain: Image, kind: str = "", *, speckles: bool = False
+) -> Visibility:
+    """How two pictures differ, in colour and in grey.
+
+    Parameters
+    ----------
+    shown, plain : numpy.ndarray
+        Shape (H, W), (H, W, 1) or (H, W, 3): values (1 = white), or 8-bit codes.
+    kind : str
+        What is asked.
+    speckles : bool
+        Whether noise is looked for.
+    """
+    apart = _codes(shown) - _codes(plain)
+    grey = _visibility(np.abs(apart @ _LUMA)[..., None], kind, speckles=speckles)
+    return replace(_visibility(np.abs(apart), kind, speckles=speckles), grey=grey)
+
+
+def _codes(image: Image | NDArray[np.uint8]) -> NDArray[np.float64]:
+    """Grey levels of three channels."""
+    scale = 1.0 if image.dtype == np.uint8 else GREY_LEVELS
+    levels = np.clip(np.asarray(image, float) * scale, 0.0, GREY_LEVELS)
+    levels = levels.reshape(*levels.shape[:2], -1)
+    return np.broadcast_to(levels, (*levels.shape[:2], 3))
+
+
+def _visibility(apart: NDArray[np.float64], kind: str, *, speckles: bool) -> Visibility:
+    most = apart.max(axis=2)
+    there = most >= LEAST_LEVELS
+    mean = float(most[there].mean()) if there.any() else 0.0
+    spread = float(np.sqrt(np.square(apart).mean()))
+    specks = int((most >= LEAST_SPECKS[1]).sum())
+    share = float(there.mean())
+    return Visibility(
+        kind, float(most.max()), share, mean, spread, speckles=speckles, specks=specks
+    )
+
+
+def check_visible(seen: Visibility, *, grey: bool = False) -> None:
+    """Refuse what cannot be seen.
+
+    Parameters
+    ----------
+    seen : Visibility
+    grey : bool
+        Whether it must be seen in a greyscale print, too.
+
+    Raises
+    ------
+    InvisibleEffectError
+        With what it does, and how little of that is seen.
+    """
+    if not seen.is_visible:
+        raise InvisibleEffectError(f"{seen.kind} cannot be seen: {seen.explain()}")
+    if grey and seen.needs_colour and seen.grey is not None:
+        raise InvisibleEffectError(f"{seen.kind} cannot be seen in grey: {seen.grey.explain()}")
+
+
+def photograph_question(
+    scene: Scene,
+    camera: Camera,
+    asks: str | Iterable[str] = (),
+    reads: Mapping[str, Reading] | None = None,
+    *,
+    grey: bool = False,
+    chosen: Selection = NO_SELECTION,
+) -> QuestionPhoto:
+    """Photograph a scene for a question and measure that it shows what is asked.
+
+    Pictures of scenes that are drawn are kept, the last 64 of them.
+
+    Parameters
+    ----------
+    scene : Scene
+    camera : Camera
+    asks : str or iterable of str
+        Kinds of question (`quizgen.camera.effects.questions`); by default the scene's own.
+    reads : mapping of str to Reading, optional
+        What is read off the picture; by default the scene's own.
+    grey : bool
+        Whether what is asked must also be seen in a greyscale print.
+    chosen : Selection
+        Effects that are chosen by name.
+
+    Raises
+    ------
+    InvisibleEffectError
+        If what is asked cannot be seen.
+    MovedReadingError
+        If an effect besides moves what is read by more than its tolerance, or it is not the value
+        that it should have.
+    """
+    with located(scene.file):
+        taken = take_photographs(scene, camera, asks, reads, chosen=chosen)
+        for seen in taken.seen:
+            check_visible(seen, grey=grey)
+    return taken
+
+
+def take_photographs(
+    scene: Scene,
+    camera: Camera,
+    asks: str | Iterable[str] = (),
+    reads: Mapping[str, Reading] | None = None,
+    *,
+    chosen: Selection = NO_SELECTION,
+) -> QuestionPhoto:
+    """What `photograph_question` gives, whether or not it can be seen what is asked."""
+    own = scene.question or Question(())
+    kinds = (asks,) if isinstance(asks, str) else tuple(asks)
+    asked = Question(kinds or own.asks, own.reads if reads is None else reads)
+    key = _find_key(scene, camera, asked, chosen)
+    if key is None:
+        return _take(scene, camera, asked, chosen)
+    if key not in _KEPT:
+        _KEPT[key] = _take(scene, camera, asked, chosen)
+        while len(_KEPT) > _MOST_KEPT:
+            _KEPT.popitem(last=False)
+    return _KEPT[key]
+
+
+_KEPT: OrderedDict[Hashable, QuestionPhoto] = OrderedDict()
+_MOST_KEPT = 64
+
+
+def _find_key(scene: Scene, camera: Camera, asked: Question, chosen: Selection) -> Hashable | None:
+    """What a picture depends on; None where that is a photograph, which is not kept."""
+    if scene.image is not None or isinstance(scene.depth, np.ndarray):
+        return None
+    drawn = scene.things, scene.background, scene.background_depth, scene.width, scene.height
+    rest = scene.seed, scene.precision, opencv() is None
+    return drawn, rest, camera, asked.asks, tuple(asked.reads.items()), chosen
+
+
+def _take(scene: Scene, camera: Camera, asked: Question, chosen: Selection) -> QuestionPhoto:
+    whole = Prepared(scene, camera)
+    plan = plan_question(whole, asked.asks, chosen)
+    prepared = Prepared(scene, camera, plan.names)
+    photo = run(prepared)
+    for name, reading in asked.reads.items():
+        if added := _find_needed(whole, plan, photo, reading):
+            return _take(scene, camera, asked, replace(chosen, plus=(*chosen.plus, added)))
+        _check_reading(prepared, plan, photo, name, reading)
+    readings = {name: read_value(photo.values, reading) for name, reading in asked.reads.items()}
+    without = run(prepared, [name for name in plan.names if name not in plan.asked])
+    seen = []
+    for kind, names in _group_asked(plan, asked.asks, chosen).items():
+        rest = [name for name in plan.names if name not in names]
+        plain = without if set(names) >= set(plan.asked) else run(prepared, rest)
+        seen.append(_measure(kind, names, prepared.view, photo, plain))
+    return QuestionPhoto(photo, without, plan, tuple(seen), readings)
+
+
+def _group_asked(
+    plan: Plan, kinds: tuple[str, ...], chosen: Selection
+) -> dict[str, tuple[str, ...]]:
+    """Effects of every kind of question; those chosen by name each for itself."""
+    if chosen.only:
+        return {name: (name,) for name in plan.asked}
+    return {kind: _asked_by(plan, kind) for kind in kinds}
+
+
+def _asked_by(plan: Plan, kind: str) -> tuple[str, ...]:
+    return tuple(name for name in plan.asked if kind in effects.by_name(name).answers)
+
+
+def _measure(
+    kind: str, names: Collection[str], view: View, photo: Photo, plain: Photo
+) -> Visibility:
+    asked = [effects.by_name(name) for name in names]
+    sized = [(one, one.size.of(view), one.size) for one in asked if one.size is not None]
+    says = tuple(size.says.format(value) for _, value, size in sized)
+    large = [one for one in asked if one.size is None or one.size.of(view) >= one.size.least]
+    small = "" if large or not sized else f"{sized[0][2].least:g} would be seen"
+    speckles = all(one.speckles for one in asked)
+    seen = measure_visibility(photo.values, plain.values, kind, speckles=speckles)
+    grey = None if seen.grey is None else replace(seen.grey, too_small=small, says=says)
+    return replace(seen, says=says, too_small=small, grey=grey)
+
+
+# What is read off a picture
+
+
+def _patches(levels: NDArray[np.float64]) -> list[NDArray[np.float64]]:
+    """The four corners of a picture, each a sixteenth of its sides."""
+    rows, columns = (max(1, side // 16) for side in levels.shape[:2])
+    sides = [levels[:rows], levels[-rows:]]
+    return [part for side in sides for part in (side[:, :columns], side[:, -columns:])]
+
+
+def _centre(levels: NDArray[np.float64]) -> NDArray[np.float64]:
+    height, width = levels.shape[:2]
+    rows, columns = max(1, height // 16), max(1, width // 16)
+    top, left = (height - rows) // 2, (width - columns) // 2
+    return levels[top : top + rows, left : left + columns]
+
+
+MEASURES = {
+    "mean": lambda levels: float(levels.mean()),
+    "centre": lambda levels: float(_centre(levels).mean()),
+    "corner": lambda levels: float(np.mean([part.mean() for part in _patches(levels)])),
+    "deviation": lambda levels: float(levels.std(axis=(0, 1)).mean()),
+    "darkest": lambda levels: float(levels.min()),
+    "brightest": lambda levels: float(levels.max()),
+}
+"""What can be read off a picture by name, in grey levels from 0 to 255."""
+
+
+def read_value(image: Image, reading: Reading) -> float:
+    """What is read off a finished picture."""
+    measure = reading.measure
+    if isinstance(measure, str):
+        return MEASURES[measure](_codes(image))
+    return float(measure(_codes(image)))
+
+
+def _find_needed(whole: Prepared, plan: Plan, photo: Photo, reading: Reading) -> str:
+    """An effect left out without which what is read is wrong, and with which it is right."""
+    if reading.value is None or _is_right(photo, reading):
+        return ""
+    for choice in plan.left_out:
+        if choice.why == "not asked" and _is_right(
+            run(whole, (*plan.names, choice.effect)), reading
+        ):
+            return choice.effect
+    return ""
+
+
+def _is_right(photo: Photo, reading: Reading) -> bool:
+    value = reading.value
+    return value is None or abs(read_value(photo.values, reading) - value) <= reading.tolerance
+
+
+def _check_reading(
+    prepared: Prepared, plan: Plan, photo: Photo, name: str, reading: Reading
+) -> None:
+    value = read_value(photo.values, reading)
+    if not _is_right(photo, reading):
+        raise MovedReadingError(
+            f"{name} is read as {value:.4g}, not as {reading.value:.4g} ± {reading.tolerance:g}"
+        )
+    for step in plan.steps:
+        if step.why != "wanted" or reading.value is not None:
+            continue
+        others = [other for other in plan.names if other != step.effect]
+        moved = abs(read_value(run(prepared, others).values, reading) - value)
+        if moved > reading.tolerance:
+            raise MovedReadingError(
+                f"{step.effect} moves {name} by {moved:.3g}, more than {reading.tolerance:g}"
+            )
