@@ -39,6 +39,6 @@ def amplifier(
         omission_bound=lambda signal, view: abs(factor(view) - 1.0) * signal.size,
         carry_error=lambda error, _, view: error * factor(view),
         range_after=lambda signal, view: signal.scaled(factor(view), factor(view)),
-        size=Size(factor, "makes the picture {:.3g} times as bright"),
+        size=Size(factor, "make the picture {:.3g} times as bright"),
         always="brightness",
     )

@@ -145,7 +145,7 @@ class Size(msgspec.Struct, frozen=True):
     of : callable
         The size for a view in px.
     says : str
-        A phrase with ``{:.3g}`` for it, such as ``moves points by up to {:.3g} px``.
+        A phrase with ``{:.3g}`` for it, its verb first: ``move points by up to {:.3g} px``.
     least : float
         The smallest size that is seen.
     """

@@ -17,6 +17,7 @@ from quizgen.camera.camera import nearest
 from quizgen.camera.effect import Effect
 from quizgen.camera.prepared import GREY_LEVELS, Prepared
 from quizgen.camera.scene import SceneError
+from quizgen.camera.view import View
 from quizgen.outside import located
 
 BUDGETS = {"same": 0.5, "visible": 2.0, "sketch": 8.0}
@@ -33,7 +34,7 @@ class Choice:
     why : str
         Why it runs, or why it does not.
     says : str
-        What it does in its own terms (``darkens the corners by 12 %``); may be empty.
+        What it does in its own terms (``darken the corners by 12 %``).
     bound_dn : float
         Grey levels by which leaving it out alone changes any value at most.
     """
@@ -135,7 +136,9 @@ def plan_everything(prepared: Prepared) -> Plan:
         return _report(prepared, {effect.name: "everything" for effect in prepared.present}, {})
 
 
-def plan_budget(prepared: Prepared, budget: str | float = 0.5) -> Plan:
+def plan_budget(
+    prepared: Prepared, budget: str | float = 0.5, chosen: Selection = NO_SELECTION
+) -> Plan:
     """Leave out what no value of the picture shows by more than the budget, least change first.
 
     Parameters
@@ -143,20 +146,25 @@ def plan_budget(prepared: Prepared, budget: str | float = 0.5) -> Plan:
     prepared : Prepared
     budget : float or str
         Largest tolerated change in 8-bit grey levels, or a name in `BUDGETS`.
+    chosen : Selection
+        What runs, or does not, whatever it changes.
     """
     limit = read_budget(budget)
     with located(prepared.given.scene.file):
         bounds = {names: prepared.bound_omission(names) for names in _units(prepared)}
         out: tuple[str, ...] = ()
         for names in sorted(bounds, key=lambda names: (bounds[names], names)):
-            if bounds[names] > limit:
-                break
-            if prepared.bound_omission(out + names) <= limit:
+            if chosen.plus and not set(chosen.plus).isdisjoint(names):
+                continue
+            if bounds[names] <= limit and prepared.bound_omission(out + names) <= limit:
                 out += names
-        runs = {
-            one.name: one.always or "may be seen" for one in prepared.present if one.name not in out
-        }
-        return _report(prepared, runs, dict.fromkeys(out, "too little to be seen"), budget=limit)
+        why = dict.fromkeys(out, "too little to be seen") | dict.fromkeys(
+            chosen.minus, "not wanted"
+        )
+        runs = {one.name: one.always or "may be seen" for one in prepared.present}
+        return _report(
+            prepared, {name: runs[name] for name in runs if name not in why}, why, budget=limit
+        )
 
 
 def plan_question(
@@ -234,6 +242,17 @@ def _units(prepared: Prepared) -> list[tuple[str, ...]]:
     return list(units.values())
 
 
+def describe_size(effect: Effect, view: View) -> str:
+    """What an effect does in its own terms, its verb first; empty where it has none."""
+    return effect.size.says.format(effect.size.of(view)) if effect.size else ""
+
+
+def _describe_bound(bound: float) -> str:
+    if bound >= GREY_LEVELS:
+        return "change anything"
+    return f"change at most {bound:.3g} grey levels" if bound else "change nothing"
+
+
 def _report(
     prepared: Prepared,
     runs: Mapping[str, str],
@@ -247,7 +266,7 @@ def _report(
             one.name for one in prepared.present if one is effect or effect.pair == one.pair != ""
         ]
         bound = min(prepared.bound_omission(unit), GREY_LEVELS)
-        says = effect.size.says.format(effect.size.of(prepared.view)) if effect.size else ""
+        says = describe_size(effect, prepared.view) or _describe_bound(bound)
         why = runs.get(effect.name) or out.get(effect.name, "")
         choice = Choice(effect.name, why, says, bound)
         (steps if effect.name in runs else left_out).append(choice)

@@ -7,20 +7,22 @@ about is an error that says by how much it fails.
 
 from __future__ import annotations
 
+import math
 from collections import OrderedDict
-from collections.abc import Collection, Hashable, Iterable, Mapping
+from collections.abc import Callable, Collection, Hashable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from quizgen.camera import effects
+from quizgen.camera.blocks import pieces
 from quizgen.camera.camera import Camera
 from quizgen.camera.filters import opencv
-from quizgen.camera.planning import NO_SELECTION, Plan, Selection, plan_question
+from quizgen.camera.planning import NO_SELECTION, Plan, Selection, describe_size, plan_question
 from quizgen.camera.prepared import GREY_LEVELS, Prepared
 from quizgen.camera.scene import Image, Question, Reading, Scene, SceneError
-from quizgen.camera.simulate import Photo, run
+from quizgen.camera.simulate import Photo, run, silent
 from quizgen.camera.view import View
 from quizgen.outside import located
 
@@ -100,7 +102,7 @@ class Visibility:
 
     def explain(self) -> str:
         """One sentence: what it does, and what of that is seen."""
-        does = f"{' and '.join(self.says)}; " if self.says else ""
+        does = f"{' and '.join(map(conjugate, self.says))}; " if self.says else ""
         if self.too_small:
             return f"{does}{self.too_small}"
         if self.speckles:
@@ -139,6 +141,12 @@ class QuestionPhoto:
         return any(one.needs_colour for one in self.seen)
 
 
+def conjugate(says: str) -> str:
+    """A phrase that begins with a verb, of somebody who does it."""
+    verb, _, rest = says.partition(" ")
+    return f"{verb}s {rest}"
+
+
 def measure_visibility(
     shown: Image, plain: Image, kind: str = "", *, speckles: bool = False
 ) -> Visibility:
@@ -153,9 +161,16 @@ def measure_visibility(
     speckles : bool
         Whether noise is looked for.
     """
-    apart = _codes(shown) - _codes(plain)
-    grey = _visibility(np.abs(apart @ _LUMA)[..., None], kind, speckles=speckles)
-    return replace(_visibility(np.abs(apart), kind, speckles=speckles), grey=grey)
+    found, gray = _Differences(), _Differences()
+    for start, stop in pieces(len(shown), _ROWS):
+        apart = _codes(shown[start:stop]) - _codes(plain[start:stop])
+        found.add(np.abs(apart))
+        gray.add(np.abs(apart @ _LUMA)[..., None])
+    return replace(found.summarise(kind, speckles), grey=gray.summarise(kind, speckles))
+
+
+_ROWS = 256
+"""Rows looked at at once, so that large pictures are not held twice."""
 
 
 def _codes(image: Image | NDArray[np.uint8]) -> NDArray[np.float64]:
@@ -166,16 +181,29 @@ def _codes(image: Image | NDArray[np.uint8]) -> NDArray[np.float64]:
     return np.broadcast_to(levels, (*levels.shape[:2], 3))
 
 
-def _visibility(apart: NDArray[np.float64], kind: str, *, speckles: bool) -> Visibility:
-    most = apart.max(axis=2)
-    there = most >= LEAST_LEVELS
-    mean = float(most[there].mean()) if there.any() else 0.0
-    spread = float(np.sqrt(np.square(apart).mean()))
-    specks = int((most >= LEAST_SPECKS[1]).sum())
-    share = float(there.mean())
-    return Visibility(
-        kind, float(most.max()), share, mean, spread, speckles=speckles, specks=specks
-    )
+class _Differences:
+    """Sums over the differences of two pictures."""
+
+    def __init__(self) -> None:
+        self.count = self.there = self.specks = 0
+        self.most = self.sum = self.squares = 0.0
+
+    def add(self, apart: NDArray[np.float64]) -> None:
+        most = apart.max(axis=2)
+        there = most[most >= LEAST_LEVELS]
+        self.count += most.size
+        self.there += there.size
+        self.specks += int((there >= LEAST_SPECKS[1]).sum())
+        self.most = max(self.most, float(most.max()))
+        self.sum += float(there.sum())
+        self.squares += float(np.square(apart).mean()) * most.size
+
+    def summarise(self, kind: str, speckles: bool) -> Visibility:
+        mean, spread = self.sum / max(self.there, 1), math.sqrt(self.squares / self.count)
+        share = self.there / self.count
+        return Visibility(
+            kind, self.most, share, mean, spread, speckles=speckles, specks=self.specks
+        )
 
 
 def check_visible(seen: Visibility, *, grey: bool = False) -> None:
@@ -246,49 +274,64 @@ def take_photographs(
     reads: Mapping[str, Reading] | None = None,
     *,
     chosen: Selection = NO_SELECTION,
+    told: Callable[[str], None] = silent,
 ) -> QuestionPhoto:
-    """What `photograph_question` gives, whether or not it can be seen what is asked."""
+    """What `photograph_question` gives, whether or not it can be seen what is asked.
+
+    Parameters
+    ----------
+    scene, camera, asks, reads, chosen
+        As for `photograph_question`.
+    told : callable
+        Gets the names of effects before they run.
+    """
     own = scene.question or Question(())
     kinds = (asks,) if isinstance(asks, str) else tuple(asks)
     asked = Question(kinds or own.asks, own.reads if reads is None else reads)
     key = _find_key(scene, camera, asked, chosen)
     if key is None:
-        return _take(scene, camera, asked, chosen)
+        return _take(scene, camera, asked, chosen, told)
     if key not in _KEPT:
-        _KEPT[key] = _take(scene, camera, asked, chosen)
+        _KEPT[key] = _take(scene, camera, asked, chosen, told)
         while len(_KEPT) > _MOST_KEPT:
             _KEPT.popitem(last=False)
     return _KEPT[key]
 
 
 _KEPT: OrderedDict[Hashable, QuestionPhoto] = OrderedDict()
-_MOST_KEPT = 64
+_MOST_KEPT, _MOST_PIXELS = 64, 1 << 16
 
 
 def _find_key(scene: Scene, camera: Camera, asked: Question, chosen: Selection) -> Hashable | None:
-    """What a picture depends on; None where that is a photograph, which is not kept."""
-    if scene.image is not None or isinstance(scene.depth, np.ndarray):
+    """What a picture depends on; None where it is large, or a photograph, and not kept."""
+    if scene.image is not None or scene.width * scene.height > _MOST_PIXELS:
         return None
     drawn = scene.things, scene.background, scene.background_depth, scene.width, scene.height
     rest = scene.seed, scene.precision, opencv() is None
     return drawn, rest, camera, asked.asks, tuple(asked.reads.items()), chosen
 
 
-def _take(scene: Scene, camera: Camera, asked: Question, chosen: Selection) -> QuestionPhoto:
+def _take(
+    scene: Scene,
+    camera: Camera,
+    asked: Question,
+    chosen: Selection,
+    told: Callable[[str], None],
+) -> QuestionPhoto:
     whole = Prepared(scene, camera)
     plan = plan_question(whole, asked.asks, chosen)
     prepared = Prepared(scene, camera, plan.names)
-    photo = run(prepared)
+    photo = run(prepared, told=told)
     for name, reading in asked.reads.items():
         if added := _find_needed(whole, plan, photo, reading):
-            return _take(scene, camera, asked, replace(chosen, plus=(*chosen.plus, added)))
+            return _take(scene, camera, asked, replace(chosen, plus=(*chosen.plus, added)), told)
         _check_reading(prepared, plan, photo, name, reading)
     readings = {name: read_value(photo.values, reading) for name, reading in asked.reads.items()}
-    without = run(prepared, [name for name in plan.names if name not in plan.asked])
+    without = run(prepared, [name for name in plan.names if name not in plan.asked], told)
     seen = []
     for kind, names in _group_asked(plan, asked.asks, chosen).items():
         rest = [name for name in plan.names if name not in names]
-        plain = without if set(names) >= set(plan.asked) else run(prepared, rest)
+        plain = without if set(names) >= set(plan.asked) else run(prepared, rest, told)
         seen.append(_measure(kind, names, prepared.view, photo, plain))
     return QuestionPhoto(photo, without, plan, tuple(seen), readings)
 
@@ -311,7 +354,7 @@ def _measure(
 ) -> Visibility:
     asked = [effects.by_name(name) for name in names]
     sized = [(one, one.size.of(view), one.size) for one in asked if one.size is not None]
-    says = tuple(size.says.format(value) for _, value, size in sized)
+    says = tuple(describe_size(one, view) for one, _, _ in sized)
     large = [one for one in asked if one.size is None or one.size.of(view) >= one.size.least]
     small = "" if large or not sized else f"{sized[0][2].least:g} would be seen"
     speckles = all(one.speckles for one in asked)

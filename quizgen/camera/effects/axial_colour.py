@@ -86,7 +86,7 @@ EFFECT = Effect(
     outside=lambda view: focus.outside(view, tuple(shifts(view).values())),
     size=Size(
         lambda view: max(abs(shift) for shift in shifts(view).values()),
-        "makes the discs of red and blue {:.3g} px wider or narrower",
+        "make the discs of red and blue {:.3g} px wider or narrower",
         1.0,
     ),
     needs_effects=("defocus",),

@@ -40,5 +40,5 @@ EFFECT = Effect(
     is_present=lambda view: view.camera[BINNING] > 1,
     run=on_picture(run),
     omission_bound=lambda signal, _: signal.span,
-    size=Size(lambda view: view.camera[BINNING], "makes one pixel of blocks {:.3g} px wide", 2.0),
+    size=Size(lambda view: view.camera[BINNING], "make one pixel of blocks {:.3g} px wide", 2.0),
 )

@@ -106,7 +106,7 @@ EFFECT = Effect(
     run=PointByPoint(work),
     omission_bound=omission_bound,
     range_after=range_after,
-    size=Size(dark_electrons, "adds {:.3g} electrons to a pixel"),
+    size=Size(dark_electrons, "add {:.3g} electrons to a pixel"),
     speckles=True,
     needs="shutter",
 )

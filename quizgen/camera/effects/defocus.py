@@ -54,5 +54,5 @@ EFFECT = Effect(
     run=LayerByLayer(work),
     omission_bound=omission_bound,
     outside=lambda view: focus.outside(view, (0.0,)),
-    size=Size(focus.widest_disc, "blurs by discs of up to {:.3g} px", 1.5),
+    size=Size(focus.widest_disc, "blur by discs of up to {:.3g} px", 1.5),
 )

@@ -67,5 +67,5 @@ EFFECT = Effect(
         signal, view, lambda _: moved_share(_kernel(view))
     ),
     outside=outside,
-    size=Size(lambda view: 2.44 * scale(view), "blurs by an Airy disc {:.3g} px wide", 1.5),
+    size=Size(lambda view: 2.44 * scale(view), "blur by an Airy disc {:.3g} px wide", 1.5),
 )

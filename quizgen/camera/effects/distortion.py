@@ -251,5 +251,5 @@ EFFECT = Effect(
     check=check,
     run=LayerByLayer(work),
     omission_bound=omission_bound,
-    size=Size(largest_displacement, "moves points by up to {:.3g} px", 1.0),
+    size=Size(largest_displacement, "move points by up to {:.3g} px", 1.0),
 )

@@ -64,6 +64,6 @@ EFFECT = Effect(
     run=PointByPoint(work),
     omission_bound=lambda _, view: level(view) + farthest(view),
     range_after=range_after,
-    size=Size(lambda view: view.camera[FIXED_PATTERN], "spreads the offsets by {:.3g} electrons"),
+    size=Size(lambda view: view.camera[FIXED_PATTERN], "spread the offsets by {:.3g} electrons"),
     speckles=True,
 )

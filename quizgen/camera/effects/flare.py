@@ -35,6 +35,6 @@ EFFECT = Effect(
     # the mean lies inside the range, so that a pixel is at most the whole range away from it
     omission_bound=lambda signal, view: view.camera[FLARE] * signal.span,
     size=Size(
-        lambda view: 100.0 * view.camera[FLARE], "spreads {:.3g} % of the light over the picture"
+        lambda view: 100.0 * view.camera[FLARE], "spread {:.3g} % of the light over the picture"
     ),
 )

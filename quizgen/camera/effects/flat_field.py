@@ -61,7 +61,7 @@ EFFECT = Effect(
     range_after=lambda signal, view: signal.scaled(1.0 / _most(view), _most(view)),
     size=Size(
         lambda view: 100.0 * (_most(view) - 1.0),
-        "brightens the corners by {:.3g} % against the centre",
+        "brighten the corners by {:.3g} % against the centre",
     ),
     needs_effects=("vignetting",),
     needs="vignetting",

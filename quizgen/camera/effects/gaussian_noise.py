@@ -60,7 +60,7 @@ EFFECT = Effect(
     omission_bound=lambda signal, view: signal.outside(0.0, 1.0) + _far(view),
     range_after=lambda signal, view: signal.widened(_far(view), _far(view)).clipped(0.0, 1.0),
     size=Size(
-        lambda view: 255.0 * view.camera[GAUSSIAN_NOISE], "adds noise of {:.3g} grey levels", 2.0
+        lambda view: 255.0 * view.camera[GAUSSIAN_NOISE], "add noise of {:.3g} grey levels", 2.0
     ),
     speckles=True,
 )

@@ -56,7 +56,7 @@ EFFECT = Effect(
     range_after=lambda signal, _: Signal(min(signal.low, 0.0), max(signal.high, 1.0)),
     size=Size(
         lambda view: 100.0 * view.camera[IMPULSE_NOISE],
-        "turns {:.3g} % of the pixels black or white",
+        "turn {:.3g} % of the pixels black or white",
     ),
     speckles=True,
 )

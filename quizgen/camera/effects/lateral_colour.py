@@ -107,5 +107,5 @@ EFFECT = Effect(
     check=check,
     run=LayerByLayer(work),
     omission_bound=lambda signal, view: bound_shift(signal, view, _farthest(view)),
-    size=Size(_farthest, "moves red and blue by up to {:.3g} px", 1.0),
+    size=Size(_farthest, "move red and blue by up to {:.3g} px", 1.0),
 )

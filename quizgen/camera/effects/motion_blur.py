@@ -89,5 +89,5 @@ EFFECT = Effect(
     run=LayerByLayer(work),
     omission_bound=omission_bound,
     outside=outside,
-    size=Size(_longest, "smears over up to {:.3g} px", 1.5),
+    size=Size(_longest, "smear over up to {:.3g} px", 1.5),
 )

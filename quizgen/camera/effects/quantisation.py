@@ -61,5 +61,5 @@ EFFECT = Effect(
     # any difference may become a whole code
     carry_error=lambda error, _, view: math.ceil(error / _step(view) - 1e-9) * _step(view),
     range_after=range_after,
-    size=Size(lambda view: _largest_code(view) + 1.0, "leaves {:.5g} levels"),
+    size=Size(lambda view: _largest_code(view) + 1.0, "leave {:.5g} levels"),
 )

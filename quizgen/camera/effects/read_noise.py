@@ -41,6 +41,6 @@ EFFECT = Effect(
     run=PointByPoint(work),
     omission_bound=lambda _, view: farthest(view),
     range_after=lambda signal, view: signal.widened(farthest(view), farthest(view)),
-    size=Size(lambda view: view.camera[READ_NOISE], "adds noise of {:.3g} electrons"),
+    size=Size(lambda view: view.camera[READ_NOISE], "add noise of {:.3g} electrons"),
     speckles=True,
 )

@@ -115,6 +115,6 @@ EFFECT = Effect(
     run=LayerByLayer(work),
     omission_bound=omission_bound,
     outside=outside,
-    size=Size(_farthest_apart, "moves the last row by up to {:.3g} px against the first", 2.0),
+    size=Size(_farthest_apart, "move the last row by up to {:.3g} px against the first", 2.0),
     needs="something that moves",
 )

@@ -85,7 +85,7 @@ EFFECT = Effect(
     range_after=range_after,
     size=Size(
         lambda view: math.sqrt(max(view.scene.range[1], 0.0) * electrons_at_white(view)),
-        "spreads counts by up to {:.3g} electrons",
+        "spread counts by up to {:.3g} electrons",
     ),
     speckles=True,
 )

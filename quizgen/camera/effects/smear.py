@@ -42,5 +42,5 @@ EFFECT = Effect(
     omission_bound=lambda signal, view: view.camera[SMEAR] * signal.size,
     carry_error=lambda error, _, view: error * (1.0 + view.camera[SMEAR]),
     range_after=range_after,
-    size=Size(lambda view: 100.0 * view.camera[SMEAR], "adds {:.3g} % of each column's mean to it"),
+    size=Size(lambda view: 100.0 * view.camera[SMEAR], "add {:.3g} % of each column's mean to it"),
 )

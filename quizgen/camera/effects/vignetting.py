@@ -116,6 +116,6 @@ EFFECT = Effect(
     omission_bound=lambda signal, view: (1.0 - corner_light(view) + 1e-6) * signal.size,
     range_after=lambda signal, view: signal.scaled(corner_light(view) * (1.0 - 1e-6), 1.0),
     size=Size(
-        lambda view: 100.0 * (1.0 - corner_light(view)), "darkens the corners by {:.3g} %", 5.0
+        lambda view: 100.0 * (1.0 - corner_light(view)), "darken the corners by {:.3g} %", 5.0
     ),
 )
