@@ -22,7 +22,9 @@ _SCALES = tuple(digit * 10**power for power in range(5, -1, -1) for digit in (5,
 
 
 def amplify_difference(one: Image, other: Image) -> tuple[int, Codes]:
-    """How far two pictures lie apart, times 1, 2, 5, 10 ... so that the largest is nearly white.
+    """How far two pictures lie apart, times 1, 2, 5, 10 ... so that it is seen.
+
+    Of the values that differ by a grey level (or of all, where none does) 98 % are not clipped.
 
     Returns
     -------
@@ -32,8 +34,9 @@ def amplify_difference(one: Image, other: Image) -> tuple[int, Codes]:
         8-bit codes; black where the pictures agree.
     """
     apart = np.abs(np.clip(one, 0.0, 1.0) - np.clip(other, 0.0, 1.0))
-    largest = float(apart.max())
-    scale = next((scale for scale in _SCALES if scale * largest <= 1.0), 1)
+    there = apart[apart >= 1.0 / GREY_LEVELS]
+    bright = float(np.quantile(there if there.size else apart, 0.98))
+    scale = next((scale for scale in _SCALES if scale * bright <= 1.0), 1)
     return scale, rounded(apart * (scale * GREY_LEVELS))
 
 

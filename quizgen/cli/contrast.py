@@ -73,7 +73,7 @@ def contents(
 
     one, other = photos.values()
     scale, apart = amplify_difference(one.values, other.values)
-    pictures = one.pixels(), other.pixels(), _write_on(apart, f"difference × {scale}")
+    pictures = one.pixels(), other.pixels(), _write_on(apart, f"difference x {scale}")
     if target.suffix.lower() != ".html":
         return WRITERS[target.suffix.lower()](side_by_side(*pictures))
     names = *photos, f"difference × {scale}"
