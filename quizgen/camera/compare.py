@@ -18,7 +18,7 @@ from quizgen.camera.simulate import Photo, measure_difference, run
 Codes = NDArray[np.uint8]
 
 _GAP = 8
-_SCALES = tuple(digit * 10**power for power in range(5, -1, -1) for digit in (5, 2, 1))
+_SCALES = 1000, 500, 200, 100, 50, 20, 10, 5, 2, 1
 
 
 def amplify_difference(one: Image, other: Image) -> tuple[int, Codes]:

@@ -42,7 +42,7 @@ def _half_chord_integral(x: Kernel) -> Kernel:
     return (x * np.sqrt(np.maximum(0.0, 1.0 - x * x)) + np.arcsin(np.clip(x, -1.0, 1.0))) / 2.0
 
 
-def _disc_area_below(x: Kernel, y: Kernel) -> Kernel:
+def disc_area_below(x: Kernel, y: Kernel) -> Kernel:
     """Area of the unit disc left of x and below y, both in [-1, 1] (closed form)."""
     corner = np.sqrt(np.maximum(0.0, 1.0 - y * y))
     chord = _half_chord_integral
@@ -124,7 +124,7 @@ def _disc_quarter(count: int) -> Kernel:
     cells = np.empty((half, half))
     for start in range(0, half, _ROWS):
         rows = edges[start : start + _ROWS + 1]
-        below = _disc_area_below(*np.meshgrid(edges, rows))
+        below = disc_area_below(*np.meshgrid(edges, rows))
         area = np.diff(np.diff(below, axis=0), axis=1)
         np.maximum(area, 0.0, out=cells[start : start + _ROWS])
     return cells

@@ -17,8 +17,8 @@ from quizgen.camera.view import View
 Places = NDArray[np.intp]
 
 WORDS = 1 << 16
-TAIL = 16
-"""Cells at either end of the table in which values are drawn from the tail itself (|z| > 3.4)."""
+TAIL = 256
+"""Cells at either end of the table in which values are drawn from the tail itself (|z| > 2.6)."""
 FARTHEST = 7.9
 """Standard deviations that no luck exceeds: the last step of the tail has the chance 2^-49."""
 _RAREST = 49.0 * math.log(2.0)
@@ -70,7 +70,7 @@ class Luck:
         tile, count : int
         kind : dtype
         fine : bool
-            Draw 16 more bits for every value. Without them those that are no more than 3.4 are
+            Draw 16 more bits for every value. Without them those that are no more than 2.6 are
             the middles of 2^16 equal probabilities: enough where they are added to a picture, but
             whole counts are so close beside each other that some would never be drawn.
         """
@@ -119,7 +119,7 @@ def _tail() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     an octave a line is off by 1e-6, and no logarithm is needed, whose last bit differs between
     processors.
     """
-    cells = np.ldexp(1.0 + np.arange(256) / 256.0, np.arange(-33, 5)[:, None]).reshape(-1)
+    cells = np.ldexp(1.0 + np.arange(256) / 256.0, np.arange(-33, 8)[:, None]).reshape(-1)
     return cells.view(np.int64).astype(float), np.asarray(inverse_tail(cells / WORDS))
 
 

@@ -17,6 +17,7 @@ from quizgen.cli import contrast
 from quizgen.cli.terminal import Progress, print_table, tell
 from quizgen.errors import ChoiceError
 from quizgen.files import write_all
+from quizgen.outside import located
 
 if TYPE_CHECKING:
     import numpy as np
@@ -184,8 +185,9 @@ def _take(scene: str, prepared: Prepared, options: Options, told: Progress) -> S
         camera = prepared.given.camera
         taken = take_photographs(seen, camera, options["asks"], chosen=chosen, told=told)
         if not chosen.only and not set(chosen.minus) & set(taken.plan.asked):
-            for one in taken.seen:
-                check_visible(one)
+            with located(seen.file):
+                for one in taken.seen:
+                    check_visible(one)
         return Shot(title, prepared, taken.plan, taken.photo, taken)
     plan = plan_budget(prepared, options["budget"] or "same", chosen)
     again = options["everything"] or options["compare"] is not None
