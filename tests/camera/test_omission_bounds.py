@@ -146,7 +146,7 @@ def test_a_broken_bound_is_noticed():
 def test_every_effect_but_the_projection_has_a_bound():
     signal, lens = (
         Signal(0.0, 1.0),
-        Camera(0.05, 5e-6, 2.0, 3.0, full_well=1e4, mosaic="RGGB", dark_frames=4),
+        Camera(0.05, 5e-6, 2.0, 3.0, full_well=1e4, mosaic="RGGB", dark_frames=4, gamma="srgb"),
     )
     view = View(Scene(32, 24), lens.but(k1=-0.01, shutter=0.01, velocity=(9.0, 0.0), light=3000.0))
     for effect in EFFECTS[1:]:

@@ -392,7 +392,7 @@ def test_a_page_shows_the_pictures_and_the_table(tmp_path):
     assert [caption.text for caption in tree.iter("figcaption")] == [
         "with defocus",
         "without defocus",
-        "difference × 1",
+        "difference × 5",
     ]
 
 
