@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     Codes = NDArray[np.uint8] | NDArray[np.uint16]
 
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
-_GREY, _RGB, _PALETTE = 0, 2, 3
+_GREY, _RGB, _PALETTE, _RGBA = 0, 2, 3, 6
 
 _LENGTH_BASE = (
     3, 4, 5, 6, 7, 8, 9, 10, 11, 13, 15, 17, 19, 23, 27, 31, 35, 43, 51, 59, 67, 83, 99, 115, 131,
@@ -185,8 +185,8 @@ def encode(codes: NDArray[np.uint8]) -> bytes:
 
     Parameters
     ----------
-    codes : ndarray of uint8, shape (H, W, 3) or (H, W)
-        Three equal channels are stored as one.
+    codes : ndarray of uint8, shape (H, W), (H, W, 3) or, with opacity, (H, W, 4)
+        Three equal channels without opacity are stored as one.
 
     Returns
     -------
@@ -198,7 +198,7 @@ def encode(codes: NDArray[np.uint8]) -> bytes:
     rows = codes.reshape(height, -1)
     filtered = _led(rows, 2)
     filtered[1:, 1:] -= rows[:-1]  # flat areas become runs of zeros
-    kind = _GREY if codes.ndim == 2 else _RGB
+    kind = _GREY if codes.ndim == 2 else _RGB if codes.shape[2] == 3 else _RGBA
     return _file((height, width), kind, (b"IDAT", deflate(filtered.ravel())))
 
 
@@ -209,7 +209,7 @@ def _one_if_alike(codes: NDArray[np.uint8]) -> NDArray[np.uint8]:
     def alike(rows: NDArray[np.uint8]) -> bool:
         return all(np.array_equal(rows[..., 0], rows[..., at]) for at in (1, 2))
 
-    if codes.ndim == 3 and alike(codes[len(codes) // 2]) and alike(codes):
+    if codes.ndim == 3 and codes.shape[2] == 3 and alike(codes[len(codes) // 2]) and alike(codes):
         return codes[..., 0]
     return codes
 

@@ -27,10 +27,7 @@ COMMANDS: dict[str, tuple[list[str], ...]] = {
     "accuracy": ([sys.executable, "tools/accuracy.py"],),
     "bounds": ([sys.executable, "tests/arrays/prove.py"],),
     "pins": ([sys.executable, "tools/pin.py"],),
-    "fonts": (
-        [sys.executable, "tools/pack_fonts.py"],
-        [sys.executable, "tools/pack_letters.py"],
-    ),
+    "fonts": ([sys.executable, "tools/pack_fonts.py"],),
     "picture": ([sys.executable, "tools/picture.py"],),
     "scenes": ([sys.executable, "tools/scenes.py"],),
 }

@@ -52,6 +52,7 @@ ADVICE = {
     "is none of language.toml": "rename the file, or delete it",
     r"U\+\S+ .*\] in a text": "take it out",
     "unknown figure": "use one of these, or write templates/figures/NAME.py in the bank",
+    "has no name, and there is no": "write it, or name a figure",
     "missing parameter": "give it in values of [figure]",
     "unknown parameter": "leave it out of values, or mend its name",
     "unknown unit": "use a listed one, or define it in units of bank.toml",

@@ -59,7 +59,7 @@ def figure_words(one: Draw, lang: str, *, quiz: bool, drawn: bool = True) -> str
     figure = pictured(one, lang, quiz=quiz) if drawn and one.template.figure else None
     if figure is None:
         return described(one, lang, quiz=quiz) or ""
-    return " ; ".join([figure.alt, *(label.text for label in figure.canvas.labels)])
+    return " ; ".join([figure.alt, *(label.text for label in figure.labels)])
 
 
 def _numbers(text: str) -> Iterator[str]:

@@ -205,7 +205,9 @@ class Sketch(Answer, kw_only=True, tag="sketch", frozen=True):
     tall: Scalar = 0
     cuts: list[Scalar] = []
     given: dict[str, Line] = {}
+    bars: bool = False
     marks: dict[str, Formulas] = {}
+    axes: tuple[str, str] = ("", "")
     traps: dict[str, dict[str, Scalar]] = {}
 
 

@@ -20,7 +20,7 @@ from quizgen.shapes import describe
 
 T = TypeVar("T")
 
-_VERSIONS = {"sympy": "release.py", "markdown_it": "__init__.py"}
+_VERSIONS = {"sympy": "release.py", "markdown_it": "__init__.py", "PIL": "_version.py"}
 """A package's file that says which version it is: to import it would take longer."""
 _UNFIT = msgspec.MsgspecError, ValueError, OverflowError, RecursionError
 """What is raised where a thing cannot be written, or what is found is none."""

@@ -26,6 +26,7 @@ from quizgen.bank.about import (
 )
 from quizgen.bank.names import check_name, folders_of
 from quizgen.bank.pages import read_text
+from quizgen.bank.pictures import pictures_beside, read_pictures
 from quizgen.bank.prose import Text
 from quizgen.bank.quantities import Quantities, read_quantities
 from quizgen.bank.rules import Rules
@@ -40,6 +41,8 @@ from quizgen.outside import NAMES, is_name, located, read_bytes
 
 SOLVERS, FIGURES = "solvers", "templates/figures"
 """Where the Python of a bank stands."""
+OWN_FIGURE = "figure"
+"""The module beside a template that draws its figure, if ``[figure]`` names no other."""
 LOCALE = "locale"
 """Where its words of a language stand, a folder for each."""
 _BESIDE = ("blueprints", "cards", "figures", LOCALE, "quantities")
@@ -208,6 +211,9 @@ class Bank:
     def afresh(self) -> Bank:
         """The same bank, its files and solvers read again."""
         forget(self._figures)
+        for folder in self.paths.values():
+            if (folder / f"{OWN_FIGURE}.py").is_file():
+                forget(folder)
         return Bank(self.root, trusted=self.trusted)
 
     def solver(self, name: str) -> ModuleType:
@@ -258,13 +264,30 @@ class Bank:
         BankError
             If it does not exist or fails, or the bank is not trusted.
         """
+        file = self.figure_file(name)
+        return module_of(file.parent, file.stem)
+
+    def figure_file(self, name: str) -> Path:
+        """The module of a figure, not imported; errors as ``figure``, but those of its code."""
         if name in self.figures:
-            self._must_be_trusted(self._figures / f"{name}.py")
-            return module_of(self._figures, name)
+            file = self._figures / f"{name}.py"
+            self._must_be_trusted(file)
+            return file
         if name not in builtin().figures:
             known = sorted({*self.figures, *builtin().figures})
             raise _MissingError(f"unknown figure {name!r}; there are {', '.join(known)}")
-        return builtin().figure(name)
+        return builtin().figure_file(name)
+
+    def _figure_of(self, name: str) -> Path | None:
+        """What draws a template's figure: the module that it names, or the one beside it."""
+        rule = self.rules(name).figure
+        if rule is None or rule.name:
+            return self.figure_file(rule.name) if rule else None
+        file = self.folder_of(name) / f"{OWN_FIGURE}.py"
+        if not file.is_file():
+            raise _MissingError(f"[figure] has no name, and there is no {file.name} beside it")
+        self._must_be_trusted(file)
+        return file
 
     def _must_be_trusted(self, file: Path) -> None:
         if not self.trusted:
@@ -327,17 +350,24 @@ class Bank:
         return tuple(read_bytes(file, BankError) for file in self._files(name))
 
     def _files(self, name: str) -> list[Path]:
-        """Rules, words, solver and figure of a template."""
+        """Rules, words, pictures, solver and figure of a template."""
         rules = self.rules(name)
         figure = rules.figure.name if rules.figure else ""
         solver = Path(SOLVERS, f"{rules.solver}.py")
         roots = [root for root in (self.root, builtin_root()) if (root / solver).is_file()]
         python = [*(root / solver for root in roots[:1]), self._figures / f"{figure}.py"]
+        python += self._beside_template(name)
         return [
             self.folder_of(name) / "template.toml",
             *self._prose(name),
+            *pictures_beside(self.folder_of(name)),
             *filter(Path.is_file, python),
         ]
+
+    def _beside_template(self, name: str) -> list[Path]:
+        """The figure that stands beside a template; what else draws is no part of it."""
+        rule, file = self.rules(name).figure, self.folder_of(name) / f"{OWN_FIGURE}.py"
+        return [file] if rule and not rule.name and file.is_file() else []
 
     def written_in(self, name: str) -> tuple[str, ...]:
         """Languages that a template is written in, without reading them."""
@@ -353,7 +383,8 @@ class Bank:
         folder = self.folder_of(name)
         rules = self.rules(name)
         prose = self._prose(name)
-        files = [folder / "template.toml", *prose]
+        files = [folder / "template.toml", *prose, *self._beside_template(name)]
+        files += pictures_beside(folder)
         chain, source = self.chain(rules.solver) if rules.solver else (Chain({}, ()), b"")
         texts = {path.stem: read_text(path) for path in prose}
         take_up(sorted(texts))
@@ -362,10 +393,11 @@ class Bank:
         digest = digest_of(*(read_bytes(path, BankError) for path in files), source, *words)
         ordered: dict[str, Text] = {lang: texts[lang] for lang in order}
         quantities = self.quantities.get(rules.solver, Quantities())
-        figure = self.figure(rules.figure.name) if rules.figure else None
+        figure = self._figure_of(name)
         template = Template(
-            name, rules, chain, ordered, digest, folder, self.about, quantities, figure
-        )
+            name, rules, chain, ordered, digest, folder, self.about, quantities, figure,
+            read_pictures(folder, ordered),
+        )  # fmt: skip
         try:
             check_against_chain(template)
         except QuizgenError as error:

@@ -27,14 +27,23 @@ _ANYWHERE = frozenset({"add", "sub", "neg", "div"})
 """Operators of means and shares, which many a step is without being a formula of the sheet."""
 
 
+class Sketch(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """A figure of the bank that shows what a formula is about."""
+
+    name: str
+    values: dict[str, float] = {}
+
+
 class FormulaEntry(Entry, frozen=True, kw_only=True):
     """A formula: its lines, what the letters mean, where it fails.
 
     ``units`` has the letters of each unit, ``holds`` says for which values the formula is true, and
-    ``limits`` what happens at their edge; a formula that always holds has neither.
+    ``limits`` what happens at their edge; a formula that always holds has neither. ``figure`` is
+    drawn beside it on the formula sheet.
     """
 
     title: Passage
+    figure: Sketch | None = None
     lines: tuple[str, ...]
     inside: dict[str, Piece] = msgspec.field(name="with", default={})
     separate: bool = False

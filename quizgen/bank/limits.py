@@ -22,7 +22,7 @@ from quizgen.bank.most import (
     MOST_PARTS,
     MOST_POINTS,
 )
-from quizgen.bank.rules import DrawRule, KeepRule, Rules
+from quizgen.bank.rules import DrawRule, KeepRule, Rules, Source
 from quizgen.errors import FormulaError
 from quizgen.maths.constants import Scalar
 from quizgen.maths.numbers import written
@@ -106,6 +106,13 @@ def _sizes(rules: Rules) -> Problems:
     for field, several in (("draw", rules.draw), ("keep", rules.keep), ("where", rules.where)):
         if len(several) > MOST_FORMULAS:
             yield field, f"more than {MOST_FORMULAS} entries"
+    for name, source in (rules.figure.values if rules.figure else {}).items():
+        if _count_entries(source) > MOST_CHOICES:
+            yield f"figure.values.{name}", f"more than {MOST_CHOICES} entries"
+
+
+def _count_entries(source: Source) -> int:
+    return sum(map(_count_entries, source)) if isinstance(source, tuple) else 1
 
 
 def _draw(rule: DrawRule) -> Problems:

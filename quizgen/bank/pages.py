@@ -31,7 +31,7 @@ from pathlib import Path
 
 from quizgen import outside
 from quizgen.bank.compiled import Compiled
-from quizgen.bank.prose import Block, Case, Text, blocks, inlines
+from quizgen.bank.prose import Block, Case, PictureLink, Text, blocks, inlines, leaves
 from quizgen.errors import BankError
 
 NAMED_SECTIONS = frozenset(
@@ -79,7 +79,10 @@ def parse_text(source: str) -> Text:
             allowed = ", ".join(sorted(NAMED_SECTIONS | PROSE_SECTIONS))
             raise BankError(f"section {name!r} is unknown (allowed: a, b, ..., {allowed})")
     named = {section: {n: said for n, (_, said) in found} for section, found in listed.items()}
-    return Text(title, blocks(pieces[0]), sections, named, _cases(listed))
+    stem = blocks(pieces[0])
+    told = [stem, *sections.values(), *(said for of in listed.values() for _, (_, said) in of)]
+    pictures = [leaf for parts in told for leaf in leaves(parts) if isinstance(leaf, PictureLink)]
+    return Text(title, stem, sections, named, _cases(listed), tuple(pictures))
 
 
 def _by_label(content: str) -> tuple[str, str]:

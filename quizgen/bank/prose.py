@@ -49,8 +49,15 @@ class Styled(msgspec.Struct, frozen=True, array_like=True, tag="e"):
     children: tuple[Inline, ...]
 
 
+class PictureLink(msgspec.Struct, frozen=True, array_like=True, tag="l"):
+    """A picture from a file beside the words, and what it shows in words."""
+
+    file: str
+    alt: tuple[Inline, ...]
+
+
 class Printed(Protocol):
-    """A formula ready for printing: what stands in the place of a ``Formula`` once filled."""
+    """What stands in the place of a ``Formula`` or a ``PictureLink`` once filled."""
 
     @property
     def typed(self) -> str:
@@ -66,12 +73,13 @@ class About(msgspec.Struct, frozen=True):
 
 
 if TYPE_CHECKING:
-    Inline = Words | Slot | Formula | Code | Styled | About | Printed
+    Inline = Words | Slot | Formula | Code | Styled | PictureLink | About | Printed
 else:  # what a file gives, and what is kept of it
-    Inline = Words | Slot | Formula | Code | Styled
-"""A piece of a sentence; once filled, without ``Slot``, ``Formula`` and ``About``."""
-Value = Callable[[Slot | Formula], tuple[Inline, ...]]
-"""What a slot or a formula is replaced by."""
+    Inline = Words | Slot | Formula | Code | Styled | PictureLink
+"""A piece of a sentence; once filled, without ``Slot``, ``Formula``, ``PictureLink``, ``About``."""
+Unfilled = Slot | Formula | PictureLink
+Value = Callable[[Unfilled], tuple[Inline, ...]]
+"""What a slot, a formula or a picture is replaced by."""
 Program = Callable[[str], str]
 """What becomes of program text."""
 
@@ -117,6 +125,7 @@ class Text(msgspec.Struct, frozen=True, dict=True):
     sections: Mapping[str, tuple[Block, ...]] = msgspec.field(default_factory=dict)
     named: Mapping[str, Mapping[str, tuple[Inline, ...]]] = msgspec.field(default_factory=dict)
     cases: Mapping[tuple[str, str], tuple[Case, ...]] = msgspec.field(default_factory=dict)
+    pictures: tuple[PictureLink, ...] = ()
 
     def sentence(self, section: str, name: str) -> tuple[Inline, ...] | None:
         """A named sentence, or None."""
@@ -146,7 +155,7 @@ def _markdown() -> Any:
     from markdown_it import MarkdownIt
 
     parser = MarkdownIt("zero", {"html": False})
-    parser.enable(["emphasis", "backticks", "list", "table", "fence", "escape", "newline"])
+    parser.enable(["emphasis", "backticks", "list", "table", "fence", "escape", "newline", "image"])
     parser.inline.ruler.before("escape", "slot", _rule(_SLOT, "slot"))
     parser.inline.ruler.before("escape", "math", _rule(_MATH, "math"))
     parser.inline.add_terminator_char("{")
@@ -233,14 +242,8 @@ def _inlines(tokens: Iterator[Any], until: str | None) -> Iterator[Inline]:
         if token.type == "text":
             if token.content:
                 yield from _plain(token.content)
-        elif token.type in {"softbreak", "hardbreak"}:
-            yield Words(" ")
-        elif token.type == "slot":
-            yield Slot(token.content)
-        elif token.type == "math":
-            yield _formula(token.content)
-        elif token.type == "code_inline":
-            yield Code(token.content)
+        elif token.type in _ALONE:
+            yield _ALONE[token.type](token)
         elif token.type in {"em_open", "strong_open"}:
             style = token.type.removesuffix("_open")
             yield Styled(style, tuple(_inlines(tokens, f"{style}_close")))
@@ -250,6 +253,8 @@ def _inlines(tokens: Iterator[Any], until: str | None) -> Iterator[Inline]:
 
 def _plain(text: str) -> Iterator[Inline]:
     """Words; a number such as ``6e-8`` in them is set as mathematics."""
+    if "![" in text:
+        raise BankError(f"a picture is written ![words](file.png), without blanks: {text!r}")
     if _BANNED.search(text):
         raise BankError(f"only {{{{ name }}}} may stand in double braces: {text.strip()!r}")
     pieces = _POWER.split(text)
@@ -269,24 +274,53 @@ def _formula(text: str) -> Formula:
         raise BankError(f"mathematics ${text}$: {error}") from error
 
 
+def leaves(parts: Iterable[Block | Inline]) -> Iterator[Block | Inline]:
+    """What holds nothing else, in order."""
+    for part in parts:
+        match part:
+            case Paragraph(children) | Styled(_, children):
+                yield from leaves(children)
+            case Items(items):
+                yield from (leaf for item in items for leaf in leaves(item))
+            case Table(head, rows):
+                yield from (leaf for row in (head, *rows) for cell in row for leaf in leaves(cell))
+            case _:
+                yield part
+
+
+def _picture(token: Any) -> PictureLink:
+    """A picture; nobody sees a style in its words."""
+    said = (one for one in token.children or () if one.type == "text" or one.type in _ALONE)
+    return PictureLink(token.attrs["src"], tuple(_inlines(said, None)))
+
+
+_ALONE: dict[str, Callable[[Any], Inline]] = {
+    "softbreak": lambda _token: Words(" "),
+    "hardbreak": lambda _token: Words(" "),
+    "slot": lambda token: Slot(token.content),
+    "math": lambda token: _formula(token.content),
+    "code_inline": lambda token: Code(token.content),
+    "image": _picture,
+}
+"""Tokens that are one piece of a sentence."""
+
+
 def slots(parts: Iterable[Block | Inline]) -> Iterator[str]:
     """Names of all slots in blocks or inlines."""
-    for part in parts:
+    for part in leaves(parts):
         match part:
             case Slot(name):
                 yield name
             case CodeBlock(text) | Code(text):
                 yield from _SLOT.findall(text)
-            case Paragraph(children) | Styled(_, children):
-                yield from slots(children)
-            case Items(items):
-                yield from slots(block for item in items for block in item)
-            case Table(head, rows):
-                yield from slots(inline for row in (head, *rows) for cell in row for inline in cell)
+            case PictureLink(_, alt):
+                yield from slots(alt)
+            case _:
+                pass
 
 
 def fill(parts: tuple[Inline, ...], value: Value, program: Program = str) -> tuple[Inline, ...]:
-    """Fill a sentence: slots and formulas with what ``value`` gives, code as ``program`` does."""
+    """Fill a sentence: what is unfilled with what ``value`` gives, code as ``program`` does."""
     done: list[Inline] = []
     for part in parts:
         if isinstance(part, Words):
@@ -301,7 +335,7 @@ def fill(parts: tuple[Inline, ...], value: Value, program: Program = str) -> tup
 
 
 def _filled(part: Inline, value: Value, program: Program) -> tuple[Inline, ...]:
-    if isinstance(part, Slot | Formula):
+    if isinstance(part, Unfilled):
         return value(part)
     if isinstance(part, Styled):
         return (Styled(part.style, fill(part.children, value, program)),)

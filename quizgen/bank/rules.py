@@ -11,6 +11,8 @@ from quizgen.bank.levels import Made
 from quizgen.maths.numbers import written
 
 Scalar = int | float | str
+Source = Scalar | tuple[Scalar | tuple[Scalar, ...], ...]
+"""What a figure's parameter is made of: a number, a formula or a phrase, a list or a table."""
 
 
 class DrawRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
@@ -44,12 +46,13 @@ class KeepRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 class FigureRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     """The figure and the formulas of its parameters.
 
-    ``reads`` are drawn quantities whose numbers stand in it, in a quiz too: levels may ask for
-    steps that begin with them, as with numbers of the text.
+    Without a ``name`` it is the ``figure.py`` beside the template. ``reads`` are drawn quantities
+    whose numbers stand in it, in a quiz too: levels may ask for steps that begin with them, as with
+    numbers of the text.
     """
 
-    name: str
-    values: dict[str, Scalar] = {}
+    name: str = ""
+    values: dict[str, Source] = {}
     quiz: bool = True
     reads: tuple[str, ...] = ()
 

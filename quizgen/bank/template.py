@@ -21,6 +21,7 @@ from quizgen.bank.about import About
 from quizgen.bank.compiled import Compiled
 from quizgen.bank.complaints import in_words
 from quizgen.bank.limits import misshapen, problems
+from quizgen.bank.pictures import PictureFile
 from quizgen.bank.quantities import Quantities
 from quizgen.bank.rules import Rules, minutes_of
 from quizgen.bank.solvers import module_of
@@ -60,8 +61,10 @@ class Template:
     quantities : Quantities
         What the letters of its solver mean; only forms made from the chain say so, which is why
         ``digest`` leaves it out.
-    figure : module, optional
+    figure_file : pathlib.Path, optional
         What draws its figure.
+    pictures : mapping of str to PictureFile
+        The files that its words show, by their names.
     """
 
     id: str
@@ -72,16 +75,12 @@ class Template:
     path: Path = field(default=Path())
     about: About = field(default=About())
     quantities: Quantities = field(default=Quantities())
-    figure: ModuleType | None = None
+    figure_file: Path | None = None
+    pictures: Mapping[str, PictureFile] = field(default_factory=dict)
 
     def __getstate__(self) -> dict[str, object]:
-        """What another process is told: where what draws the figure stands."""
-        told = {one.name: getattr(self, one.name) for one in fields(self)}
-        return told | {"figure": self.figure and self.figure.__file__}
-
-    def __setstate__(self, told: dict[str, object]) -> None:
-        file = Path(str(told["figure"] or ""))
-        self.__dict__.update(told, figure=module_of(file.parent, file.stem) if file.name else None)
+        """What another process is told: nothing that it can work out again."""
+        return {one.name: getattr(self, one.name) for one in fields(self)}
 
     def __repr__(self) -> str:
         return f"<Template {self.id}, in {', '.join(self.texts)}>"
@@ -90,6 +89,18 @@ class Template:
     def origin(self) -> str:
         """The name that numbers are drawn under: its first one, so that a rename changes none."""
         return self.rules.formerly or self.id
+
+    @property
+    def figure(self) -> ModuleType | None:
+        """What draws its figure, imported when it is needed: an author's may load much.
+
+        Raises
+        ------
+        BankError
+            Naming the place, if its import fails.
+        """
+        file = self.figure_file
+        return module_of(file.parent, file.stem) if file else None
 
     @cached_property
     def file(self) -> Path:

@@ -38,7 +38,7 @@ class Deck:
     @cached_property
     def media(self) -> Mapping[str, bytes]:
         """Media file name to content, each once."""
-        return {picture.file: picture.data for note in self.notes for picture in note.media()}
+        return {name: data for note in self.notes for name, data in note.media().items()}
 
 
 def build(

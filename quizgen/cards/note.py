@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from html import escape
 from typing import Any
 
-from quizgen.cards.prose import Hole, Picture, Said, html, pictures, plain
+from quizgen.cards.prose import Hole, Said, html, media, plain
 from quizgen.locale import FIRST, language
 
 Blocks = tuple[Any, ...]
@@ -118,9 +118,10 @@ class Note:
             filled |= {field_name(name, lang): html(blocks, lang) for lang, blocks in words.items()}
         return tuple(filled.get(name, "") for name in field_names(self.form, self.columns))
 
-    def media(self) -> tuple[Picture, ...]:
-        """Pictures on the note."""
-        return pictures(tuple(self.shared.values()))
+    def media(self) -> dict[str, bytes]:
+        """Files of the pictures on the note, by their names."""
+        said = [blocks for words in self.words.values() for blocks in words.values()]
+        return dict(found for blocks in (*self.shared.values(), *said) for found in media(blocks))
 
     def cards(self) -> tuple[int, ...]:
         """Numbers of the cards that the note gives, as Anki counts them (from 0)."""

@@ -15,13 +15,23 @@ from html import escape
 from typing import Any, TypeGuard
 
 from quizgen import typeset
-from quizgen.bank.prose import Code, CodeBlock, Inline, Items, Paragraph, Styled, Table, Words
+from quizgen.bank.prose import (
+    Code,
+    CodeBlock,
+    Inline,
+    Items,
+    Paragraph,
+    Styled,
+    Table,
+    Words,
+    leaves,
+)
 from quizgen.figures import Figure
 from quizgen.question.filling import tied
-from quizgen.question.shown import Maths
+from quizgen.question.shown import Maths, PlacedPicture
 from quizgen.typeset.nodes import RELATION, Node, Row
 
-_TITLE = re.compile(rb"<title>.*?</title>", re.DOTALL)
+_TITLE = re.compile(rb"<title>.*?</title>|<desc>.*?</desc>", re.DOTALL)
 _LANG = re.compile(rb' lang="[A-Za-z0-9-]+"')
 
 
@@ -52,7 +62,12 @@ class Picture:
     @property
     def data(self) -> bytes:
         """The drawing without its title, so that every language shares one file."""
-        return _LANG.sub(b"", _TITLE.sub(b"", self.figure.svg, count=1), count=1)
+        return _LANG.sub(b"", _TITLE.sub(b"", self.figure.standalone_svg), count=1)
+
+    @property
+    def shade(self) -> str:
+        """What a dark card does to it: line art is inverted, a photograph stays on white."""
+        return "keep" if b"<image" in self.data else "invert"
 
     @property
     def file(self) -> str:
@@ -259,7 +274,14 @@ def _(part: Hole, lang: str, *, ask: bool | None = None) -> str:
 def _(part: Picture, lang: str, *, ask: bool | None = None) -> str:
     del lang, ask
     alt = text(part.alt, quote=True)
-    return f'<img class="qg-{part.figure.dark}" src="{escape(part.file, quote=True)}" alt="{alt}">'
+    return f'<img class="qg-{part.shade}" src="{escape(part.file, quote=True)}" alt="{alt}">'
+
+
+@html.register
+def _(part: PlacedPicture, lang: str, *, ask: bool | None = None) -> str:
+    del lang, ask
+    wide, alt = f"{part.picture.width_pt * 4 / 3:.0f}", text(part.alt, quote=True)
+    return f'<img class="qg-keep" src="{part.picture.file}" alt="{alt}" width="{wide}">'
 
 
 @html.register
@@ -313,7 +335,7 @@ def _(part: Words | Code, *, ask: bool = False) -> str:
 
 
 @plain.register
-def _(part: Maths, *, ask: bool = False) -> str:
+def _(part: Maths | PlacedPicture, *, ask: bool = False) -> str:
     del ask
     return part.text
 
@@ -372,11 +394,12 @@ def _(part: Said, *, ask: bool = False) -> str:
     return plain(part.body, ask=ask)
 
 
-def pictures(part: object) -> tuple[Picture, ...]:
-    """Every picture in blocks."""
-    if isinstance(part, Picture):
-        return (part,)
-    inside = part.body if isinstance(part, Fold | Said) else part
-    if isinstance(inside, tuple):
-        return tuple(found for item in inside for found in pictures(item))
-    return ()
+def media(parts: Iterable[Any]) -> Iterator[tuple[str, bytes]]:
+    """Name and content of every picture's file in blocks."""
+    for part in leaves(parts):
+        if isinstance(part, Picture):
+            yield part.file, part.data
+        elif isinstance(part, PlacedPicture):
+            yield part.picture.file, part.picture.data
+        elif isinstance(part, Fold | Said):
+            yield from media(part.body)

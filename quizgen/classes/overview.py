@@ -22,6 +22,7 @@ from quizgen.classes.reports import layouts, style
 from quizgen.classes.rulings import read_rulings
 from quizgen.classes.scale import Scale, read_scale
 from quizgen.errors import ClassError
+from quizgen.figures import Figure
 from quizgen.files import PRIVATE, write_all
 from quizgen.locale import FIRST, numbers_in, styles, table
 from quizgen.marking.options import Options
@@ -91,11 +92,21 @@ def _plots(found: Analysis, scale: Scale, lang: str) -> dict[str, object]:
         if item.difficulty is not None and item.discrimination is not None
     ]
     shown = max(1, min(len(_clear(found)), MOST_PLOTS))
+    words = table(lang, "classes")["analysis"]
+    said = words["distribution"].format(points=_said(lang, "%g", found.points))
+    effects = [
+        (one, words["effect"].format(template=one.template, quantity=one.quantity))
+        for one in found.effects[:shown]
+    ]
     return {
-        "distribution": Markup(plots.distribution(found.totals, found.points, passing, lang)),
-        "scatter": Markup(plots.items(rows, lang)) if rows else "",
-        "effects": [(one, Markup(plots.effect(one, lang))) for one in found.effects[:shown]],
+        "distribution": _inline(plots.plot_totals(found.totals, found.points, passing, lang, said)),
+        "scatter": _inline(plots.plot_items(rows, lang, words["scatter"])) if rows else "",
+        "effects": [(one, _inline(plots.plot_effect(one, lang, text))) for one, text in effects],
     }
+
+
+def _inline(figure: Figure) -> Markup:
+    return Markup(figure.inline_svg.decode())  # made here, from numbers
 
 
 def _said(lang: str, form: str, value: float | str) -> str:

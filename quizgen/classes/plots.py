@@ -1,116 +1,83 @@
-"""Plots of the analysis as SVG, in the letters and lines of the papers' figures.
-
-They hold numbers; what these are is said below them, in any language and script.
-"""
+"""Plots of the analysis, drawn as the papers' figures are; the page says below what they show."""
 
 from __future__ import annotations
 
-import io
-import re
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
 from quizgen.classes.effects import Effect
-from quizgen.locale import numbers_in
+from quizgen.figures import Figure, plot_figure
+from quizgen.locale import numbers_in, table
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
-INK, GREY, RED = "#000000", "#a0a0a0", "#c00000"
-LOOK: dict[Any, Any] = {
-    "font.family": "STIXGeneral",
-    "font.size": 10.5,
-    "mathtext.fontset": "stix",
-    "axes.linewidth": 0.8,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "lines.linewidth": 1.0,
-    "patch.linewidth": 0.8,
-    "svg.hashsalt": "quizgen",
-    "svg.fonttype": "path",
-}
 MOST_BARS = 24
-_CM = 1 / 2.54
-_HEAD = re.compile(r"^.*?(?=<svg)|<metadata>.*?</metadata>", re.DOTALL)
+WEAK = 0.2
+"""Discrimination below which an item is shown in red."""
+_SIZE = (340.0, 150.0)
 
 
-@contextmanager
-def _axes(made: list[str], lang: str, height: float = 6.0) -> Iterator[Axes]:
-    """Axes to plot on; the SVG is put into ``made`` afterwards, the same on any day."""
-    from matplotlib import rc_context
-    from matplotlib.figure import Figure
+def _plot(draw: Any, lang: str, axes: tuple[str, str], caption: str, height: float) -> Figure:
+    words = table(lang, "classes")["analysis"]
 
-    with rc_context(LOOK):
-        figure = Figure(figsize=(13 * _CM, height * _CM), layout="constrained")
-        axes = figure.add_subplot()
-        yield axes
-        _say_ticks(axes, lang)
-        out = io.StringIO()
-        figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None})
-    made.append(_HEAD.sub("", out.getvalue()))
+    def draw_named(ax: Any) -> None:
+        draw(ax)
+        ax.set_xlabel(words[axes[0]] if axes[0] else "")
+        ax.set_ylabel(words[axes[1]])
+
+    return plot_figure(draw_named, caption, lang, (_SIZE[0], height))
 
 
-def _say_ticks(axes: Axes, lang: str) -> None:
-    """Write the numbers at the axes with the decimal sign of a language."""
-    from matplotlib.ticker import ScalarFormatter
-
-    class Told(ScalarFormatter):
-        def __call__(self, x: float, pos: int | None = None) -> str:
-            return numbers_in(lang, super().__call__(x, pos))
-
-    for axis in (axes.xaxis, axes.yaxis):
-        if isinstance(axis.get_major_formatter(), ScalarFormatter):
-            axis.set_major_formatter(Told())
-
-
-def distribution(totals: Sequence[float], points: float, passing: float, lang: str) -> str:
+def plot_totals(
+    totals: Sequence[float], points: float, passing: float, lang: str, caption: str
+) -> Figure:
     """How many students have how many points; the pass mark is a red line."""
-    from matplotlib.ticker import MaxNLocator
 
-    made: list[str] = []
-    edges = np.linspace(
-        0, max(points, 1), min(MOST_BARS, max(5, int(np.sqrt(len(totals)) * 2))) + 1
-    )
-    with _axes(made, lang) as axes:
-        axes.hist(totals, bins=edges.tolist(), color="#d2d2d2", edgecolor=INK)
-        axes.axvline(passing, color=RED, linewidth=1.4)
-        axes.yaxis.set_major_locator(MaxNLocator(integer=True))
-    return made[0]
+    def draw(ax: Any) -> None:
+        from matplotlib.ticker import MaxNLocator
+
+        bars = min(MOST_BARS, max(5, int(np.sqrt(len(totals)) * 2)))
+        edges = np.linspace(0, max(points, 1), bars + 1)
+        ax.hist(totals, bins=edges.tolist(), color="shade", edgecolor="ink", linewidth=0.7)
+        ax.axvline(passing, color="red", linewidth=1.4, linestyle="-")
+        ax.yaxis.set_major_locator(MaxNLocator(integer=True))
+
+    return _plot(draw, lang, ("axis_points", "axis_students"), caption, _SIZE[1])
 
 
-def items(rows: Sequence[tuple[str, float, float]], lang: str) -> str:
+def plot_items(rows: Sequence[tuple[str, float, float]], lang: str, caption: str) -> Figure:
     """Difficulty against discrimination, an item a point with its number in the table."""
-    made: list[str] = []
-    with _axes(made, lang, 8.0) as axes:
-        axes.axhline(0.0, color=GREY)
-        axes.axhline(0.2, color=GREY, linestyle=(0, (4, 2.5)))
+
+    def draw(ax: Any) -> None:
+        ax.axhline(0.0, color="rule", linestyle="-")
+        ax.axhline(WEAK, color="grey", linestyle=(0, (4, 2.5)), linewidth=0.8)
+        heights = [row[2] for row in rows]
+        ax.set(xlim=(0, 1.03), ylim=(min(0.0, *heights) - 0.05, max(0.4, *heights) + 0.1))
+        sketch = ax.figure.sketch(ax, zorder=4)
         for name, difficulty, discrimination in rows:
-            weak = discrimination < 0.2
-            axes.plot(difficulty, discrimination, "o", color=RED if weak else INK, markersize=3)
-            axes.annotate(name, (difficulty, discrimination), xytext=(3, 3),
-                          textcoords="offset points", fontsize=8)  # fmt: skip
-        axes.set_xlim(0, 1.03)
-    return made[0]
+            ink = "red" if discrimination < WEAK else "ink"
+            sketch.dot((difficulty, discrimination), 2.0, ink, part="items")
+            sketch.label((difficulty, discrimination), name, "lb", 8, ink, shift=(3, 2))
+
+    return _plot(draw, lang, ("axis_difficulty", "axis_discrimination"), caption, 190.0)
 
 
-def effect(found: Effect, lang: str) -> str:
+def plot_effect(effect: Effect, lang: str, caption: str) -> Figure:
     """Mean share of the points by value, with 95 % of its error."""
-    made: list[str] = []
-    places = np.arange(len(found.levels))
-    with _axes(made, lang, 5.0) as axes:
-        axes.errorbar(
+
+    def draw(ax: Any) -> None:
+        places = np.arange(len(effect.levels))
+        ax.errorbar(
             places,
-            [level.share for level in found.levels],
-            [1.96 * level.error for level in found.levels],
-            fmt="o", color=INK, markersize=3, capsize=2.5, linewidth=0.8,
+            [level.share for level in effect.levels],
+            [1.96 * level.error for level in effect.levels],
+            fmt="o", color="ink", markersize=3, capsize=2.5, linewidth=0.8,
         )  # fmt: skip
         names = [
-            f"{numbers_in(lang, level.name[:24])}\nn = {level.students}" for level in found.levels
+            f"{numbers_in(lang, level.name[:24])}\n$n$ = {level.students}"
+            for level in effect.levels
         ]
-        axes.set_xticks(places, names, fontsize=8)
-        axes.set_xlim(-0.5, len(places) - 0.5)
-        axes.set_ylim(-0.03, 1.03)
-    return made[0]
+        ax.set_xticks(places, names)
+        ax.set(xlim=(-0.5, len(places) - 0.5), ylim=(-0.03, 1.03))
+
+    return _plot(draw, lang, ("", "axis_share"), caption, 120.0)

@@ -12,6 +12,7 @@ from markupsafe import Markup
 
 from quizgen.classes.grades import Graded
 from quizgen.classes.mark import DROPPED, Marks, PartMark, item_of
+from quizgen.figures.inks import write_theme_css
 from quizgen.locale import FIRST, amount, known, numbers_in, styles, table
 from quizgen.marking.mark import show
 from quizgen.marking.options import Options
@@ -262,7 +263,8 @@ def layouts() -> jinja2.Environment:
 @cache
 def style() -> Markup:
     """How they look."""
-    return Markup((files(PACKAGE) / "pages" / "report.css").read_text(encoding="utf-8"))
+    page = (files(PACKAGE) / "pages" / "report.css").read_text(encoding="utf-8")
+    return Markup(write_theme_css() + page)
 
 
 def report_pdf(report: Report) -> bytes:

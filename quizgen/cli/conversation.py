@@ -121,7 +121,7 @@ class Conversation:
         if figure is None:
             return
         path = self.shelf.figure(self.session.state.wish)
-        write_all(path.parent, {path.name: figure.svg})
+        write_all(path.parent, {path.name: figure.standalone_svg})
         self._say("figure", alt=figure.alt)
         self._say("figure-file", path=path)
 

@@ -18,12 +18,22 @@ from itertools import groupby
 import jinja2
 from markupsafe import Markup
 
+from quizgen.bank.pictures import PictureFile
 from quizgen.export import pictures
 from quizgen.export.answers import answers
 from quizgen.export.asks import Ask, Choose, Fill, Numeric, Order, Pairs, Truth, Write, as_pairs
 from quizgen.export.items import Item, by_slot, suffix
 from quizgen.export.kept import asked
-from quizgen.export.wording import body, inline, marked, signed, solution, stem, targets
+from quizgen.export.wording import (
+    body,
+    inline,
+    marked,
+    pictures_at,
+    signed,
+    solution,
+    stem,
+    targets,
+)
 from quizgen.figures import Figure
 from quizgen.files import zipped
 from quizgen.locale import word
@@ -151,7 +161,8 @@ def contents(items: Iterable[Item]) -> dict[str, bytes]:
     for name, groups in quizzes.items():
         points = sum((row[0].points for _, row in groups), Fraction(0))
         meta = page("canvas_meta.xml.j2").render(name=name, points=float(points))
-        files[f"{name}/{name}.xml"] = page("canvas.xml.j2").render(name=name, groups=groups)
+        with pictures_at(_source):
+            files[f"{name}/{name}.xml"] = page("canvas.xml.j2").render(name=name, groups=groups)
         files[f"{name}/assessment_meta.xml"] = meta
     return {name: text.encode() for name, text in files.items()} | figures
 
@@ -180,5 +191,5 @@ def _solution(query: Query) -> Markup:
     return solution(query.item, _source, (query.part.label,), told=told)
 
 
-def _source(figure: Figure) -> str:
-    return f"%24IMS-CC-FILEBASE%24/{pictures.path(figure)}"
+def _source(shown: Figure | PictureFile) -> str:
+    return f"%24IMS-CC-FILEBASE%24/{pictures.path(shown)}"

@@ -82,7 +82,7 @@ def _question(item: Item, part: Part, ask: Ask) -> str:
 
 
 def _source(figure: Figure) -> str:
-    return f"data:image/svg+xml;base64,{base64.b64encode(figure.light).decode()}"
+    return f"data:image/svg+xml;base64,{base64.b64encode(figure.standalone_svg).decode()}"
 
 
 def _text(text: str) -> str:

@@ -1,4 +1,4 @@
-"""What is drawn in a question, as files that a page shows."""
+"""What a question shows - what is drawn, and pictures of its bank - as files beside a page."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Callable, Collection, Iterable
 
 from markupsafe import Markup
 
+from quizgen.bank.pictures import PictureFile
 from quizgen.export.items import Item
 from quizgen.figures import Figure
 
@@ -16,12 +17,12 @@ Source = Callable[[Figure], str]
 
 def name(figure: Figure) -> str:
     """What its file is called; those that look the same are one."""
-    return f"{hashlib.sha256(figure.light).hexdigest()[:16]}.svg"
+    return f"{hashlib.sha256(figure.standalone_svg).hexdigest()[:16]}.svg"
 
 
-def path(figure: Figure) -> str:
+def path(shown: Figure | PictureFile) -> str:
     """Where it is in a package."""
-    return f"figures/{name(figure)}"
+    return f"figures/{shown.file if isinstance(shown, PictureFile) else name(shown)}"
 
 
 def image(figure: Figure | None, source: Source) -> Markup:
@@ -49,8 +50,10 @@ def shown(item: Item) -> dict[str, bytes]:
     """All files of a question and its solution, by their paths in a package."""
     labels = [part.label for part in item.question.parts]
     found = asked(item, labels) | solved(item, labels)
-    return {f"figures/{name}": data for name, data in found.items()}
+    drawn = {f"figures/{name}": data for name, data in found.items()}
+    pictures = item.key.draw.template.pictures.values()
+    return drawn | {path(picture): picture.data for picture in pictures}
 
 
 def _files(figures: Iterable[Figure | None]) -> dict[str, bytes]:
-    return {name(figure): figure.light for figure in figures if figure}
+    return {name(figure): figure.standalone_svg for figure in figures if figure}

@@ -6,7 +6,7 @@ How formulas are written is one choice for a whole file: ``formulas`` sets it wh
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import partial, singledispatch
@@ -17,6 +17,7 @@ from markupsafe import Markup
 from msgspec.structs import replace
 
 from quizgen import typeset
+from quizgen.bank.pictures import PictureFile
 from quizgen.bank.prose import Block, Inline, Words
 from quizgen.errors import one_of
 from quizgen.export.asks import Ask, Choose, Fill, Numeric, Order, Pairs, Said, by_person
@@ -52,6 +53,16 @@ FORMULAS = {
 }
 """How formulas are written: as MathML, or for a filter like MathJax."""
 _way = ContextVar("way", default=FORMULAS["mathml"])
+
+
+@contextmanager
+def pictures_at(source: Callable[[PictureFile], str]) -> Iterator[None]:
+    """Let pages refer to pictures of a bank instead of holding them, for as long as this lasts."""
+    before = _way.set(_way.get()._replace(source=source))
+    try:
+        yield
+    finally:
+        _way.reset(before)
 
 
 @contextmanager

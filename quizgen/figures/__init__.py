@@ -1,34 +1,39 @@
-"""Figures drawn from the numbers of a question: symbols and digits only, words stay in the text.
+"""Figures drawn by matplotlib from the values of a question: symbols and digits, words beside them.
 
-In: the module of a figure and a number for each of its parameters. Out: one ``<svg>`` element and
+In: the module of a figure and a value for each of its parameters. Out: one ``<svg>`` element and
 the same picture in words. Must never know: templates, questions, papers, which figures there are.
 
-A bank brings the modules; each draws one figure and offers what ``_module.FigureModule`` says. They
-draw with ``kit``, pictures with ``photographs`` besides. Nothing here loads NumPy before the first
-figure is drawn, and matplotlib draws none: its fonts were packed once.
+A bank brings the modules; each draws one figure and offers what ``contract.FigureModule`` says.
+matplotlib is loaded when the first figure is drawn, and never pyplot.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import lru_cache
 from types import ModuleType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from quizgen.errors import BankError
-from quizgen.figures._board import Board, Drawing, Line
-from quizgen.figures._figure import Figure
-from quizgen.figures._module import FigureModule, checked, name_of
-from quizgen.figures._parameters import Parameter, complete
-from quizgen.figures._words import forget_words
-from quizgen.locale import languages, numbers_in
+from quizgen.figures.alt_text import clear_alt_words
+from quizgen.figures.contract import (
+    Figure,
+    FigureModule,
+    check_figure_module,
+    figure_name,
+    needs_colour,
+)
+from quizgen.figures.drawing_field import DrawingField, FieldPicture, Line
+from quizgen.figures.parameters import Parameter, fill_defaults
+from quizgen.locale import language, languages, numbers_in
 from quizgen.maths.notation import people
 
 if TYPE_CHECKING:
-    from quizgen.figures._canvas import Canvas
+    from quizgen.figures.engine import Items
+    from quizgen.figures.svg import Drawing
 
 
-def parameters(figure: ModuleType) -> Mapping[str, Parameter]:
+def figure_parameters(figure: ModuleType) -> Mapping[str, Parameter]:
     """Parameters of a figure: name to unit, meaning and default.
 
     Raises
@@ -36,27 +41,33 @@ def parameters(figure: ModuleType) -> Mapping[str, Parameter]:
     BankError
         If the module is no figure.
     """
-    return checked(figure).PARAMETERS
+    return check_figure_module(figure).PARAMETERS
 
 
-def render(figure: ModuleType, values: Mapping[str, float], *, quiz: bool, lang: str) -> Figure:
+def draw_figure(
+    figure: ModuleType, values: Mapping[str, Any], *, quiz: bool, lang: str,
+    marks: Mapping[str, float] | None = None,
+) -> Figure:  # fmt: skip
     """Draw a figure, or take it from the cache.
 
     Parameters
     ----------
     figure : module
         What draws it, as ``Bank.figure(name)`` gives it.
-    values : mapping of str to float
-        Parameters in the units that ``parameters(figure)`` names. Optional ones may be left out.
+    values : mapping of str to number, list, table or text
+        Parameters in the units that ``figure_parameters(figure)`` names. Optional ones may be left
+        out.
     quiz : bool
         Hide what the question asks for.
     lang : str
-        Language of the alt text; the drawing itself has no words.
+        Language of the description, and of the decimal signs in the picture.
+    marks : mapping of str to float, optional
+        Values of a learner, to be drawn beside the right ones by the figure's ``mark``.
 
     Returns
     -------
     Figure
-        The same bytes for the same arguments, in every process.
+        The same bytes for the same arguments, in every process and on every machine.
 
     Raises
     ------
@@ -66,51 +77,84 @@ def render(figure: ModuleType, values: Mapping[str, float], *, quiz: bool, lang:
     """
     if lang not in languages():
         known = ", ".join(languages())
-        name = name_of(figure)
+        name = figure_name(figure)
         raise BankError(f"figure {name!r}: no alt text in {lang!r}, only in {known}")
-    return _render(checked(figure), tuple(completed(figure, values).items()), quiz, lang)
+    module = check_figure_module(figure)
+    if marks and not hasattr(module, "mark"):
+        raise BankError(f"figure {figure_name(figure)!r} has no mark(): it shows no other values")
+    items = tuple(complete_parameters(figure, values).items())
+    return _draw(module, items, quiz, lang, tuple((marks or {}).items()))
 
 
-def in_words(figure: ModuleType, values: Mapping[str, float], *, quiz: bool, lang: str) -> str:
-    """What a figure shows, in words, without drawing it; parameters and errors as of ``render``."""
-    return _told(checked(figure), completed(figure, values), lang, quiz=quiz)
+def describe_figure(figure: ModuleType, values: Mapping[str, Any], *, quiz: bool, lang: str) -> str:
+    """What a figure shows, in words, not drawn; arguments and errors as ``draw_figure``."""
+    values = complete_parameters(figure, values)
+    return _describe(check_figure_module(figure), values, lang, quiz=quiz)
 
 
-def completed(figure: ModuleType, values: Mapping[str, float]) -> dict[str, float]:
-    """All parameters of a figure, those left out at their defaults; errors as of ``render``."""
-    return complete(name_of(figure), parameters(figure), values)
+def complete_parameters(figure: ModuleType, values: Mapping[str, Any]) -> dict[str, Any]:
+    """All parameters of a figure, those left out at their defaults; errors as ``draw_figure``."""
+    return fill_defaults(figure_name(figure), figure_parameters(figure), values)
 
 
-def _told(module: FigureModule, values: Mapping[str, float], lang: str, *, quiz: bool) -> str:
+def plot_figure(
+    draw: Callable[[Any], object], alt: str, lang: str,
+    size: tuple[float, float] | None = None,
+) -> Figure:  # fmt: skip
+    """Draw a plot that is no question's: of a class, of a learner's progress, of measurements.
+
+    Parameters
+    ----------
+    draw : callable
+        Draws on axes of the house.
+    alt : str
+        The plot in words.
+    lang : str
+        Language of these words; numbers take its decimal sign.
+    size : tuple of float, optional
+        Width and height of the axes in points; a text column by default.
+    """
+    from quizgen.figures.engine import draw_sheet
+    from quizgen.figures.kit import COLUMN
+
+    drawing = draw_sheet(draw, size or COLUMN, language(lang).decimal, axes=True)
+    return _finish(drawing, alt, lang)
+
+
+def _describe(module: FigureModule, values: Mapping[str, Any], lang: str, *, quiz: bool) -> str:
     return numbers_in(lang, people.names_in(module.alt(values, lang, quiz=quiz)))
 
 
 @lru_cache(maxsize=256)
-def _render(
-    module: FigureModule, items: tuple[tuple[str, float], ...], quiz: bool, lang: str
-) -> Figure:
-    words = _told(module, dict(items), lang, quiz=quiz)
-    return Figure(_drawn(module, items, quiz).written_in(lang), words, lang, module.DARK)
+def _draw(module: FigureModule, items: Items, quiz: bool, lang: str, marks: Items) -> Figure:
+    from quizgen.figures.engine import draw_module
+
+    decimal, values = language(lang).decimal, dict(items)
+    drawing = draw_module(module, items, quiz=quiz, lang=lang, decimal=decimal, marks=marks)
+    alt = _describe(module, values, lang, quiz=quiz)
+    return _finish(drawing, alt, lang, colour=needs_colour(module, values))
 
 
-@lru_cache(maxsize=256)
-def _drawn(module: FigureModule, items: tuple[tuple[str, float], ...], quiz: bool) -> Canvas:
-    from quizgen.figures._canvas import Canvas
+def _finish(drawing: Drawing, alt: str, lang: str, *, colour: bool = False) -> Figure:
+    from quizgen.figures.svg import write_svg
 
-    canvas = Canvas()
-    module.draw(canvas, dict(items), quiz=quiz)
-    return canvas
+    return Figure(
+        write_svg(drawing, alt, lang), drawing.width, drawing.height, alt, lang,
+        drawing.origin, drawing.labels, colour, drawing.outside,
+    )  # fmt: skip
 
 
 __all__ = [
-    "Board",
-    "Drawing",
+    "DrawingField",
+    "FieldPicture",
     "Figure",
     "Line",
     "Parameter",
-    "completed",
-    "forget_words",
-    "in_words",
-    "parameters",
-    "render",
+    "clear_alt_words",
+    "complete_parameters",
+    "describe_figure",
+    "draw_figure",
+    "figure_parameters",
+    "needs_colour",
+    "plot_figure",
 ]

@@ -1,71 +1,40 @@
-"""What figures are drawn with.
+"""What figures are drawn with, beside matplotlib: one import for authors.
 
-A figure is a module ``templates/figures/<name>.py`` of a bank with ``PARAMETERS``, ``DARK``,
-``draw`` and ``alt``, as ``_module.FigureModule`` says; ``docs/banks.md`` shows one.
+A figure is a module ``templates/figures/<name>.py`` of a bank, or ``figure.py`` in the folder of a
+template; ``docs/figures.md`` shows both.
 """
 
 from __future__ import annotations
 
-from quizgen.figures._canvas import Canvas, Style
-from quizgen.figures._numbers import (
-    derived,
-    equation,
-    given,
-    numbered,
-    relation,
-    spoken,
-    statement,
+from quizgen.figures.alt_text import (
+    format_derived,
+    format_equation,
+    format_given,
+    format_statement,
+    load_alt_words,
+    relation_sign,
+    strip_mathtext,
 )
-from quizgen.figures._parameters import ABSENT, Parameter, Values, require
-from quizgen.figures._pen import (
-    BOLD,
-    DASHED,
-    DEEP,
-    DOTTED,
-    GREY,
-    HEIGHT,
-    INK,
-    LINE,
-    RAY,
-    RED,
-    SHADE,
-    THIN,
-    WIDTH,
-    Pen,
-    Point,
-    text_width,
-)
-from quizgen.figures._words import words_of
+from quizgen.figures.parameters import ABSENT, Parameter, Values, require
+
+COLUMN = (250.0, 120.0)
+WIDE = (312.0, 170.0)
+SQUARE = (176.0, 176.0)
+"""Ready sizes of axes or of a sheet in points: a text column, 11 by 6 cm, and a square."""
 
 __all__ = [
     "ABSENT",
-    "BOLD",
-    "DASHED",
-    "DEEP",
-    "DOTTED",
-    "GREY",
-    "HEIGHT",
-    "INK",
-    "LINE",
-    "RAY",
-    "RED",
-    "SHADE",
-    "THIN",
-    "WIDTH",
-    "Canvas",
+    "COLUMN",
+    "SQUARE",
+    "WIDE",
     "Parameter",
-    "Pen",
-    "Point",
-    "Style",
     "Values",
-    "derived",
-    "equation",
-    "given",
-    "numbered",
-    "relation",
+    "format_derived",
+    "format_equation",
+    "format_given",
+    "format_statement",
+    "load_alt_words",
+    "relation_sign",
     "require",
-    "spoken",
-    "statement",
-    "text_width",
-    "words_of",
+    "strip_mathtext",
 ]

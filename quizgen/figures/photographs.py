@@ -1,48 +1,90 @@
-"""Pictures inside a figure, framed, with their histograms; bytes that never vary. Loads NumPy."""
+"""Photographs inside a figure, thinly framed, and their histograms. Loads NumPy."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import Any
 
-from quizgen.camera.codes import histogram as counted
-from quizgen.figures._pen import INK, LINE, THIN, Pen, Point
+import numpy as np
+from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
+Box = tuple[float, float, float, float]
+"""Left, low, width and height in points of the figure."""
 
-    from quizgen.figures._canvas import Box, Canvas
-
-
-def place(canvas: Canvas, pen: Pen, codes: NDArray[np.uint8], box: Box) -> None:
-    """Put a photograph into a box of the figure and frame it."""
-    framed(canvas, pen, codes, box)
+CAPTION = 14.0
+"""Room for a caption above a photograph, in points."""
 
 
-def framed(canvas: Canvas, pen: Pen, pixels: bytes | NDArray[np.uint8], box: Box) -> None:
-    """Put a PNG file, or 8-bit codes, into a box of the figure and frame it."""
+_TALLEST = 4
+"""A bar that is so many times as tall as the second one is cut, with a mark of breaking."""
+
+
+def place_photo(
+    fig: Any, codes: NDArray[np.uint8], box: Box, *, palette: Any = None, number: int = 0,
+    told: str = "",
+) -> None:  # fmt: skip
+    """Put a photograph into a box of the figure and frame it.
+
+    Parameters
+    ----------
+    fig : Figure
+        Of matplotlib, in points.
+    codes : ndarray of uint8, shape (H, W) or (H, W, 3)
+        Grey levels or colours; with a palette, shape (H, W), indices of its colours.
+    box : tuple of float
+        Left, low, width and height in points; a caption takes ``CAPTION`` above.
+    palette : sequence of (red, green, blue), optional
+        Up to 256 colours, 0 to 255.
+    number : int
+        Written above; 0 writes none.
+    told : str
+        Beside the number, what a quiz hides.
+    """
+    fig.picture(codes, box, palette, gid="photographs")
     left, low, wide, high = box
-    canvas.picture(pixels, box)
-    corners = [(left, low), (left + wide, low), (left + wide, low + high), (left, low + high)]
-    pen.area("frames", corners, THIN)
+    right, top = left + wide, low + high
+    art = fig.sketch()
+    corners = [(left, low), (right, low), (right, top), (left, top)]
+    art.area(corners, None, "grey", 0.5, part="frames")
+    if number:
+        art.label((left + 0.5, top + 3.5), str(number), "lb", 11)
+    if told:
+        art.label((left + 13 * bool(number), top + 3.5), told, "lb", 10, "red", part="answer")
 
 
-def histogram(pen: Pen, codes: NDArray[np.uint8], bins: int, box: Box) -> None:
-    """Draw the histogram of a grey picture, with 0 and 255 below its ends."""
-    left, low, wide, _ = box
-    bars(pen, [float(count) for count in counted(codes[..., None], bins, top=255)], box)
-    pen.label((left, low - 7), "0", "l", 8.5)
-    pen.label((left + wide, low - 7), "255", "r", 8.5)
+def plot_histogram(fig: Any, codes: NDArray[np.uint8], bins: int, box: Box) -> None:
+    """Draw the histogram of a grey picture: filled steps over an axis of grey levels.
 
-
-def bars(pen: Pen, counts: Sequence[float], box: Box) -> None:
-    """Draw a histogram as filled steps on a base line; the tallest bar is as high as the box."""
+    Parameters
+    ----------
+    fig : Figure
+        Of matplotlib, in points.
+    codes : ndarray of uint8
+        Grey levels.
+    bins : int
+        How many; a divisor of 256, as bins of different widths would make teeth.
+    box : tuple of float
+        Of the bars, in points; the tallest fills it, and is cut where it dwarfs the others. The
+        numbers take 13 points below, the names of the axes 10 to the right and 14 above.
+    """
     left, low, wide, high = box
-    step, tallest = wide / len(counts), max(counts)
-    steps: list[Point] = [(left, low)]
-    for number, count in enumerate(counts):
-        x, top = left + number * step, low + high * count / tallest
-        steps += [(x, top), (x + step, top)]
-    pen.area("histogram", [*steps, (left + wide, low)], INK)
-    pen.line("axes", [(left, low), (left + wide, low)], LINE)
+    art = fig.sketch()
+    counts = np.bincount(codes.ravel() // (256 // bins), minlength=bins)
+    edges = np.repeat(np.linspace(left, left + wide, bins + 1), 2)
+    second, most = np.partition(counts, -2)[-2:].tolist()
+    shown = min(_TALLEST * second, most) or most
+    tops = np.concatenate([[0], np.repeat(np.minimum(counts, shown), 2), [0]])
+    art.area(np.column_stack([edges, low + high / shown * tops]), "blue", part="histogram")
+    if shown < most:
+        bar, y = left + wide * (float(counts.argmax()) + 0.5) / bins, low + 0.8 * high
+        gap = [(bar - 3, y - 2.2), (bar + 3, y + 0.2), (bar + 3, y + 2.2), (bar - 3, y - 0.2)]
+        art.area(gap, "paper", part="break")
+        for edge in (gap[:2], gap[2:]):
+            art.line(edge, "ink", 0.6, part="break")
+    ticks = [left + wide * level / 256 for level in (0, 64, 128, 192, 255)]
+    teeth = [(x, y) for x in ticks for y in (low, low - 2.5, low)]
+    axes = [(left, low + high + 3), *teeth, (left + wide + 3, low)]
+    art.line(axes, "ink", 0.7, part="axes")
+    for x, level in zip(ticks[::2], ("0", "128", "255"), strict=True):
+        art.label((x, low - 4.5), level, "ct", 8.5)
+    art.label((left + wide + 5, low), "$I$", "l", 9)
+    art.label((left - 1, low + high + 5), "$h(I)$", "lb", 9)

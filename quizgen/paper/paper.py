@@ -15,7 +15,7 @@ from quizgen.bank.about import in_language
 from quizgen.bank.draw import Draw
 from quizgen.bank.folder import Bank
 from quizgen.bank.levels import EXAM
-from quizgen.bank.prose import Block, CodeBlock
+from quizgen.bank.prose import Block, CodeBlock, Paragraph
 from quizgen.bank.template import Template
 from quizgen.errors import BlueprintError, CodeError
 from quizgen.locale import numbers_in, word
@@ -36,6 +36,7 @@ from quizgen.paper.draws import aware, draws
 from quizgen.paper.whole import working_time
 from quizgen.question.compose import Key, Question, instance, put_into_words
 from quizgen.question.levels import level_of
+from quizgen.question.shown import PlacedPicture
 
 Progress = Callable[[str], None]
 """Told the template of each question as it is done."""
@@ -337,24 +338,31 @@ def _item(
         for lang in langs
     ]
     first = pairs[0][0]
-    questions = tuple(_worth(_programs_once(question, first), points) for question, _ in pairs)
+    questions = tuple(_worth(_once(question, first), points) for question, _ in pairs)
     return Item(number, questions, tuple(key for _, key in pairs))
 
 
-def _programs_once(question: Question, first: Question) -> Question:
-    """Leave a program out of the second language where the first one shows the same."""
+def _once(question: Question, first: Question) -> Question:
+    """Leave programs and pictures out of the second language where the first shows the same."""
     if question is first:
         return question
-    shown = {block for block in (*first.stem, *_bodies(first)) if isinstance(block, CodeBlock)}
-    parts = tuple(
-        replace(p, body=tuple(b for b in p.body if b not in shown)) for p in question.parts
-    )
-    return replace(question, stem=tuple(b for b in question.stem if b not in shown), parts=parts)
+    bodies = (first.stem, *(part.body for part in first.parts))
+    shown = {alike for body in bodies for alike in map(_alike, body) if alike}
+
+    def left(body: tuple[Block, ...]) -> tuple[Block, ...]:
+        return tuple(block for block in body if _alike(block) not in shown)
+
+    parts = tuple(replace(part, body=left(part.body)) for part in question.parts)
+    return replace(question, stem=left(question.stem), parts=parts)
 
 
-def _bodies(question: Question) -> Iterator[Block]:
-    for part in question.parts:
-        yield from part.body
+def _alike(block: Block) -> object:
+    """What of a block looks the same in every language: a program, or pictures alone."""
+    if isinstance(block, CodeBlock):
+        return block
+    pieces = block.children if isinstance(block, Paragraph) else ()
+    pictures = tuple(piece.picture for piece in pieces if isinstance(piece, PlacedPicture))
+    return pictures if len(pictures) == len(pieces) else None
 
 
 def _worth(question: Question, points: float | None) -> Question:

@@ -50,7 +50,8 @@ def candidate(bank: Bank, name: str, worth: float | None) -> Candidate:
     rules = bank.rules(name)
     own = points_of(rules)
     points = own if worth is None else Fraction(str(worth))
-    shown = rules.figure.name if rules.figure and rules.figure.quiz else ""
+    # A figure of the template's own has no name: it is a kind by itself.
+    shown = (rules.figure.name or name) if rules.figure and rules.figure.quiz else ""
     photograph = shown in bank.home(name)[0].about.photographs
     return Candidate(
         name,

@@ -11,7 +11,17 @@ from contextlib import contextmanager
 
 from quizgen.bank.about import in_language
 from quizgen.bank.entries import Entry, Passage
-from quizgen.bank.prose import Block, Formula, Inline, Slot, blocks, fill, fill_blocks, inlines
+from quizgen.bank.prose import (
+    Block,
+    Inline,
+    PictureLink,
+    Slot,
+    Unfilled,
+    blocks,
+    fill,
+    fill_blocks,
+    inlines,
+)
 from quizgen.errors import BankError
 from quizgen.question.equations import inline
 
@@ -44,14 +54,16 @@ def _at(entry: Entry, name: str, lang: str) -> Iterator[str]:
         raise BankError(f"{entry.place}: {name}.{lang}: {error}") from error
 
 
-def printed(part: Slot | Formula) -> tuple[Inline, ...]:
+def printed(part: Unfilled) -> tuple[Inline, ...]:
     """Mathematics of a sentence, ready for printing.
 
     Raises
     ------
     BankError
-        If a blank stands there.
+        If a blank or a picture stands there.
     """
+    if isinstance(part, PictureLink):
+        raise BankError(f"picture {part.file!r} cannot stand here, only in the words of a template")
     if isinstance(part, Slot):
         raise BankError(f"{{{{ {part.name} }}}} cannot be filled in here")
     return (inline(part.expr),)

@@ -19,7 +19,7 @@ from quizgen.bank.pools import named
 from quizgen.bank.prose import Block, Inline
 from quizgen.bank.template import Template
 from quizgen.errors import BankError
-from quizgen.figures import Drawing, Figure
+from quizgen.figures import FieldPicture, Figure
 from quizgen.marking.specs import AnySpec
 from quizgen.maths.notation import to_text
 from quizgen.maths.numbers import key_text
@@ -52,7 +52,7 @@ class Field(msgspec.Struct, frozen=True):
         Lettered choices, or the left side of a matching.
     targets : tuple of (str, inlines)
         The right side of a matching.
-    drawing : Drawing, optional
+    drawing : FieldPicture, optional
         The empty field, if the answer is drawn.
     """
 
@@ -61,7 +61,7 @@ class Field(msgspec.Struct, frozen=True):
     asks: tuple[tuple[Inline, ...], ...]
     options: tuple[Choice, ...] = ()
     targets: tuple[Choice, ...] = ()
-    drawing: Drawing | None = None
+    drawing: FieldPicture | None = None
 
     @property
     def hints(self) -> tuple[str, ...]:
@@ -124,7 +124,7 @@ class Question(msgspec.Struct, frozen=True):
     def _repr_html_(self) -> str:
         """The question as a notebook shows it."""
         head = Markup("<h3>{}. {}</h3>").format(self.number, self.title)
-        picture = Markup(self.figure.svg.decode()) if self.figure else Markup("")  # noqa: S704
+        picture = Markup(self.figure.inline_svg.decode()) if self.figure else Markup("")  # noqa: S704
         parts = (part.html(self.lang) for part in self.parts)
         return str(Markup("").join((head, blocks(self.stem, self.lang), picture, *parts)))
 
@@ -258,7 +258,7 @@ def _part(asked: Asked, lang: str, number: str) -> Part:
         asks=tuple(map(pieces, KINDS[asked.spec.kind].hints(asked.spec, lang))),
         options=asked.options,
         targets=asked.targets,
-        drawing=Drawing(asked.control.board, lang) if asked.control.board else None,
+        drawing=FieldPicture(asked.control.board, lang) if asked.control.board else None,
     )
     return Part(asked.label, asked.points, asked.body, field)
 

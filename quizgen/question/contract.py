@@ -12,7 +12,7 @@ from typing import Generic, Literal, NamedTuple, Protocol, TypeVar
 import msgspec
 
 from quizgen.bank.draw import Draw
-from quizgen.figures import Board, Line
+from quizgen.figures import DrawingField, Line
 from quizgen.marking.specs import AnySpec
 from quizgen.question.shown import Shown
 
@@ -47,7 +47,7 @@ class Control(msgspec.Struct, frozen=True):
         learner may type all of them in one line just as well.
     named : bool
         Whether a value needs its name before it, as cells of a table do.
-    board : Board, optional
+    board : DrawingField, optional
         The field that is drawn in, if the answer is a drawing.
     """
 
@@ -55,7 +55,7 @@ class Control(msgspec.Struct, frozen=True):
     lines: int = 1
     boxes: tuple[Box, ...] = ()
     named: bool = False
-    board: Board | None = None
+    board: DrawingField | None = None
 
     @property
     def reckoned(self) -> bool:

@@ -13,10 +13,11 @@ from quizgen.bank.prose import (
     About,
     Block,
     Case,
-    Formula,
     Inline,
+    PictureLink,
     Slot,
     Styled,
+    Unfilled,
     Words,
     fill,
     fill_blocks,
@@ -30,7 +31,7 @@ from quizgen.maths.tree import Expr
 from quizgen.maths.units import shown as unit_shown
 from quizgen.maths.values import Values
 from quizgen.question.contract import Named
-from quizgen.question.shown import Maths, pieces
+from quizgen.question.shown import Maths, PlacedPicture, pieces
 
 NBSP = "\u00a0"
 SHORT = 16
@@ -115,7 +116,10 @@ class Filler:
         filler.own[name] = (section, sentence)
         return filler
 
-    def _value(self, part: Slot | Formula) -> tuple[Inline, ...]:
+    def _value(self, part: Unfilled) -> tuple[Inline, ...]:
+        if isinstance(part, PictureLink):
+            picture = self.drawn.template.pictures[part.file]
+            return (PlacedPicture(picture, fill(part.alt, self._value, self._program)),)
         return self._slot(part.name) if isinstance(part, Slot) else (_inline_maths(part.expr),)
 
     def _slot(self, name: str) -> tuple[Inline, ...]:
@@ -230,7 +234,7 @@ def plain(parts: Iterable[Inline]) -> str:
 def _plain(part: Inline) -> str:
     if isinstance(part, Styled):
         return plain(part.children)
-    if isinstance(part, Slot | Formula | About):
+    if isinstance(part, Unfilled | About):
         raise BankError("a sentence was used before its blanks were filled")
     return part.text
 

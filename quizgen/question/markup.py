@@ -14,19 +14,22 @@ from markupsafe import Markup
 
 from quizgen import typeset
 from quizgen.bank import prose
+from quizgen.bank.pictures import PictureFile
 from quizgen.question.filling import NBSP, tied
-from quizgen.question.shown import Maths
+from quizgen.question.shown import Maths, PlacedPicture
 
 
 class Manner(NamedTuple):
     """What a page understands: how its formulas are written, and whether it has our style.
 
-    ``maths`` writes a formula in a line of text, ``display`` one that is a line of its own.
+    ``maths`` writes a formula in a line of text, ``display`` one that is a line of its own;
+    ``source`` is where the page finds a picture.
     """
 
     maths: Callable[[typeset.Node, str], str]
     display: Callable[[typeset.Node, str], str]
     ours: bool = True
+    source: Callable[[PictureFile], str] = lambda picture: picture.uri
 
 
 def mathml_line(node: typeset.Node, lang: str) -> str:
@@ -89,6 +92,14 @@ def _code(part: prose.Code, _lang: str, _way: Manner) -> str:
 @_piece.register
 def _styled(part: prose.Styled, lang: str, way: Manner) -> str:
     return f"<{part.style}>{_piece(part.children, lang, way)}</{part.style}>"
+
+
+@_piece.register
+def _picture(part: PlacedPicture, _lang: str, way: Manner) -> str:
+    file = part.picture
+    size = f'width="{file.width_pt * 4 / 3:.0f}" height="{file.height_pt * 4 / 3:.0f}"'
+    named = ' class="picture"' if way.ours else ""
+    return f'<img{named} src="{way.source(file)}" alt="{_escaped(part.alt)}" {size}/>'
 
 
 @singledispatch

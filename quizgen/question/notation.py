@@ -13,14 +13,15 @@ from typing import Any, TypeVar
 import msgspec
 from msgspec.structs import replace
 
+from quizgen.bank.pictures import PictureFile
 from quizgen.bank.prose import Code, CodeBlock, Formula, Slot, Words
-from quizgen.figures import Drawing
+from quizgen.figures import FieldPicture
 from quizgen.locale import from_right, language, numbers_in
 from quizgen.question.contract import Control
 from quizgen.question.shown import Maths
 
 Said = TypeVar("Said")
-LEFT = (Code, CodeBlock, Control, Drawing, Formula, Slot)
+LEFT = (Code, CodeBlock, Control, FieldPicture, Formula, PictureFile, Slot)
 """What has no numbers for a learner, or its own way to write them."""
 _LEFT_TO_RIGHT = "\u200e"
 """What stands behind it is written so, as far as it can be either way: signs, digits, blanks."""

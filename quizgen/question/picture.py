@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from quizgen.bank.draw import Draw
-from quizgen.bank.rules import Scalar
+from quizgen.bank.rules import Source
 from quizgen.bank.solvers import authored
 from quizgen.errors import BankError
-from quizgen.figures import Figure, completed, in_words, render
+from quizgen.figures import Figure, complete_parameters, describe_figure, draw_figure
 from quizgen.maths.numbers import to_float
 from quizgen.outside import located
 
@@ -19,27 +19,32 @@ Shown = TypeVar("Shown")
 
 def pictured(drawn: Draw, lang: str, *, quiz: bool) -> Figure | None:
     """The figure of a question; None if it has none."""
-    return _shown(render, drawn, lang, quiz=quiz)
+    return _shown(draw_figure, drawn, lang, quiz=quiz)
 
 
 def described(drawn: Draw, lang: str, *, quiz: bool) -> str | None:
     """The figure of a question in words, without drawing it; None if it has none."""
-    return _shown(in_words, drawn, lang, quiz=quiz)
+    return _shown(describe_figure, drawn, lang, quiz=quiz)
 
 
 def _shown(show: Callable[..., Shown], drawn: Draw, lang: str, *, quiz: bool) -> Shown | None:
-    rule, figure = drawn.template.rules.figure, drawn.template.figure
-    if rule is None or figure is None or (quiz and not rule.quiz):
+    rule = drawn.template.rules.figure
+    if rule is None or (quiz and not rule.quiz):
+        return None
+    figure = drawn.template.figure
+    if figure is None:
         return None
     given: Mapping[str, Any] = {name: _parameter(drawn, s) for name, s in rule.values.items()}
     with located(drawn.template.file, BankError):
-        values = completed(figure, given)
+        values = complete_parameters(figure, given)
         with authored(Path(str(figure.__file__))):
             return show(figure, values, quiz=quiz, lang=lang)
 
 
-def _parameter(drawn: Draw, source: Scalar) -> float | str:
-    """A number as written, a drawn phrase by its name, or the value of a formula."""
+def _parameter(drawn: Draw, source: Source) -> Any:
+    """A number as written, a drawn phrase by its name, a formula's value, or lists of these."""
+    if isinstance(source, tuple):
+        return [_parameter(drawn, one) for one in source]
     if not isinstance(source, str):
         return source
     return drawn.words.get(source) or to_float(drawn.computed(source))

@@ -12,6 +12,7 @@ from quizgen.bank.formulas import FormulaEntry, asked_in, formulas
 from quizgen.bank.pages import read_text
 from quizgen.bank.prose import Block, Inline, Words
 from quizgen.errors import BankError
+from quizgen.figures import Figure, draw_figure
 from quizgen.question.authored import passage, sentence
 from quizgen.question.equations import sides
 from quizgen.question.shown import Maths, listed, named
@@ -38,6 +39,8 @@ class Line(msgspec.Struct, frozen=True):
     lines: tuple[Maths, ...]
     units: tuple[Inline, ...]
     said: tuple[Said, ...]
+    figures: tuple[Figure, ...] = ()
+    """Its sketch, described in each language; none if it has no sketch."""
 
 
 class Group(msgspec.Struct, frozen=True):
@@ -111,7 +114,26 @@ def _line(bank: Bank, entry: FormulaEntry, langs: tuple[str, ...], asked: tuple[
         )
         for lang in langs
     )
-    return Line(entry.id, entry.section, lines, tuple(_units(entry)), said)
+    figures = draw_sketch(bank, entry, langs)
+    return Line(entry.id, entry.section, lines, tuple(_units(entry)), said, figures)
+
+
+def draw_sketch(bank: Bank, entry: FormulaEntry, langs: tuple[str, ...]) -> tuple[Figure, ...]:
+    """Draw the sketch of a formula for each language; none if it has no sketch.
+
+    Raises
+    ------
+    BankError
+        If there is no such figure, or it cannot be drawn; names the file and the formula.
+    """
+    wanted = entry.figure
+    if wanted is None:
+        return ()
+    try:
+        figure = bank.figure(wanted.name)
+        return tuple(draw_figure(figure, wanted.values, quiz=False, lang=lang) for lang in langs)
+    except BankError as error:
+        raise BankError(f"{entry.place}: {error}") from error
 
 
 def _whole(line: str, entry: FormulaEntry) -> Maths:

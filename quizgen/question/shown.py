@@ -9,6 +9,7 @@ from functools import lru_cache
 import msgspec
 
 from quizgen import typeset
+from quizgen.bank.pictures import PictureFile
 from quizgen.bank.prose import Inline, Words
 from quizgen.locale import FIRST, numbers_in, word
 from quizgen.maths.notation import people
@@ -30,6 +31,28 @@ class Maths(msgspec.Struct, frozen=True):
         if numbers_in(self.lang, text) != text:
             text = text.replace(", ", "; ")
         return numbers_in(self.lang, text)
+
+
+class PlacedPicture(msgspec.Struct, frozen=True):
+    """A picture in a sentence, and what it shows in words whose blanks are filled."""
+
+    picture: PictureFile
+    told: tuple[Inline, ...]
+
+    @property
+    def alt(self) -> str:
+        """What it shows, for who cannot see it."""
+        return "".join(part.text for part in self.told)  # type: ignore[union-attr]
+
+    @property
+    def text(self) -> str:
+        """What stands in its place in plain text."""
+        return f"[{self.alt}]"
+
+    @property
+    def typed(self) -> str:
+        """The same: nobody types a picture."""
+        return self.text
 
 
 Shown = str | tuple[Inline, ...]

@@ -13,7 +13,7 @@ import msgspec
 
 from quizgen.bank.draw import Draw
 from quizgen.bank.prose import Block, Inline, Words
-from quizgen.figures import Drawing
+from quizgen.figures import FieldPicture
 from quizgen.marking.mark import show
 from quizgen.marking.specs import AnySpec, Numbers, OneNumber
 from quizgen.maths.chain import ChainStep
@@ -100,7 +100,7 @@ class PartSolution(msgspec.Struct, frozen=True):
     options: tuple[tuple[Inline, ...], ...] = ()
     reasons: tuple[Mistake, ...] = ()
     why: tuple[Inline, ...] = ()
-    drawing: Drawing | None = None
+    drawing: FieldPicture | None = None
 
     @property
     def answer(self) -> str:
@@ -157,7 +157,7 @@ def solved_part(filler: Filler, index: int, built: Built[Any]) -> PartSolution:
         ),
         reasons=tuple(_reasons(filler, built)),
         why=filler.sentence("why", label or "a") if explained else (),
-        drawing=Drawing(board, filler.lang, built.drawn) if board else None,
+        drawing=FieldPicture(board, filler.lang, built.drawn) if board else None,
     )
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import jinja2
 from markupsafe import Markup
 
+from quizgen.figures.inks import write_theme_css
 from quizgen.locale import amount, language, marks, styles, word
 from quizgen.paper.paper import Paper
 from quizgen.question.markup import OURS, Manner, blocks, display, inline
@@ -31,7 +32,7 @@ def _layouts(way: Manner = OURS) -> jinja2.Environment:
         decimal=lambda lang: language(lang).decimal,
         squares=squares,
         drawing=_board,
-        svg=lambda figure: Markup(figure.svg.decode()),
+        svg=lambda figure: Markup(figure.inline_svg.decode()),
     )
     return layouts
 
@@ -39,7 +40,7 @@ def _layouts(way: Manner = OURS) -> jinja2.Environment:
 @cache
 def _style() -> str:
     page = (_HERE / "pages" / "paper.css").read_text(encoding="utf-8")
-    return styles(":lang({})") + page
+    return styles(":lang({})") + write_theme_css() + page
 
 
 def _board(name: str) -> Markup:

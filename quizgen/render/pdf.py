@@ -158,7 +158,7 @@ class _Sheet:
         if not figures or figures[0] is None:
             return ""
         name = f"figure-{name}.svg"
-        self.pictures[name] = figures[0].svg
+        self.pictures[name] = figures[0].standalone_svg
         alt = string(" / ".join(figure.alt for figure in figures))
         width = f"{figures[0].width_pt * SCALE[self.kind]:.2f}pt"
         return f"#v(0.4em)\n#image({string(name)}, width: {width}, alt: {alt})\n"

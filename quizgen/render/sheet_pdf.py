@@ -18,6 +18,8 @@ from quizgen.render.typ import (
     words,
 )
 
+SCALE = 0.7
+"""Size of a sketch in print: its letters of 10 pt are as small as those beside it."""
 PRINTED = ("holds", "limits")
 """The notes that are printed after what the letters mean; the page has the rest."""
 
@@ -30,7 +32,18 @@ def render(sheet: Sheet) -> bytes:
     RenderError
         If Typst refuses the document or a font is missing.
     """
-    return compiled(document("sheet.typ", _source(sheet)))
+    pictures = {
+        _file(line): line.figures[0].standalone_svg
+        for group in sheet.groups
+        for line in group.lines
+        if line.figures
+    }
+    return compiled({**document("sheet.typ", _source(sheet)), **pictures})
+
+
+def _file(line: Line) -> str:
+    """Name of the file that a formula's sketch is in."""
+    return f"sketch-{line.id}.svg"
 
 
 def _source(sheet: Sheet) -> str:
@@ -55,9 +68,17 @@ def _line(line: Line, langs: tuple[str, ...]) -> str:
     units = f"#label[{words(langs, 'sheet.units')}:] {inline(line.units, langs[0])}"
     notes = "\n".join(within(said.lang, _notes(said)) for said in line.said)
     return (
-        f"#formula({string(line.id)}, [{title}], {string(section)}, ({lines}))"
+        f"#formula({string(line.id)}, [{title}], {string(section)}, ({lines}), {_sketch(line)})"
         f"[{notes}\n\n{units if line.units else ''}]"
     )
+
+
+def _sketch(line: Line) -> str:
+    if not line.figures:
+        return "none"
+    alt = string(" / ".join(figure.alt for figure in line.figures))
+    width = f"{line.figures[0].width_pt * SCALE:.2f}pt"
+    return f"image({string(_file(line))}, width: {width}, alt: {alt})"
 
 
 def _notes(said: Said) -> str:

@@ -11,7 +11,7 @@ from quizgen.locale import word
 from quizgen.paper.paper import Item
 from quizgen.question.compose import Key
 from quizgen.question.picture import described
-from quizgen.question.shown import Maths
+from quizgen.question.shown import Maths, PlacedPicture
 from quizgen.question.solution import PartSolution
 
 
@@ -37,7 +37,7 @@ def _styled(part: prose.Styled) -> str:
 
 
 @inline.register
-def _maths(part: Maths) -> str:
+def _printed(part: Maths | PlacedPicture) -> str:
     return part.text
 
 

@@ -15,7 +15,7 @@ from quizgen.bank import prose
 from quizgen.errors import RenderError
 from quizgen.locale import in_script, word
 from quizgen.question.filling import tied
-from quizgen.question.shown import Maths
+from quizgen.question.shown import Maths, PlacedPicture
 from quizgen.render import fonts
 
 _KNOWN = frozenset(map(chr, (*range(0x20, 0x7F), *range(0xA1, 0x180), *range(0x985, 0x9E4))))
@@ -69,6 +69,13 @@ def _code(part: prose.Code, _lang: str) -> str:
 def _styled(part: prose.Styled, lang: str) -> str:
     name = "emph" if part.style == "em" else "strong"
     return f"#{name}[{inline(part.children, lang)}];"
+
+
+@inline.register
+def _picture(part: PlacedPicture, _lang: str) -> str:
+    """A picture with its file in it, as what is read from a string knows no files."""
+    file = f'bytes({string(part.picture.svg)}), format: "svg"'
+    return f"#box(baseline: 40%, image({file}, alt: {string(part.alt)}));"
 
 
 def passage(body: str) -> str:

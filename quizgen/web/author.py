@@ -16,7 +16,7 @@ from starlette.routing import Route
 from quizgen.bank.folder import Bank
 from quizgen.bank.levels import EXAM, GUIDED
 from quizgen.errors import QuizgenError
-from quizgen.figures import forget_words
+from quizgen.figures import clear_alt_words
 from quizgen.question.compose import instance, put_into_words
 from quizgen.shapes import decoded
 from quizgen.web.made import Made, Wanted, made
@@ -65,7 +65,7 @@ class Examined:
 
 def _afresh(bank: Bank) -> Bank:
     """The same bank, its files, solvers, figures and what figures say read again."""
-    forget_words()
+    clear_alt_words()
     return bank.afresh()
 
 

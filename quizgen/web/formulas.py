@@ -29,6 +29,7 @@ class MadeFormula(msgspec.Struct, frozen=True):
 
     id: str
     title: Html
+    sketch: Html
     lines: list[Html]
     units: Html
     notes: list[tuple[str, Html]]
@@ -89,6 +90,7 @@ def _formula(line: Line, lang: str) -> MadeFormula:
     return MadeFormula(
         line.id,
         str(inline(said.title, lang)),
+        line.figures[0].inline_svg.decode() if line.figures else "",
         [_spoken(maths, lang) for maths in line.lines],
         str(inline(line.units, lang)),
         [

@@ -15,7 +15,7 @@ from quizgen.bank.folder import Bank
 from quizgen.bank.levels import EXAM, GUIDED
 from quizgen.bank.prose import Block, Inline
 from quizgen.errors import BlueprintError
-from quizgen.figures import Drawing
+from quizgen.figures import FieldPicture
 from quizgen.locale import BOTH
 from quizgen.marking.kinds import point
 from quizgen.marking.specs import AnySpec
@@ -124,7 +124,6 @@ class Made(msgspec.Struct, frozen=True):
     stem: Html
     figure: Html
     solved_figure: Html
-    dark: str
     parts: list[MadePart]
     check: Html
     note: Html
@@ -218,16 +217,15 @@ def made(wanted: Wanted, question: Question, key: Key, bank: Bank | None = None)
     lang, solution = question.lang, key.solution
     stem = _blocks(question.stem, lang)
     figure, solved = question.figure, key.figure
-    other = solved if solved and (figure is None or solved.svg != figure.svg) else None
+    other = solved if solved and (figure is None or solved != figure) else None
     return Made(
         wanted,
         question.title,
         question.topic,
         question.tier,
         stem=stem,
-        figure=figure.svg.decode() if figure else "",
-        solved_figure=other.svg.decode() if other else "",
-        dark=next((one.dark for one in (figure, solved) if one), ""),
+        figure=figure.inline_svg.decode() if figure else "",
+        solved_figure=other.inline_svg.decode() if other else "",
         parts=[
             _part(part, solved_part, _names(part, spec, stem, lang), lang, bank)
             for part, solved_part, spec in zip(
@@ -304,8 +302,8 @@ def _field(field: Field, names: list[Html], lang: str) -> MadeField:
     )
 
 
-def _board(drawing: Drawing | None) -> Html:
-    return drawing.figure.svg.decode() if drawing else ""
+def _board(drawing: FieldPicture | None) -> Html:
+    return drawing.figure.inline_svg.decode() if drawing else ""
 
 
 def _pairs(mistakes: Iterable[Mistake], lang: str) -> list[tuple[Html, Html]]:

@@ -13,7 +13,7 @@ from starlette.routing import Route
 
 from quizgen.bank.formulas import asked_in, formulas
 from quizgen.bank.pages import read_text
-from quizgen.bank.prose import Formula, Inline, Slot, Words, fill
+from quizgen.bank.prose import Formula, Inline, Unfilled, Words, fill
 from quizgen.errors import StoreError
 from quizgen.practice.agenda import Agenda, Standing
 from quizgen.practice.schedule import NAMED, Card
@@ -112,8 +112,8 @@ def _told(agenda: Agenda, card: Card, lang: str) -> Told | None:
     return Told(card, agenda.due(card), name, text.title, words)
 
 
-def _blanked(part: Slot | Formula) -> tuple[Inline, ...]:
-    return (Words(BLANK),) if isinstance(part, Slot) else printed(part)
+def _blanked(part: Unfilled) -> tuple[Inline, ...]:
+    return printed(part) if isinstance(part, Formula) else (Words(BLANK),)
 
 
 def _lasting(lang: str) -> Callable[[float | None], str]:

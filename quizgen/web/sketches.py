@@ -6,21 +6,21 @@ from collections.abc import Sequence
 
 from markupsafe import Markup
 
-from quizgen.figures import Board
+from quizgen.figures import DrawingField
 from quizgen.marking.reading.strokes import read_strokes
 from quizgen.maths.notation import ReadError
 
 _LINE = Markup('<polyline points="{}"/>')
 
 
-def strokes(board: Board, values: Sequence[str]) -> Markup:
+def strokes(board: DrawingField, values: Sequence[str]) -> Markup:
     """The lines of an answer in the picture of its field; nothing if they cannot be read."""
     try:
         lines = read_strokes(" ".join(values), board.view)
     except ReadError:
         return Markup()
-    _, tall = board.picture
+    _, tall = board.picture_size
     return Markup().join(
-        _LINE.format(" ".join(f"{x:.1f},{tall - y:.1f}" for x, y in map(board.place, line)))
+        _LINE.format(" ".join(f"{x:.1f},{tall - y:.1f}" for x, y in map(board.to_picture, line)))
         for line in lines
     )

@@ -12,6 +12,7 @@ from markupsafe import Markup
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 
+from quizgen.figures.inks import write_theme_css
 from quizgen.locale import amount, known, language, marks, styles, table, word
 from quizgen.practice.schedule import day_of
 from quizgen.render.layouts import environment
@@ -31,8 +32,8 @@ def _layouts() -> jinja2.Environment:
 
 @cache
 def language_style() -> str:
-    """The style of languages that need one."""
-    return styles(":lang({})")
+    """The style of languages that need one, and of figures on a dark page."""
+    return styles(":lang({})") + write_theme_css()
 
 
 def said(lang: str, key: str, **values: object) -> str:

@@ -6,24 +6,24 @@ without colour. Edge neighbours point with full arrows, diagonal neighbours with
 
 from __future__ import annotations
 
+from functools import cache
+from typing import Any
+
+import numpy as np
+from matplotlib.path import Path
+
 from quizgen.figures.kit import (
     ABSENT,
-    BOLD,
-    THIN,
-    Canvas,
     Parameter,
-    Pen,
-    Style,
     Values,
-    derived,
-    given,
-    relation,
+    format_derived,
+    format_given,
+    load_alt_words,
+    relation_sign,
     require,
-    words_of,
 )
-from quizgen.figures.kit import Style as Stroke
 
-DARK = "invert"
+from ._optics import draw_lines
 
 LARGEST = 8
 PATTERNS = ("RGGB", "BGGR", "GRBG", "GBRG")
@@ -43,20 +43,21 @@ PARAMETERS = {
         3.0,
         whole=True,
     ),
+    "left": Parameter("px", "even column that the tile begins with", ABSENT, 0.0, 1e5, whole=True),
+    "top": Parameter("px", "even row that the tile begins with", ABSENT, 0.0, 1e5, whole=True),
 } | {
     f"v{y}{x}": Parameter("DN", f"raw value in row {y}, column {x}", ABSENT, 0.0, 99999.0)
     for y in range(LARGEST)
     for x in range(LARGEST)
 }
+SIZE = (200.0, 200.0)
 
-_LETTERS = "RGB"
 _EDGES = ((0, -1), (-1, 0), (1, 0), (0, 1))
 _CORNERS = ((-1, -1), (1, -1), (-1, 1), (1, 1))
-_PAPER = {"R": "#fbdcdc", "G": "#dcf2dc", "B": "#dce4fb"}
-_MARGIN = 8.0
+_INKS = {"R": ("pale-red", "red"), "G": ("pale-teal", "teal"), "B": ("pale-blue", "blue")}
 
 
-def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
+def draw(fig: Any, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, leave out the arrows and the results.
 
     Raises
@@ -64,34 +65,84 @@ def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     BankError
         If the marked site lies outside the tile or has the colour that is asked for.
     """
-    _check(values)
-    size = int(values["size"])
-    cell = max(34.0, float(184 // size))
-    results = [] if quiz else [text for c in _asked(values) for text in _result(values, c)]
-    foot = 16.0 * len(results) + (2 if results else 0)
-    pen = Pen(2 * _MARGIN + size * cell, 2 * _MARGIN + size * cell + foot)
-    sites = [(x, y) for y in range(size) for x in range(size)]
-    for paint in (_site, _hatch, _grid, _site_label):
-        for x, y in sites:
-            paint(pen, values, x, y, cell)
-    _mark(pen, values, cell, BOLD)
-    if not quiz:
-        _arrows(pen, values, cell)
-    for row, text in enumerate(reversed(results)):
-        pen.label((pen.width / 2, 11 + 16 * row), text, size=9.5)
-    pen.onto(canvas)
-
-
-def _check(values: Values) -> None:
-    size, x, y = int(values["size"]), int(values["x"]), int(values["y"])
+    size, x, y = _marked_site(values)
+    channel, own = int(values["channel"]), letter(values, x, y)
     require("bayer", max(x, y) < size, "the marked site lies outside the tile")
-    channel = int(values["channel"])
-    own = letter(values, x, y)
-    require(
-        "bayer",
-        channel == 0 or _LETTERS[channel - 1] != own,
-        f"the marked site is {own} itself; ask for another channel",
-    )
+    asked = f"the marked site is {own} itself; ask for another channel"
+    require("bayer", channel == 0 or "RGB"[channel - 1] != own, asked)
+    column, row = _first_site(values)
+    require("bayer", not column % 2 and not row % 2, "left and top are not even")
+    art = fig.sketch()
+    cell = max(34.0, float(184 // size))
+    for colour, (squares, strokes) in _lay_out_sites(int(values["phase"]), size, cell).items():
+        fill, ink = _INKS[colour]
+        art.shape(squares, fill, part=f"site-{colour}")
+        if strokes:
+            art.shape(strokes, None, ink, 0.8, part=f"hatch-{colour}")
+    lines = [((0, i), (size, i)) for i in range(size + 1)]
+    lines += [((i, 0), (i, size)) for i in range(size + 1)]
+    draw_lines(art, np.array(lines) * cell, "ink", part="cells")
+    _label_sites(art, values, size, cell)
+    if "left" in values or "top" in values:
+        for place in range(size):
+            at = (place + 0.5) * cell
+            art.label((at, size * cell + 4), str(column + place), "cb", 9, fill="grey")
+            art.label((-5, size * cell - at), str(row + place), "r", 9, fill="grey")
+    left, low = x * cell, (size - 1 - y) * cell
+    marked = [(left, low), (left + cell, low), (left + cell, low + cell), (left, low + cell)]
+    art.area(marked, None, "ink", 2.4, part="marked")
+    if not quiz:
+        _draw_answer(art, values, cell)
+
+
+def _first_site(values: Values) -> tuple[int, int]:
+    """Column and row of the tile's upper left site, counted on the sensor."""
+    return int(values.get("left", 0)), int(values.get("top", 0))
+
+
+@cache
+def _lay_out_sites(phase: int, size: int, cell: float) -> dict[str, tuple[Path, Path | None]]:
+    """Squares of each colour, and strokes in two corners of each, away from letter and value."""
+    sites = {
+        colour: [(x, y) for y in range(size) for x in range(size)
+                 if _colour_at(phase, x, y) == colour]
+        for colour in "RGB"
+    }  # fmt: skip
+    square = np.array([(0, 0), (1, 0), (1, 1), (0, 1), (0, 0)])
+    rising = np.array([((0, 1 - t), (t, 1)) for t in (0.12, 0.24)]
+                      + [((1 - t, 0), (1, t)) for t in (0.12, 0.24)], float)  # fmt: skip
+    found: dict[str, tuple[Path, Path | None]] = {}
+    for colour, places in sites.items():
+        corners = np.array([(x, size - 1 - y) for x, y in places], float)
+        squares = (corners[:, None] + square) * cell
+        codes = [Path.MOVETO, *[Path.LINETO] * 3, Path.CLOSEPOLY] * len(places)
+        strokes = None
+        if colour != "G":
+            lines = rising if colour == "R" else rising * (-1, 1) + (1, 0)
+            ends = (corners[:, None, None] + lines) * cell
+            strokes = Path(ends.reshape(-1, 2), [Path.MOVETO, Path.LINETO] * 4 * len(places))
+        found[colour] = Path(squares.reshape(-1, 2), codes), strokes
+    return found
+
+
+def _label_sites(art: Any, values: Values, size: int, cell: float) -> None:
+    for y in range(size):
+        for x in range(size):
+            colour, value = letter(values, x, y), values.get(f"v{y}{x}")
+            at = ((x + 0.5) * cell, (size - 0.5 - y) * cell)
+            if value is None:
+                art.label(at, colour, size=12, part="letters")
+                continue
+            art.label(at, colour, size=9, shift=(0, 6.5), part="letters")
+            art.label(at, format_given(value), size=10 if value < 1000 else 8, shift=(0, -5.5))
+
+
+def _marked_site(values: Values) -> tuple[int, int, int]:
+    return int(values["size"]), int(values["x"]), int(values["y"])
+
+
+def _colour_at(phase: int, x: int, y: int) -> str:
+    return PATTERNS[phase][2 * (y % 2) + x % 2]
 
 
 def letter(values: Values, x: int, y: int) -> str:
@@ -108,16 +159,15 @@ def letter(values: Values, x: int, y: int) -> str:
     -------
     {"R", "G", "B"}
     """
-    return PATTERNS[int(values["phase"])][2 * (y % 2) + x % 2]
+    return _colour_at(int(values["phase"]), x, y)
 
 
-def _asked(values: Values) -> list[str]:
-    channel = int(values["channel"])
-    if channel:
-        return [_LETTERS[channel - 1]]
+def _missing_channels(values: Values) -> list[str]:
+    """Channels to show at the marked site: the one asked for, or both that it lacks."""
+    if channel := int(values["channel"]):
+        return ["RGB"[channel - 1]]
     own = letter(values, int(values["x"]), int(values["y"]))
-    missing = [c for c in _LETTERS if c != own]
-    return sorted(missing, key="GRB".index)
+    return [colour for colour in "GRB" if colour != own]
 
 
 def neighbours(values: Values, channel: str) -> list[tuple[int, int]]:
@@ -136,122 +186,60 @@ def neighbours(values: Values, channel: str) -> list[tuple[int, int]]:
         (column, row) of the nearest sites of that colour inside the tile: edge neighbours if
         there are any, else diagonal ones.
     """
-    size, x0, y0 = int(values["size"]), int(values["x"]), int(values["y"])
+    size, x0, y0 = _marked_site(values)
     for offsets in (_EDGES, _CORNERS):
         sites = [(x0 + dx, y0 + dy) for dx, dy in offsets]
         inside = [(x, y) for x, y in sites if 0 <= x < size and 0 <= y < size]
-        found = [(x, y) for x, y in inside if letter(values, x, y) == channel]
-        if found:
+        if found := [(x, y) for x, y in inside if letter(values, x, y) == channel]:
             return found
     return []
 
 
-def _result(values: Values, channel: str) -> list[str]:
-    """Print the mean as one line of numbers, if all of them are known."""
+def _write_mean(values: Values, channel: str) -> str:
+    """The mean of the sites used as one line of numbers; empty unless all of them are known."""
     used = [values.get(f"v{y}{x}") for x, y in neighbours(values, channel)]
     numbers = [value for value in used if value is not None]
     if len(numbers) != len(used) or not numbers:
-        return []
+        return ""
+    terms = " + ".join(map(format_given, numbers))
+    if len(numbers) == 1:
+        return f"{channel} = {terms}"
     mean = sum(numbers) / len(numbers)
-    terms = " + ".join(given(value) for value in numbers)
-    if len(numbers) > 1:
-        terms = f"({terms}) / {len(numbers)}"
-    return [f"{channel} = {terms} {relation(mean)} {derived(mean)}"]
+    return f"{channel} = ({terms}) / {len(numbers)} {relation_sign(mean)} {format_derived(mean)}"
 
 
-def _corner(values: Values, x: float, y: float, cell: float, foot: float) -> tuple[float, float]:
-    """Lower left corner of a site, in points."""
-    return (_MARGIN + x * cell, foot + _MARGIN + (values["size"] - 1 - y) * cell)
-
-
-def _foot(pen: Pen, values: Values, cell: float) -> float:
-    return pen.height - 2 * _MARGIN - values["size"] * cell
-
-
-def _square(pen: Pen, values: Values, x: float, y: float, cell: float) -> list[tuple[float, float]]:
-    left, low = _corner(values, x, y, cell, _foot(pen, values, cell))
-    return [(left, low), (left + cell, low), (left + cell, low + cell), (left, low + cell)]
-
-
-def _site(pen: Pen, values: Values, x: int, y: int, cell: float) -> None:
-
-    colour = letter(values, x, y)
-    square = _square(pen, values, x, y, cell)
-    pen.area(f"site-{colour}", square, Style(colour=_PAPER[colour]))
-
-
-def _hatch(pen: Pen, values: Values, x: int, y: int, cell: float) -> None:
-    """Strokes in two opposite corners, away from the letter: rising for red, falling for blue."""
-    colour = letter(values, x, y)
-    if colour == "G":
-        return
-    stroke = Style(0.7, "#707070")
-    left, low = _corner(values, x, y, cell, _foot(pen, values, cell))
-    for t in (0.12, 0.24):
-        for a, b in (((0, 1 - t), (t, 1)), ((1 - t, 0), (1, t))):
-            ends = [(u if colour == "R" else 1 - u, v) for u, v in (a, b)]
-            pen.line(
-                f"hatch-{colour}", [(left + u * cell, low + v * cell) for u, v in ends], stroke
-            )
-
-
-def _grid(pen: Pen, values: Values, x: int, y: int, cell: float) -> None:
-
-    pen.area("cells", _square(pen, values, x, y, cell), THIN)
-
-
-def _site_label(pen: Pen, values: Values, x: int, y: int, cell: float) -> None:
-    colour, value = letter(values, x, y), values.get(f"v{y}{x}")
-    left, low = _corner(values, x, y, cell, _foot(pen, values, cell))
-    middle = (left + cell / 2, low + cell / 2)
-    if value is None:
-        pen.label(middle, f"{{{colour}}}", size=11)
-        return
-    pen.label((middle[0], middle[1] + 5.5), f"{{{colour}}}", size=9.5)
-    pen.label((middle[0], middle[1] - 5), given(value), size=9.5 if value < 1000 else 8)
-
-
-def _mark(pen: Pen, values: Values, cell: float, style: Style) -> None:
-
-    square = _square(pen, values, values["x"], values["y"], cell)
-    pen.area("marked", square, Stroke(style.width + 0.4))
-
-
-def _arrows(pen: Pen, values: Values, cell: float) -> None:
-
-    x0, y0 = int(values["x"]), int(values["y"])
-    foot = _foot(pen, values, cell)
-    for channel in _asked(values):
+def _draw_answer(art: Any, values: Values, cell: float) -> None:
+    """Draw arrows from the sites used across their borders, and write the means below."""
+    size, x0, y0 = _marked_site(values)
+    row = -13.0
+    for channel in _missing_channels(values):
+        ink = _INKS[channel][1]
         for x, y in neighbours(values, channel):
-            dx, dy = x0 - x, y0 - y
-            left, low = _corner(values, (x + x0) / 2, (y + y0) / 2, cell, foot)
-            border = (left + cell / 2, low + cell / 2)
-            reach = min(8.0, cell / 2 - 9.5) / (1.2 if dx and dy else 1)
-            start = (border[0] - dx * reach, border[1] + dy * reach)
-            end = (border[0] + dx * reach, border[1] - dy * reach)
-            diagonal = dx and dy
-            pen.arrow(
-                f"use-{channel}", start, end, Style(1.2, dashes=(2.5, 1.5) if diagonal else ())
-            )
+            way = np.array([x0 - x, y - y0], float)
+            border = np.array([x + x0 + 1, 2 * size - 1 - y - y0]) * cell / 2
+            reach = way * min(10.0, cell / 2 - 12) / (1.2 if way.all() else 1)
+            dashes = (2.5, 1.5) if way.all() else None
+            ends = (border - reach, border + reach)
+            art.arrow(*ends, ink, 1.4, size=5.5, dashes=dashes, part=f"use-{channel}")
+        if text := _write_mean(values, channel):
+            art.label((size * cell / 2, row), text)
+            row -= 16
 
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words; in a quiz, leave out which sites are used and the results."""
-    words, x, y = words_of(__file__, lang), int(values["x"]), int(values["y"])
-    text = words["figure"].format(
-        pattern=PATTERNS[int(values["phase"])],
-        size=int(values["size"]),
-        x=x,
-        y=y,
-        letter=letter(values, x, y),
-    )
-    text += "".join(words["row"].format(y=row, sites=sites) for row, sites in _rows(values))
+    words, (size, x, y) = load_alt_words(__file__, lang), _marked_site(values)
+    pattern, (left, top) = PATTERNS[int(values["phase"])], _first_site(values)
+    place = {"size": size, "x": x + left, "y": y + top, "letter": letter(values, x, y)}
+    text: str = words["figure"].format(pattern=pattern, **place)
+    text += "".join(words["row"].format(y=row + top, sites=sites) for row, sites in _rows(values))
     if quiz:
         return text
-    for channel in _asked(values):
-        sites = ", ".join(f"({a}, {b})" for a, b in neighbours(values, channel))
+    for channel in _missing_channels(values):
+        sites = ", ".join(f"({a + left}, {b + top})" for a, b in neighbours(values, channel))
         text += words["use"].format(channel=channel, sites=sites)
-        text += "".join(f" {result}{words['stop']}" for result in _result(values, channel))
+        if mean := _write_mean(values, channel):
+            text += f" {mean}{words['stop']}"
     return text
 
 
@@ -261,6 +249,6 @@ def _rows(values: Values) -> list[tuple[int, str]]:
     for y in range(int(values["size"])):
         sites = [(letter(values, x, y), values.get(f"v{y}{x}")) for x in range(int(values["size"]))]
         if any(value is not None for _, value in sites):
-            known = (c if value is None else f"{c} {given(value)}" for c, value in sites)
+            known = (c if value is None else f"{c} {format_given(value)}" for c, value in sites)
             rows.append((y, ", ".join(known)))
     return rows

@@ -1,165 +1,175 @@
 """Blur disc: the cone of light behind a lens, cut by a sensor that is not where it is sharp.
 
-The distance between sensor and sharp image is drawn 0.2 to 0.4 times as large as z'_p, with a
-break mark on the axis where that is not to scale. Aperture, apex and blur disc keep their exact
-proportions as drawn.
+Distances along the axis are to scale where the sensor is 0.15 to 0.6 z'_p away from the sharp
+image; in cameras it is much less, and the axis is broken. Diameters have a scale of their own, on
+which aperture and blur disc keep their exact proportions as drawn.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import log
+from typing import Any
 
 from quizgen.figures.kit import (
-    BOLD,
-    DOTTED,
-    LINE,
-    RAY,
-    SHADE,
-    THIN,
-    WIDTH,
-    Canvas,
     Parameter,
-    Pen,
-    Style,
     Values,
-    equation,
-    given,
-    spoken,
-    statement,
-    words_of,
+    format_equation,
+    format_given,
+    format_statement,
+    load_alt_words,
+    strip_mathtext,
 )
 
-DARK = "invert"
+from ._plots import format_learned
+from ._optics import clamp, draw_axis, draw_lens, draw_lines
 
 PARAMETERS = {
     "D": Parameter("mm", "diameter of the aperture", low=1e-6),
     "z_p": Parameter("mm", "distance z'_p from the lens to the sharp image of the point", low=1e-6),
     "z_s": Parameter("mm", "distance z'_s from the lens to the sensor", low=1e-6),
 }
+SIZE = (312.0, 170.0)
 
-_AXIS, _LENS, _HALF = 108.0, 74.0, 48.0
-_ROWS = (22.0, 41.0)
-_LEAST, _MOST = 0.2, 0.4
+_AXIS, _LENS, _RIM, _LENGTH = 108.0, 78.0, 58.0, 152.0
+_ROWS = (36.0, 18.0)
+_TO_SCALE = (0.15, 0.6)
 
 
 @dataclass(frozen=True, slots=True)
 class _Layout:
-    """Drawn places: apex and sensor in points, and half the blur disc."""
+    """Drawn places in points: sharp image, sensor, half the aperture and half the blur disc."""
 
     apex: float
     sensor: float
-    half_disc: float
+    half: float
+    disc: float
     to_scale: bool
 
+    @property
+    def near(self) -> float:
+        return min(self.apex, self.sensor)
 
-def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
+    @property
+    def far(self) -> float:
+        return max(self.apex, self.sensor)
+
+
+def _lay_out(values: Values) -> _Layout:
+    ratio = (values["z_s"] - values["z_p"]) / values["z_p"]
+    size, (least, most) = abs(ratio), _TO_SCALE
+    to_scale = not ratio or least <= size <= most
+    if not to_scale:
+        # Wider apart than they are, though the farther the farther: draws look different.
+        size = most if size > most else 0.19 + 0.15 * _place(size, 0.003, least)
+    shift = size if ratio > 0 else -size
+    half = 26.0 + 22.0 * _place(values["D"] / values["z_p"], 1 / 16, 1.0)
+    length = _LENGTH / max(1.0, 1 + shift)
+    apex, sensor = _LENS + length, _LENS + length * (1 + shift)
+    return _Layout(apex, sensor, half, half * size, to_scale)
+
+
+def _place(value: float, low: float, high: float) -> float:
+    """Where a value lies between two others, 0 to 1, in logarithms."""
+    return min(max(log(value / low) / log(high / low), 0.0), 1.0)
+
+
+def draw(fig: Any, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, hide the diameters of aperture and blur disc."""
-    pen, place = Pen(), _layout(values)
-    _cone(pen, place)
-    _lens(pen)
-    _sensor(pen, place)
-    _axis(pen, place)
-    _names(pen, place, _labels(values, quiz=quiz))
-    pen.onto(canvas)
+    art, place = fig.sketch(), _lay_out(values)
+    words = _label_lengths(values, quiz=quiz)
+    _draw_light(art, place)
+    art.line([(place.sensor, _AXIS - 54), (place.sensor, _AXIS + 54)], "ink", 1.0, part="sensor")
+    ends = [(place.sensor, _AXIS - place.disc), (place.sensor, _AXIS + place.disc)]
+    art.line(ends, "red", 3.6, part="disc")
+    art.dot((place.apex, _AXIS), 2.4, part="apex")
+    _draw_distances(art, place, words)
+    _draw_diameters(art, place, words)
+
+
+def _draw_light(art: Any, place: _Layout) -> None:
+    """Draw the cone of light, and the lens and its stop that it comes from."""
+    beyond = place.half * (place.far - place.apex) / (place.apex - _LENS)
+    apex = (place.apex, _AXIS)
+    cone = [apex, (place.far, _AXIS - beyond), (place.far, _AXIS + beyond)] if beyond else [apex]
+    lens = [(_LENS, _AXIS - place.half), (_LENS, _AXIS + place.half)]
+    art.area([*cone, apex, *lens], "pale-gold", part="cone")
+    draw_axis(art, 2, place.far + 34, _AXIS)
+    draw_lens(art, _LENS, _AXIS, 54)
+    for side in (1, -1):
+        rim = (_LENS, _AXIS + side * place.half)
+        start = (2, _AXIS + side * place.half * 0.15)
+        art.ray([start, rim], "red", heads=((0, 0.35),), part="incoming")
+        art.ray([rim, apex, (place.far, _AXIS - side * beyond)], "red", part="rays")
+    stop = [[(_LENS, _AXIS + side * y) for y in (place.half, _RIM)] for side in (1, -1)]
+    draw_lines(art, stop, "ink", 2.8, part="stop")
+
+
+def _draw_distances(art: Any, place: _Layout, words: dict[str, str]) -> None:
+    if not place.to_scale:
+        art.axis_break(((_LENS + place.near) / 2, _AXIS))
+    helpers = [[(_LENS, _AXIS - _RIM - 4), (_LENS, _ROWS[1] - 3)]]
+    sharp, sensor = (place.apex, "z_p", _AXIS - 5), (place.sensor, "z_s", _AXIS - 58)
+    order = (sharp, sensor) if place.sensor >= place.apex else (sensor, sharp)
+    for (x, name, start), row in zip(order, _ROWS, strict=True):
+        helpers.append([(x, start), (x, row - 3)])
+        art.measure((_LENS, row), (x, row), words[name], side="r")
+    draw_lines(art, helpers)
+
+
+def _draw_diameters(art: Any, place: _Layout, words: dict[str, str]) -> None:
+    """Measure both diameters beside the drawing; labels stand above their arrows."""
+    left, right = _LENS - 22, place.far + 16
+    helpers = []
+    for x, start, half in ((left, _LENS - 3, place.half), (right, place.sensor + 3, place.disc)):
+        helpers += [[(start, _AXIS + y), (x, _AXIS + y)] for y in (half, -half)]
+        if half > 8:
+            ends = (x, _AXIS - half), (x, _AXIS + half)
+            art.arrow(*ends, "grey", 0.6, size=5.5, both=True, part="diameters")
+            continue
+        for side in (1, -1):  # no room for two heads: they come from outside
+            edge = _AXIS + side * half
+            outside = (x, edge + side * 13)
+            art.arrow(outside, (x, edge), "grey", 0.6, size=5.5, part="diameters")
+    draw_lines(art, helpers)
+    align, x = ("c", left) if words["D"] == "$D$" else ("r", _LENS - 5)
+    art.label((x, _AXIS + place.half + 6), words["D"], f"{align}b", part="diameters")
+    top = place.disc + (6 if place.disc > 8 else 18)
+    art.label((right - 4, _AXIS + top), words["c"], "lb", part="diameters")
 
 
 def _disc(values: Values) -> float:
-    return values["D"] * abs(values["z_s"] - values["z_p"]) / values["z_p"]
+    return float(values["D"] * abs(values["z_s"] - values["z_p"]) / values["z_p"])
 
 
-def _layout(values: Values) -> _Layout:
-    ratio = (values["z_s"] - values["z_p"]) / values["z_p"]
-    size = min(max(abs(ratio), _LEAST), _MOST) if ratio else 0.0
-    drawn = size if ratio >= 0 else -size
-    length = 152.0 / max(1.0, 1 + drawn)
-    apex, sensor = _LENS + length, _LENS + length * (1 + drawn)
-    return _Layout(apex, sensor, _HALF * size, size == abs(ratio))
-
-
-def _cone(pen: Pen, place: _Layout) -> None:
-
-    end = max(place.sensor, place.apex)
-    beyond = _HALF * (end - place.apex) / (place.apex - _LENS)
-    edge = [
-        (_LENS, _AXIS + _HALF),
-        (place.apex, _AXIS),
-        (end, _AXIS + beyond),
-        (end, _AXIS - beyond),
-        (place.apex, _AXIS),
-        (_LENS, _AXIS - _HALF),
-    ]
-    pen.area("cone", edge, SHADE)
-    for side in (1, -1):
-        pen.line("incoming", [(4, _AXIS), (_LENS, _AXIS + side * _HALF)], RAY)
-        rim = (_LENS, _AXIS + side * _HALF)
-        pen.ray("rays", [rim, (place.apex, _AXIS), (end, _AXIS - side * beyond)])
-
-
-def _lens(pen: Pen) -> None:
-
-    rim = [(7 * (1 - (i / 10) ** 2), _HALF * i / 10) for i in range(-10, 11)]
-    shape = [(_LENS + x, _AXIS + y) for x, y in rim] + [(_LENS - x, _AXIS - y) for x, y in rim]
-    pen.area("lens", shape, SHADE)
-    pen.area("lens-edge", shape, LINE)
-    for side in (1, -1):
-        pen.line("stop", [(_LENS, _AXIS + side * _HALF), (_LENS, _AXIS + side * 60)], BOLD)
-
-
-def _sensor(pen: Pen, place: _Layout) -> None:
-
-    pen.line("sensor", [(place.sensor, _AXIS - 52), (place.sensor, _AXIS + 52)], LINE)
-    disc = [(place.sensor, _AXIS - place.half_disc), (place.sensor, _AXIS + place.half_disc)]
-    pen.line("disc", disc, Style(3.2))
-    pen.dot("apex", (place.apex, _AXIS), 2.4)
-
-
-def _axis(pen: Pen, place: _Layout) -> None:
-
-    pen.line("axis", [(4, _AXIS), (WIDTH - 4, _AXIS)], THIN)
-    for x in (_LENS, place.apex, place.sensor):
-        row = _ROWS[1] if x == min(place.apex, place.sensor) else _ROWS[0]
-        pen.line("helpers", [(x, _AXIS - 4), (x, row - 4)], DOTTED)
-    if not place.to_scale:
-        pen.break_mark(((_LENS + min(place.apex, place.sensor)) / 2, _AXIS))
-
-
-def _names(pen: Pen, place: _Layout, words: dict[str, str]) -> None:
-
-    far, near = ("z_s", "z_p") if place.sensor > place.apex else ("z_p", "z_s")
-    ends = {"z_s": place.sensor, "z_p": place.apex}
-    pen.dimension((_LENS, _ROWS[1]), (ends[near], _ROWS[1]), words[near])
-    pen.dimension((_LENS, _ROWS[0]), (ends[far], _ROWS[0]), words[far])
-    _upright(pen, _LENS - 18, _HALF)
-    pen.label((5, _AXIS - 60), words["D"], "l")
-    x = max(place.sensor, place.apex) + 10
-    for side in (1, -1):
-        y = _AXIS + side * place.half_disc
-        pen.line("helpers-disc", [(place.sensor + 3, y), (x + 3, y)], THIN)
-    _upright(pen, x, place.half_disc)
-    pen.label((x - 5, _AXIS + max(place.half_disc, 9) + 13), words["c"], "l")
-
-
-def _upright(pen: Pen, x: float, half: float) -> None:
-    """Draw a vertical double arrow about the axis; from outside where there is no room inside."""
-    for side in (1, -1):
-        start = 0.0 if half > 8 else half + 14
-        pen.arrow("diameters", (x, _AXIS + side * start), (x, _AXIS + side * half), THIN)
-
-
-def _labels(values: Values, *, quiz: bool) -> dict[str, str]:
+def _label_lengths(values: Values, *, quiz: bool) -> dict[str, str]:
     return {
-        "D": "D" if quiz else statement("D", values["D"], "mm"),
-        "z_p": statement("z'_p", values["z_p"], "mm"),
-        "z_s": statement("z'_s", values["z_s"], "mm"),
-        "c": equation("c", _disc(values), "mm", hide=quiz),
+        "D": "$D$" if quiz else format_statement("$D$", values["D"], "mm"),
+        "z_p": format_statement("$z'_p$", values["z_p"], "mm"),
+        "z_s": format_statement("$z'_s$", values["z_s"], "mm"),
+        "c": format_equation("$c$", _disc(values), "mm", hide=quiz),
     }
+
+
+def mark(fig: Any, values: Values, marks: dict[str, float]) -> None:
+    """Draw a disc of a learner's diameter ``c`` (mm) beside the right one."""
+    art, place, right = fig.sketch(zorder=6), _lay_out(values), _disc(values)
+    half = abs(marks["c"]) * (place.disc / right if right else place.half / values["D"])
+    half, beyond = clamp(half, 0.0, 52.0)
+    x = place.sensor - 5
+    art.line([(x, _AXIS - half), (x, _AXIS + half)], "gold", 2.6, part="learned")
+    for side in (1, -1) if beyond else ():
+        art.head((x, _AXIS + side * 60), (0, side), "gold", 9, part="learned")
+    text = f"{format_learned(marks['c'])} mm"
+    art.label((x, _AXIS + 62), text, "cb", fill="gold", part="learned")
 
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words; in a quiz, leave both diameters out."""
-    words = words_of(__file__, lang)
-    text = words["figure"].format(z_p=given(values["z_p"]), z_s=given(values["z_s"]))
+    words = load_alt_words(__file__, lang)
+    given = {name: format_given(values[name]) for name in PARAMETERS}
+    text: str = words["figure"].format(**given)
     if quiz:
         return text + words["quiz"]
-    told = spoken(_labels(values, quiz=False)["c"])
-    return text + words["answer"].format(D=given(values["D"]), c=told)
+    disc = strip_mathtext(_label_lengths(values, quiz=False)["c"])
+    return text + words["answer"].format(D=given["D"], c=disc)

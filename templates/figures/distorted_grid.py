@@ -8,28 +8,22 @@ from __future__ import annotations
 
 from functools import lru_cache
 from math import ceil, floor, hypot
-from typing import TYPE_CHECKING
+from typing import Any
 
+import numpy as np
+
+from quizgen.arrays.distortion import distort, fold_radius
 from quizgen.figures.kit import (
     ABSENT,
-    GREY,
-    LINE,
-    RED,
-    Canvas,
+    SQUARE,
     Parameter,
-    Pen,
-    Style,
     Values,
-    given,
+    format_given,
+    load_alt_words,
     require,
-    words_of,
 )
 
-if TYPE_CHECKING:
-    import numpy as np
-
-
-DARK = "invert"
+from ._plots import trace_lines
 
 PARAMETERS = {
     "k1": Parameter("1", "first coefficient, from undistorted to distorted coordinates"),
@@ -41,14 +35,13 @@ PARAMETERS = {
     "c_x": Parameter("1", "principal point, to the right of the centre", 0.0, -0.8, 0.8),
     "c_y": Parameter("1", "principal point, above the centre", 0.0, -0.8, 0.8),
 }
+SIZE = SQUARE
 
 _LEAST_SLOPE = 0.099
-_SIDE = 178.0
-_FOOT = 24.0
 _SAMPLES = 33
 
 
-def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
+def draw(ax: Any, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, leave the coefficients out.
 
     Raises
@@ -56,21 +49,40 @@ def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     BankError
         If the map folds over even on a tenth of the plane, or the principal point lies outside.
     """
-    foot = 0.0 if quiz else _FOOT
-    pen = Pen(_SIDE + 20, _SIDE + 20 + foot)
-    lines = _lines(values, shown_extent(values))
-    moved = _distorted(lines, values)
-    scale, middle = _frame([*lines, *moved])
-    place = (10 + _SIDE / 2 - scale * middle[0], 10 + foot + _SIDE / 2 - scale * middle[1], scale)
-    _paint(pen, "undistorted", lines, place, GREY)
-    _paint(pen, "distorted", moved, place, LINE)
-    _cross(pen, values, place, RED)
+    extent = find_extent(values)
+    lines = _list_lines(values, extent)
+    moved = _move(lines, values)
+    both = np.concatenate([lines, moved]).reshape(-1, 2)
+    low, high = both.min(axis=0), both.max(axis=0)
+    half, middle = 0.52 * (high - low).max(), (low + high) / 2
+    ax.set(
+        xlim=(middle[0] - half, middle[0] + half), ylim=(middle[1] - half, middle[1] + half),
+        xlabel="$x$", ylabel="$y$",
+    )  # fmt: skip
+    ticks = [extent * share for share in (-1, -0.5, 0, 0.5, 1)]
+    for axis in (ax.xaxis, ax.yaxis):
+        axis.set_ticks(ticks, map(format_given, ticks))
+    art = ax.figure.sketch(ax)
+    art.shape(trace_lines(lines[:, [0, -1]]), None, "rule", 0.8, part="undistorted")
+    art.shape(trace_lines(moved), None, "blue", 1.1, part="distorted")
+    art.cross((values["c_x"], values["c_y"]), part="principal-point")
     if not quiz:
-        _caption(pen, values)
-    pen.onto(canvas)
+        _draw_answer(ax, art, values, extent)
 
 
-def shown_extent(values: Values) -> float:
+def _draw_answer(ax: Any, art: Any, values: Values, extent: float) -> None:
+    """Write the coefficients, and draw where the corners went."""
+    corners = np.array([[(x, y) for x in (-extent, extent) for y in (-extent, extent)]])
+    for start, end in zip(corners[0], _move(corners, values)[0], strict=True):
+        if hypot(*np.diff(art.to_points([start, end]), axis=0)[0]) > 9:
+            art.arrow(start, end, "red", 1.0, part="moved")
+    text = f"$k_1$ = {format_given(values['k1'])}"
+    if values["k2"]:
+        text += f",   $k_2$ = {format_given(values['k2'])}"
+    art.in_points().label(((ax.bbox.x0 + ax.bbox.x1) / 2, ax.bbox.y1 + 11.5), text, part="answer")
+
+
+def find_extent(values: Values) -> float:
     """Half width of the grid that is drawn: ``extent``, or less where the map would fold over.
 
     Parameters
@@ -94,7 +106,7 @@ def shown_extent(values: Values) -> float:
     require("distorted_grid", extent > 0.05, "the map folds over everywhere")
     offset = max(abs(values["c_x"]), abs(values["c_y"]))
     require("distorted_grid", offset < extent, "the principal point lies outside the grid")
-    return extent
+    return float(extent)
 
 
 def _folds(values: Values, extent: float) -> bool:
@@ -106,74 +118,33 @@ def _folds(values: Values, extent: float) -> bool:
 @lru_cache(maxsize=64)
 def _fold_radius(k1: float, k2: float) -> float:
     """Where the map folds over; a figure asks for it many times."""
-    from quizgen.arrays.distortion import fold_radius
-
     return float(fold_radius(k1, k2))
 
 
-def _lines(values: Values, extent: float) -> list[np.ndarray]:
-    """Grid lines as (samples, 2) arrays: multiples of the step from the principal point."""
-    import numpy as np
-
-    along = np.linspace(-extent, extent, _SAMPLES)
-    lines = [
-        np.column_stack([np.full_like(along, x), along])
-        for x in _levels(values["c_x"], _step(values), extent)
-    ]
-    return lines + [
-        np.column_stack([along, np.full_like(along, y)])
-        for y in _levels(values["c_y"], _step(values), extent)
-    ]
+def _list_lines(values: Values, extent: float) -> Any:
+    """Grid lines, shape (lines, samples, 2): multiples of the step from the principal point."""
+    step, along = _step(values), np.linspace(-extent, extent, _SAMPLES)
+    grids = [np.meshgrid(_list_levels(values[name], step, extent), along, indexing="ij")
+             for name in ("c_x", "c_y")]  # fmt: skip
+    (x, along_x), (y, along_y) = grids
+    return np.concatenate([np.stack([x, along_x], axis=-1), np.stack([along_y, y], axis=-1)])
 
 
 def _step(values: Values) -> float:
-    return values.get("step", shown_extent(values) / 4)
+    return float(values.get("step", find_extent(values) / 4))
 
 
-def _levels(centre: float, step: float, extent: float) -> list[float]:
+def _list_levels(centre: float, step: float, extent: float) -> list[float]:
     first, last = ceil((-extent - centre) / step), floor((extent - centre) / step)
     inner = {round(centre + i * step, 9) for i in range(first, last + 1)}
     return sorted(inner | {-extent, extent})
 
 
-def _distorted(lines: list[np.ndarray], values: Values) -> list[np.ndarray]:
-    import numpy as np
-
-    from quizgen.arrays.distortion import distort
-
+def _move(lines: Any, values: Values) -> Any:
+    """Where the lens puts points, shape (lines, samples, 2)."""
     centre = np.array([values["c_x"], values["c_y"]])
-    x, y = np.moveaxis(np.stack(lines) - centre, -1, 0)
-    moved = np.stack(distort(x, y, values["k1"], values["k2"]), axis=-1)
-    return list(centre + moved)
-
-
-def _frame(lines: list[np.ndarray]) -> tuple[float, tuple[float, float]]:
-    import numpy as np
-
-    everything = np.concatenate(lines)
-    low, high = everything.min(axis=0), everything.max(axis=0)
-    return _SIDE / float((high - low).max()), tuple((low + high) / 2)
-
-
-Place = tuple[float, float, float]
-
-
-def _paint(pen: Pen, part: str, lines: list[np.ndarray], place: Place, style: Style) -> None:
-    for line in lines:
-        pen.line(part, line * place[2] + place[:2], style)
-
-
-def _cross(pen: Pen, values: Values, place: Place, style: Style) -> None:
-    x, y = place[0] + values["c_x"] * place[2], place[1] + values["c_y"] * place[2]
-    pen.line("principal-point", [(x - 6, y - 6), (x + 6, y + 6)], style)
-    pen.line("principal-point", [(x - 6, y + 6), (x + 6, y - 6)], style)
-
-
-def _caption(pen: Pen, values: Values) -> None:
-    text = f"k_1 = {given(values['k1'])}"
-    if values["k2"]:
-        text += f",  k_2 = {given(values['k2'])}"
-    pen.label((pen.width / 2, 13), text)
+    x, y = np.moveaxis(lines - centre, -1, 0)
+    return centre + np.stack(distort(x, y, values["k1"], values["k2"]), axis=-1)
 
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
@@ -181,15 +152,17 @@ def alt(values: Values, lang: str, *, quiz: bool) -> str:
 
     In a quiz, leave the coefficients and the kind of distortion out.
     """
-    words = words_of(__file__, lang)
-    text = words["figure"].format(step=given(_step(values)), extent=given(shown_extent(values)))
+    words = load_alt_words(__file__, lang)
+    text = words["figure"].format(
+        step=format_given(_step(values)), extent=format_given(find_extent(values))
+    )
     if quiz:
         return text
-    numbers = words["answer"].format(k1=given(values["k1"]), k2=given(values["k2"]))
-    return text + numbers + words[_kind(values)]
+    k1, k2 = format_given(values["k1"]), format_given(values["k2"])
+    return text + words["answer"].format(k1=k1, k2=k2) + words[_name_kind(values)]
 
 
-def _kind(values: Values) -> str:
+def _name_kind(values: Values) -> str:
     sign = values["k1"] or values["k2"]
     if sign == 0:
         return "none"

@@ -6,32 +6,28 @@ Photograph and curve come from one camera, so what is read is what is seen.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from functools import lru_cache
+from typing import Any
 
+import numpy as np
+from matplotlib.path import Path
+
+from quizgen.camera import Camera, Scene, photographs
+from quizgen.camera.effects.vignetting import fall_off
+from quizgen.camera.filters import everywhere_alike
+from quizgen.camera.view import View
 from quizgen.figures.kit import (
-    BOLD,
-    DOTTED,
-    GREY,
-    LINE,
-    RED,
-    THIN,
-    Canvas,
     Parameter,
-    Pen,
     Values,
-    derived,
-    given,
+    format_derived,
+    format_given,
+    format_statement,
+    load_alt_words,
     require,
-    spoken,
-    statement,
-    words_of,
 )
+from quizgen.figures.photographs import place_photo
 
-if TYPE_CHECKING:
-    from quizgen.camera.camera import Camera
-    from quizgen.camera.scene import Scene
-
-DARK = "keep"
+from ._plots import format_learned, mark_point, trace_lines
 
 PARAMETERS = {
     "f": Parameter("mm", "focal length", low=1.0, high=1000.0),
@@ -39,17 +35,17 @@ PARAMETERS = {
     "extent": Parameter("mm", "distance from the centre to the side of the picture", 22.0, 1.0),
     "rim": Parameter("1", "shift of the lens rim at the corner in diameters", 0.0, 0.0, 0.99),
 }
+SIZE = (158.0, 120.0)
 
 _WIDE, _HIGH = 96, 72
-_LEFT, _RIGHT, _LOW, _TOP = 150.0, 300.0, 34.0, 150.0
-_PHOTO = (6.0, 52.0, 112.0, 84.0)
+_PHOTO = (-158.0, 18.0, 112.0, 84.0)  # left of the curve
 _STEPS = 44
+# No inks of the page: the photograph stays as light as it is on a dark one.
+_ARROW, _AROUND = "#b8361f", "#fdfdfd"
 
 
-def photographed(values: Values) -> tuple[Scene, Camera]:
+def set_camera(values: Values) -> tuple[Scene, Camera]:
     """A white wall and the camera; the middle of the side is ``extent`` from the centre."""
-    from quizgen.camera import Camera, Scene
-
     camera = Camera(
         focal_length=values["f"] / 1000,
         pixel_pitch=values["extent"] / 1000 / (_WIDE / 2),
@@ -60,93 +56,75 @@ def photographed(values: Values) -> tuple[Scene, Camera]:
     return Scene(_WIDE, _HIGH, (), (0.9, 0.9, 0.9)), camera
 
 
-def shares(values: Values, distances: Sequence[float]) -> list[float]:
+def find_shares(values: Values, distances: Sequence[float]) -> list[float]:
     """Shares of the light of the centre that arrive at distances from it in mm."""
-    import numpy as np
-
-    from quizgen.camera.effects.vignetting import fall_off
-    from quizgen.camera.view import View
-
     pixels = np.array(distances) / values["extent"] * _WIDE / 2
-    return fall_off(pixels, View(*photographed(values))).tolist()
+    return fall_off(pixels, View(*set_camera(values))).tolist()
 
 
-def share(values: Values, distance: float) -> float:
-    """The share at one distance."""
-    return shares(values, [distance])[0]
+@lru_cache(64)
+def _take_photo(f: float, extent: float, rim: float) -> Any:
+    """The photograph in 8-bit codes, for the question and for its solution."""
+    with everywhere_alike():
+        (photo,) = photographs(*set_camera({"f": f, "extent": extent, "rim": rim}))
+    return photo.pixels()
 
 
-def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
+def draw(ax: Any, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, leave out the share at the mark."""
     require("fall_off", values["r"] <= values["extent"], "r must lie inside the picture")
-    pen = Pen(height=176.0)
-    _photo(canvas, pen, values)
-    _axes(pen, values)
-    _curve(pen, values)
-    _mark(pen, values, told=not quiz)
-    pen.onto(canvas, background="#ffffff")
-
-
-def _photo(canvas: Canvas, pen: Pen, values: Values) -> None:
-    from quizgen.camera import photographs
-    from quizgen.camera.filters import everywhere_alike
-    from quizgen.figures.photographs import place
-
-    scene, camera = photographed(values)
-    with everywhere_alike():
-        (photo,) = photographs(scene, camera)
-    place(canvas, pen, photo.pixels(), _PHOTO)
+    fig = ax.figure
+    place_photo(fig, _take_photo(values["f"], values["extent"], values["rim"]), _PHOTO)
+    _draw_axes(ax, values["extent"])
+    art, r = fig.sketch(ax), values["r"]
     left, low, wide, high = _PHOTO
-    middle = low + high / 2
-    pen.arrow("path", (left + wide / 2, middle), (left + wide, middle), RED)
-
-
-def _x(values: Values, distance: float) -> float:
-    return _LEFT + (_RIGHT - _LEFT) * distance / values["extent"]
-
-
-def _y(light: float) -> float:
-    return _LOW + (_TOP - 8 - _LOW) * light
-
-
-def _axes(pen: Pen, values: Values) -> None:
-
-    for tenth in range(1, 11):
-        pen.line("grid", [(_LEFT, _y(tenth / 10)), (_RIGHT, _y(tenth / 10))], GREY)
-    pen.line("axes", [(_LEFT, _TOP), (_LEFT, _LOW), (_RIGHT, _LOW)], LINE)
-    for fifth in range(6):
-        pen.label((_LEFT - 6, _y(fifth / 5)), given(fifth / 5), "r", 9)
-    for distance in range(0, int(values["extent"]) + 1, 5 if values["extent"] > 10 else 1):
-        x = _x(values, distance)
-        pen.line("ticks", [(x, _LOW), (x, _LOW - 4)], THIN)
-        pen.label((x, _LOW - 11), str(distance), size=9)
-    pen.label((_RIGHT, 8), "r / {mm}", "r", 9.5)
-    pen.label((_LEFT - 8, _TOP + 9), "E(r) / E(0)", "l", 9.5)
-
-
-def _curve(pen: Pen, values: Values) -> None:
-
+    way = [(left + wide / 2, low + high / 2), (left + wide, low + high / 2)]
+    for ink, width, size in ((_AROUND, 3.2, 9.0), (_ARROW, 1.3, 6.5)):
+        art.in_points().arrow(*way, ink, width, size=size, part="path")
+    art.shape(_trace_grid(values["extent"]), None, "rule", 0.4, part="grid")
     places = [values["extent"] * step / _STEPS for step in range(_STEPS + 1)]
-    lights = zip(places, shares(values, places), strict=True)
-    pen.line("curve", [(_x(values, r), _y(light)) for r, light in lights], BOLD)
+    *lights, light = find_shares(values, [*places, r])
+    art.line(np.column_stack([places, lights]), "blue", 1.6, part="curve")
+    art.line([(r, 0), (r, 1)], "red", 0.8, dashes=(1.4, 1.6), part="marks")
+    side = "l" if r < 0.6 * values["extent"] else "r"
+    text = format_statement("$r$", r, "mm")
+    art.label((r, 0.07), text, side, 10, "red", shift=(4 if side == "l" else -4, 0), halo=True)
+    if not quiz:
+        art.line([(0, light), (r, light)], "red", 0.6, dashes=(1.4, 1.6), part="marks")
+        art.dot((r, light), 2.3, "red", part="marks")
+        text = f"$E(r)/E(0)$ ≈ {format_derived(light)}"
+        art.label((values["extent"], 1), text, "r", 10, "red", shift=(0, 17), part="answer")
 
 
-def _mark(pen: Pen, values: Values, *, told: bool) -> None:
+def _draw_axes(ax: Any, extent: float) -> None:
+    ax.set(xlim=(0, extent), ylim=(0, 1.05))
+    apart = next(step for step in (1, 2, 5, 10, 20, 50, 100, 200, 500) if extent / step <= 6.5)
+    ticks = range(0, int(extent) + 1, apart)
+    ax.set_xticks(ticks, map(str, ticks))
+    fifths = [fifth / 5 for fifth in range(6)]
+    ax.set_yticks(fifths, map(format_given, fifths))
+    ax.set_xlabel("$r$ / mm")
+    ax.set_ylabel("$E(r)/E(0)$")
 
-    x, light = _x(values, values["r"]), share(values, values["r"])
-    pen.line("marks", [(x, _LOW), (x, _TOP)], DOTTED)
-    if told:
-        pen.dot("marks", (x, _y(light)), 2.6)
-        pen.label((_RIGHT, _TOP + 18), f"E / E(0) ≈ {derived(light)}", "r", 9.5)
+
+@lru_cache(16)
+def _trace_grid(extent: float) -> Path:
+    """Level lines at every tenth."""
+    return trace_lines([[(0, tenth / 10), (extent, tenth / 10)] for tenth in range(1, 11)])
+
+
+def mark(ax: Any, values: Values, marks: Values) -> None:
+    """Draw a learner's ``share`` of the light at the mark."""
+    x0, y0, x1, y1 = ax.bbox.extents
+    point = ax.transData.transform((values["r"], marks["share"]))
+    mark_point(ax.figure, (x0, y0, x1, y1), tuple(point), format_learned(marks["share"]))
 
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words, the curve at its quarters; in a quiz, not at the mark."""
-    words = words_of(__file__, lang)
+    words = load_alt_words(__file__, lang)
     steps = [values["extent"] * step / 4 for step in range(5)]
-    lights = zip(steps, shares(values, steps), strict=True)
-    read = "; ".join(f"{given(r)} mm: {light:.2f}" for r, light in lights)
-    told = words["figure"].format(read=read, mark=spoken(statement("r", values["r"], "mm")))
-    if quiz:
-        return told
-    return told + words["answer"].format(light=derived(share(values, values["r"])))
+    *lights, light = find_shares(values, [*steps, values["r"]])
+    read = "; ".join(f"{format_given(r)} mm: {e:.2f}" for r, e in zip(steps, lights, strict=True))
+    told = words["figure"].format(read=read, mark=format_statement("r", values["r"], "mm"))
+    return told if quiz else told + words["answer"].format(light=format_derived(light))

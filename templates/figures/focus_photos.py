@@ -1,4 +1,4 @@
-"""Three photographs of three objects by one lens: focused in turn on each, and once stopped down.
+"""Three photographs of three models by one lens: focused in turn on each, and once stopped down.
 
 Of these four settings a permutation picks what stands at photos 1, 2 and 3; one is left over.
 """
@@ -6,31 +6,26 @@ Of these four settings a permutation picks what stands at photos 1, 2 and 3; one
 from __future__ import annotations
 
 from itertools import permutations
+from typing import Any
 
 from quizgen.figures.kit import (
-    WIDTH,
-    Canvas,
     Parameter,
-    Pen,
     Values,
-    derived,
-    given,
-    numbered,
+    format_derived,
+    format_given,
+    load_alt_words,
     require,
-    words_of,
 )
 
 from . import depth_of_field
-
-DARK = "keep"
 
 PARAMETERS = {
     "f": Parameter("mm", "focal length", 85.0, 10.0, 200.0),
     "N_w": Parameter("", "f-number of the wide opening", 2.0, 1.0, 64.0),
     "N_s": Parameter("", "f-number when stopped down", 22.0, 1.0, 64.0),
-    "z_1": Parameter("m", "distance of the left object", 1.5, 0.3, 1000.0),
-    "z_2": Parameter("m", "distance of the middle object", 2.5, 0.3, 1000.0),
-    "z_3": Parameter("m", "distance of the right object", 6.0, 0.3, 1000.0),
+    "z_1": Parameter("m", "distance of the left model, the house", 1.5, 0.3, 1000.0),
+    "z_2": Parameter("m", "distance of the middle one, the balloon", 2.5, 0.3, 1000.0),
+    "z_3": Parameter("m", "distance of the right one, the sun", 6.0, 0.3, 1000.0),
     "order": Parameter(
         "",
         "0-23: permutation of (focus on z_1, z_2, z_3, on z_2 stopped down)",
@@ -42,47 +37,47 @@ PARAMETERS = {
 }
 
 _ORDERS = tuple(permutations(range(4)))
-_WIDE = 96
-_GAP, _TOP, _BELOW = 6.0, 15.0, 14.0
+_PIXELS = 144
+_WIDE, _HIGH, _GAP, _FOOT = 102.0, 68.0, 7.0, 12.0
+SIZE = (3 * _WIDE + 2 * _GAP, _FOOT + _HIGH + 14)
 
 
-def settings(values: Values) -> tuple[depth_of_field.Setting, ...]:
+def order_settings(values: Values) -> tuple[depth_of_field.Setting, ...]:
     """Distance in focus and f-number of photos 1, 2 and 3."""
     wide = [(values[f"z_{place}"], values["N_w"]) for place in (1, 2, 3)]
     every = [*wide, (values["z_2"], values["N_s"])]
     return tuple(every[which] for which in _ORDERS[int(values["order"])][:3])
 
 
-def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
+def draw(fig: Any, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, show their numbers without the settings."""
-    from quizgen.figures.photographs import place as put
+    from quizgen.figures.photographs import place_photo
 
     nearest = min(values[f"z_{place}"] for place in (1, 2, 3))
     require("focus_photos", 1000 * nearest > 2 * values["f"], "objects must be beyond 2 f")
-    wide = (WIDTH - 4 * _GAP) / 3
-    high = wide * 2 / 3
-    pen = Pen(WIDTH, _BELOW + high + _TOP + 2)
-    photos = depth_of_field.photos_of(values, _WIDE, *settings(values))
-    for place, (photo, (s, number)) in enumerate(zip(photos, settings(values), strict=True)):
-        left = _GAP + place * (wide + _GAP)
-        put(canvas, pen, photo, (left, _BELOW, wide, high))
-        told = f"{given(s)} {{m,}} f{{/{given(number)}}}"
-        pen.label((left + wide / 2, pen.height - 8), numbered(place + 1, told, quiz=quiz))
-        depth_of_field.distances(pen, values, left, wide, 8.5)
-    pen.onto(canvas, background="#ffffff")
+    settings = order_settings(values)
+    photos = depth_of_field.take_photos(values, _PIXELS, *settings)
+    for place, (photo, (s, number)) in enumerate(zip(photos, settings, strict=True)):
+        box = (place * (_WIDE + _GAP), _FOOT, _WIDE, _HIGH)
+        told = "" if quiz else f"$s$ = {format_given(s)} m, $f$/{format_given(number)}"
+        place_photo(fig, photo, box, number=place + 1, told=told)
+        depth_of_field.write_distances(fig, values, box, 9)
 
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words; in a quiz, say what looks sharp instead of the settings."""
-    words = words_of(__file__, lang)
+    words = load_alt_words(__file__, lang)
     depths = [values[f"z_{place}"] for place in (1, 2, 3)]
-    told = [words["figure"].format(*map(given, depths))]
-    for mark, (s, number) in enumerate(settings(values), 1):
+    told = [words["figure"].format(*map(format_given, depths))]
+    for mark, (s, number) in enumerate(order_settings(values), 1):
         if not quiz:
-            blur = depth_of_field.discs({**values, "s": s}, number)
-            told.append(words["setting"].format(mark, given(s), given(number), *map(derived, blur)))
+            blur = depth_of_field.measure_discs({**values, "s": s}, number)
+            sizes = map(format_derived, blur)
+            told.append(
+                words["setting"].format(mark, format_given(s), format_given(number), *sizes)
+            )
         elif number == values["N_s"]:
             told.append(words["all"].format(mark))
         else:
-            told.append(words["one"].format(mark, given(s)))
+            told.append(words["one"].format(mark, format_given(s)))
     return " ".join(told)

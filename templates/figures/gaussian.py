@@ -3,56 +3,48 @@
 from __future__ import annotations
 
 from math import erf, erfc, exp, pi, sqrt
+from statistics import NormalDist
+from typing import Any
+
+import numpy as np
 
 from quizgen.figures.kit import (
     ABSENT,
-    DASHED,
-    DEEP,
-    DOTTED,
-    LINE,
-    THIN,
-    WIDTH,
-    Canvas,
     Parameter,
-    Pen,
-    Point,
-    Style,
     Values,
-    derived,
-    equation,
-    given,
-    relation,
+    format_derived,
+    format_equation,
+    format_given,
+    load_alt_words,
+    relation_sign,
     require,
-    spoken,
-    text_width,
-    words_of,
+    strip_mathtext,
 )
-from quizgen.figures.kit import Style as Stroke
+from quizgen.figures.sketch import measure_label
 
-DARK = "invert"
+from ._plots import format_learned, mark_place, mark_point
 
 PARAMETERS = {
     "sigma": Parameter("any", "standard deviation", low=1e-6),
     "mu": Parameter("as sigma", "mean", 0.0),
     "k": Parameter("sigma", "marks at mu ± k sigma; 0: none", 0.0, 0.0, 4.0),
     "tails": Parameter(
-        "",
-        "shaded: 2 both tails, 1 upper, -1 lower, 0 between the marks",
-        2.0,
-        -1.0,
-        2.0,
+        "", "shaded: 2 both tails, 1 upper, -1 lower, 0 between the marks", 2.0, -1.0, 2.0,
         whole=True,
     ),
     "sigma2": Parameter("as sigma", "standard deviation of a second curve", ABSENT, 1e-6),
     "sigma3": Parameter("as sigma", "standard deviation of a third curve", ABSENT, 1e-6),
-}
+}  # fmt: skip
+SIZE = (286.0, 108.0)
 
-_LEFT, _RIGHT, _BASE, _PEAK = 26.0, 298.0, 36.0, 136.0
-_SPAN = 4.4
-"""The axis reaches this many of the largest standard deviations to each side."""
+_SPAN = 4.4  # the axis reaches this many of the largest standard deviations to each side
+_MIDDLE, _PEAK = 143.0, 92.0  # the mean, and the highest peak, in points
+_ASIDE = 58.0  # of the probability from the mean, in points
+_INKS = ("blue", "red", "teal")
+_DASHES = (None, (5.0, 2.0), (1.4, 1.6))
 
 
-def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
+def draw(fig: Any, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, hide the density at the mean and the probability.
 
     Raises
@@ -60,140 +52,118 @@ def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
     BankError
         If marks are asked for on several curves.
     """
-    several = "sigma2" in values or "sigma3" in values
-    require("gaussian", not (several and values["k"]), "marks need a single curve")
-    pen = Pen()
+    sigmas = _list_sigmas(values)
+    require("gaussian", len(sigmas) == 1 or not values["k"], "marks need a single curve")
+    art, left = fig.sketch(), _left_end(values)
     if values["k"]:
-        _shade(pen, values)
-    _axes(pen, values)
-    _curves(pen, values)
-    if values["k"]:
-        _probability_label(pen, values, quiz=quiz)
-    _peak_labels(pen, values, quiz=quiz)
-    pen.onto(canvas)
-
-
-def _sigmas(values: Values) -> list[float]:
-    return [values[name] for name in ("sigma", "sigma2", "sigma3") if name in values]
-
-
-def _place(values: Values, sigma: float, u: float) -> Point:
-    """Where the density of one curve at u of its own standard deviations is drawn."""
-    sigmas = _sigmas(values)
-    half = (_RIGHT - _LEFT) / 2
-    x = (_LEFT + _RIGHT) / 2 + u * sigma / max(sigmas) * half / _SPAN
-    return (x, _BASE + (_PEAK - _BASE) * exp(-u * u / 2) * min(sigmas) / sigma)
-
-
-def _samples(values: Values, sigma: float, start: float, stop: float) -> list[Point]:
-    steps = max(2, int((stop - start) / 0.08))
-    return [_place(values, sigma, start + (stop - start) * i / steps) for i in range(steps + 1)]
-
-
-def _intervals(values: Values) -> list[tuple[float, float]]:
-    k, tails = values["k"], values["tails"]
-    if tails == 0:
-        return [(-k, k)]
-    lower, upper = (-_SPAN, -k), (k, _SPAN)
-    return {2: [lower, upper], 1: [upper], -1: [lower]}[int(tails)]
-
-
-def _shade(pen: Pen, values: Values) -> None:
-
-    for start, stop in _intervals(values):
-        curve = _samples(values, values["sigma"], start, stop)
-        pen.area("shaded", [(curve[0][0], _BASE), *curve, (curve[-1][0], _BASE)], DEEP)
-
-
-def _axes(pen: Pen, values: Values) -> None:
-
-    pen.arrow("axis", (_LEFT - 8, _BASE), (_RIGHT + 8, _BASE), LINE)
-    pen.arrow("axis", (_LEFT, _BASE - 6), (_LEFT, 160), LINE)
-    pen.label((_RIGHT + 4, _BASE - 11), "n")
-    pen.label((_LEFT + 7, 160), "g(n)", "l")
-    centre = _place(values, values["sigma"], 0)
-    pen.line("mean", [(centre[0], _BASE - 4), (centre[0], _BASE + 4)], THIN)
-    _tick(pen, values, 0.0, "μ")
-    for sign in (-1, 1):
-        _ticks(pen, values, sign)
-
-
-def _ticks(pen: Pen, values: Values, sign: int) -> None:
-    k, text = values["k"], "−" if sign < 0 else "+"
-    if not k:
-        sigmas = _sigmas(values)
-        symbol = f"μ {text} σ" if len(sigmas) == 1 else ""
-        _tick(pen, values, sign * max(sigmas) / values["sigma"], symbol)
-        return
-    factor = "" if k == 1 else given(k)
-    _tick(pen, values, sign * k, f"μ {text} {factor}σ")
-    _foot(pen, values, sign * k)
-    if k != 1:
-        _foot(pen, values, sign)
-    if abs(k - 1) >= 1:
-        _tick(pen, values, sign, "")
-
-
-def _foot(pen: Pen, values: Values, u: float) -> None:
-
-    x, y = _place(values, values["sigma"], u)
-    if abs(u) == values["k"]:
-        pen.line("marks", [(x, _BASE - 4), (x, max(y, _BASE + 12))], DASHED)
-    else:
-        pen.line("ticks", [(x, _BASE - 3), (x, _BASE + 3)], THIN)
-
-
-def _tick(pen: Pen, values: Values, u: float, symbol: str) -> None:
-    """Name a place under the axis: the number, and below it the symbol."""
-    x, _ = _place(values, values["sigma"], u)
-    pen.line("ticks", [(x, _BASE - 3), (x, _BASE + 3)], THIN)
-    pen.label((x, _BASE - 11), given(values["mu"] + u * values["sigma"]), size=9.5)
-    if symbol:
-        pen.label((x, _BASE - 24), symbol, size=9.5)
-
-
-def _curves(pen: Pen, values: Values) -> None:
-    sigmas = _sigmas(values)
+        _shade(art, values)
+    _draw_axes(art, values, left)
     for number, sigma in enumerate(sigmas):
         reach = _SPAN * max(sigmas) / sigma
-        curve = _samples(values, sigma, -min(reach, 6.0), min(reach, 6.0))
-        ends = [(_LEFT, _BASE + 0.02), (_RIGHT, _BASE + 0.02)]
-        whole = curve if reach <= 6 else [ends[0], *curve, ends[1]]
-        pen.line(f"curve-{number}", whole, _style(number))
-
-
-def _style(number: int) -> Style:
-
-    return Stroke(1.4, dashes=((), (5.0, 2.5), (1.6, 2.0))[number])
-
-
-def _peak_labels(pen: Pen, values: Values, *, quiz: bool) -> None:
-    sigmas = _sigmas(values)
-    if len(sigmas) == 1:
-        _peak_label(pen, values, quiz=quiz)
+        curve = _trace(values, np.linspace(-reach, reach, 221), sigma)
+        art.line(curve, _INKS[number], 1.4, dashes=_DASHES[number], part=f"curve-{number}")
+    if len(sigmas) > 1:
+        _draw_legend(art, sigmas, quiz=quiz)
         return
-    for number, sigma in enumerate(sigmas):
-        y = 150 - 15 * number
-        text = f"σ = {given(sigma)},  {equation('g(μ)', _peak(sigma), hide=quiz)}"
-        pen.line(f"legend-{number}", [(186, y), (206, y)], _style(number))
-        pen.label((210, y), text, "l", 9.5)
+    _name_peak(art, values, left, quiz=quiz)
+    if values["k"]:
+        _name_probability(art, values, quiz=quiz)
 
 
-def _peak_label(pen: Pen, values: Values, *, quiz: bool) -> None:
-
-    x, y = _place(values, values["sigma"], 0)
-    pen.line("peak", [(_LEFT, y), (x, y)], DOTTED)
-    pen.dot("peak-point", (x, y), 2.0)
-    text = equation("g(μ)", _peak(values["sigma"]), hide=quiz)
-    if values["k"] and values["tails"] == -1:  # the probability stands on the left
-        pen.label((x + 24, y - 15), text, "l")
-    else:
-        pen.label((_LEFT + 5, y - 9), text, "l")
-    pen.label((x + 24, y + 1), f"σ = {given(values['sigma'])}", "l")
+def _list_sigmas(values: Values) -> list[float]:
+    return [values[name] for name in ("sigma", "sigma2", "sigma3") if name in values]
 
 
 def _peak(sigma: float) -> float:
     return 1 / (sqrt(2 * pi) * sigma)
+
+
+def _trace(values: Values, u: Any, sigma: float) -> Any:
+    """Points of a curve at u of its own standard deviations."""
+    sigmas = _list_sigmas(values)
+    x = _MIDDLE + u * (sigma / max(sigmas) * _MIDDLE / _SPAN)
+    return np.column_stack([x, np.exp(-u * u / 2) * (_PEAK * min(sigmas) / sigma)])
+
+
+def _place(u: float) -> tuple[float, float]:
+    """Point of a single curve at u standard deviations."""
+    return _MIDDLE + u * _MIDDLE / _SPAN, _PEAK * exp(-u * u / 2)
+
+
+def _left_end(values: Values) -> float:
+    """Where the upright axis stands: left of the probability, if that is written on the left."""
+    if not values["k"] or values["tails"] != -1:
+        return 0.0
+    width, _ = measure_label(_format_probability(values, quiz=False))
+    return min(0.0, _MIDDLE - _ASIDE - width - 10)
+
+
+def _draw_axes(art: Any, values: Values, left: float) -> None:
+    mu, k, sigma = values["mu"], values["k"], max(_list_sigmas(values))
+    right, top = 2 * _MIDDLE + 12, _PEAK + 27
+    art.arrow((left - 5, 0), (right, 0), "ink", 0.7, part="axis")
+    art.arrow((left, -3), (left, top), "ink", 0.7, part="axis")
+    art.label((right + 4, 0), "$n$", "l")
+    art.label((left + 6, top - 4), "$g(n)$", "l")
+    steps = sorted({0.0, k, -k} if 0 < abs(k - 1) < 1 else {0.0, 1.0, -1.0, k, -k})
+    several = "sigma2" in values or "sigma3" in values
+    for u in steps:
+        x, _ = _place(u)
+        art.line([(x, -3), (x, 3)], "ink", 0.6, part="ticks")
+        near = 0 < abs(u) < 1  # too close to the mean to be centred
+        align = "ct" if not near else "lt" if u > 0 else "rt"
+        x += 2 * near * (1 if u > 0 else -1)
+        art.label((x, -5.5), format_given(mu + u * sigma), align, 9)
+        if not several or not u:
+            factor = "" if abs(u) == 1 else format_given(abs(u))
+            name = rf"$\mu {'+' if u > 0 else '-'} {factor}\sigma$" if u else r"$\mu$"
+            art.label((x, -18), name, align, 9, "grey")
+
+
+def _shade(art: Any, values: Values) -> None:
+    k = values["k"]
+    tails = {0: [(-k, k)], 1: [(k, _SPAN)], -1: [(-_SPAN, -k)], 2: [(-_SPAN, -k), (k, _SPAN)]}
+    for start, stop in tails[int(values["tails"])]:
+        curve = _trace(values, np.linspace(start, stop, 80), values["sigma"])
+        art.area([(curve[0, 0], 0), *curve, (curve[-1, 0], 0)], "pale-blue", part="shaded")
+    for u in (-k, k):
+        x, y = _place(u)
+        art.line([(x, 0), (x, y)], "blue", 0.9, dashes=(3, 2), part="marks")
+
+
+def _name_peak(art: Any, values: Values, left: float, *, quiz: bool) -> None:
+    """Name the height at the mean on the axis, and the distance sigma at the turning point."""
+    x, y = _place(0)
+    side = 1 if values["tails"] == -1 and values["k"] else -1  # the probability has the other
+    turn = _place(side)
+    art.line([(x, 0), (x, y)], "rule", 0.6, part="mean")
+    art.line([(left, y), (x, y)], "grey", 0.7, dashes=(1.2, 1.8), part="peak")
+    art.dot((x, y), 2.0, "blue", part="peak-point")
+    text = format_equation(r"$g(\mu)$", _peak(values["sigma"]), hide=quiz)
+    art.label((left + 6, y - 5), text, "lt", part="peak-value")
+    name = rf"$\sigma$ = {format_given(values['sigma'])}"
+    art.measure((x, turn[1]), turn, name, side="r" if side > 0 else "l", part="sigma")
+
+
+def _name_probability(art: Any, values: Values, *, quiz: bool) -> None:
+    side = -1 if values["tails"] == -1 else 1
+    between = values["tails"] == 0
+    x, y = _place(0.5 * min(values["k"], 1.5) if between else side * (values["k"] + 0.2))
+    left, high = _MIDDLE + _ASIDE * side, 0.42 * _PEAK
+    start = (left - 2, high) if between else (left + 14 * side, high - 6)
+    art.line([start, (x, 0.4 * y)], "grey", 0.6, part="leader")
+    art.dot((x, 0.4 * y), 1.3, "grey", part="leader")
+    text = _format_probability(values, quiz=quiz)
+    art.label((left + 2 * side, high), text, "l" if side > 0 else "r", part="probability")
+
+
+def _draw_legend(art: Any, sigmas: list[float], *, quiz: bool) -> None:
+    for number, sigma in enumerate(sigmas):
+        y, left = 104 - 15 * number, 2 * _MIDDLE - 128
+        density = format_equation(r"$g(\mu)$", _peak(sigma), hide=quiz)
+        art.line([(left, y), (left + 22, y)], _INKS[number], 1.4, dashes=_DASHES[number],
+                 part=f"legend-{number}")  # fmt: skip
+        art.label((left + 28, y), rf"$\sigma$ = {format_given(sigma)},   {density}", "l", 9.5)
 
 
 def _probability(values: Values) -> float:
@@ -208,35 +178,34 @@ def _event(values: Values) -> str:
     mu, width = values["mu"], values["k"] * values["sigma"]
     if abs(values["tails"]) == 1:
         side = ">" if values["tails"] == 1 else "<"
-        return f"n {side} {given(mu + values['tails'] * width)}"
-    shift = f" {'−' if mu > 0 else '+'} {given(abs(mu))}" if mu else ""
-    return f"|n{shift}| {'>' if values['tails'] else '≤'} {given(width)}"
+        return f"$n$ {side} {format_given(mu + values['tails'] * width)}"
+    shift = f" {'−' if mu > 0 else '+'} {format_given(abs(mu))}" if mu else ""
+    return f"|$n${shift}| {'>' if values['tails'] else '≤'} {format_given(width)}"
 
 
-def _probability_text(values: Values, *, quiz: bool) -> str:
-    return equation(f"P({_event(values)})", 100 * _probability(values), "%", hide=quiz)
+def _format_probability(values: Values, *, quiz: bool) -> str:
+    return format_equation(f"$P$({_event(values)})", 100 * _probability(values), "%", hide=quiz)
 
 
-def _probability_label(pen: Pen, values: Values, *, quiz: bool) -> None:
+def mark(fig: Any, values: Values, marks: Values) -> None:
+    """Draw a learner's values: ``peak``, the density at the mean, and ``share`` in percent.
 
-    text = _probability_text(values, quiz=quiz)
-    width = text_width(text, 10)
-    lower = values["tails"] == -1
-    left, y = (_LEFT + 4, 123.0) if lower else (WIDTH - 4 - width, 112.0)
-    if not lower and left < 194:  # too wide to stand beside the curve
-        y = 153.0
-    pen.label((left, y), text, "l", 10)
-    x, top = _place(values, values["sigma"], _inside(values))
-    foot = (x, _BASE + 0.45 * (top - _BASE))
-    pen.line("leader", [(left + width * (0.25 if lower else 0.5), y - 8), foot], THIN)
-    pen.dot("leader-end", foot, 1.4)
-
-
-def _inside(values: Values) -> float:
-    """Find a place in the shaded area, in standard deviations."""
-    if values["tails"] == 0:
-        return 0.6 * min(values["k"], 1.5)
-    return (values["k"] + 0.3) * (-1 if values["tails"] == -1 else 1)
+    A share stands where tails of that size, on the shaded sides, would begin.
+    """
+    if "peak" in marks:
+        left, height = _left_end(values), _PEAK * marks["peak"] / _peak(values["sigma"])
+        box = (left, 0.0, 2 * _MIDDLE, _PEAK + 12)
+        text = rf"$g(\mu)$ = {format_learned(marks['peak'])}"
+        mark_point(fig, box, (left, height), text, side=-1)
+    if "share" in marks:
+        share, tails = min(max(marks["share"] / 100, 1e-9), 1 - 1e-9), int(values["tails"])
+        above = {0: (1 - share) / 2, 2: share / 2}.get(tails, share)
+        u = NormalDist().inv_cdf(1 - above) * (-1 if tails == -1 else 1)
+        x, y = _place(u)
+        # Beside the probability a low line, above it a high one.
+        top = 22.0 if abs(u) > 1.75 else max(0.63 * _PEAK, y + 8)
+        box = (0.0, 0.0, 2 * _MIDDLE, top)
+        mark_place(fig, box, x, f"{format_learned(marks['share'])} %")
 
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
@@ -244,19 +213,22 @@ def alt(values: Values, lang: str, *, quiz: bool) -> str:
 
     In a quiz, leave the density at the mean and the probability out.
     """
-    words = words_of(__file__, lang)
+    words = load_alt_words(__file__, lang)
+    sigmas = _list_sigmas(values)
     text = words["figure"].format(
-        mu=given(values["mu"]), sigmas=words["and"].join(given(s) for s in _sigmas(values))
+        mu=format_given(values["mu"]), sigmas=words["and"].join(map(format_given, sigmas))
     )
     if values["k"]:
-        text += words["marks"].format(k=given(values["k"]), event=_event(values))
+        event = strip_mathtext(_event(values))
+        text += words["marks"].format(k=format_given(values["k"]), event=event)
     if quiz:
         return text
-    for sigma in _sigmas(values):
+    for sigma in sigmas:
         peak = _peak(sigma)
         text += words["peak"].format(
-            sigma=given(sigma), relation=relation(peak), peak=derived(peak)
+            sigma=format_given(sigma), relation=relation_sign(peak), peak=format_derived(peak)
         )
     if values["k"]:
-        text += words["area"].format(area=spoken(_probability_text(values, quiz=False)))
+        area = strip_mathtext(_format_probability(values, quiz=False))
+        text += words["area"].format(area=area)
     return text

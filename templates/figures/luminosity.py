@@ -2,30 +2,26 @@
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, lru_cache
 from math import log10
+from typing import Any
 
+import numpy as np
+
+from quizgen.arrays.hsv import to_rgb
+from quizgen.arrays.luminosity import DAY, NIGHT, efficiency
 from quizgen.figures.kit import (
     ABSENT,
-    BOLD,
-    DASHED,
-    DOTTED,
-    LINE,
-    THIN,
-    WIDTH,
-    Canvas,
     Parameter,
-    Pen,
-    Point,
     Values,
-    derived,
-    given,
+    format_derived,
+    format_given,
+    load_alt_words,
     require,
-    spoken,
-    words_of,
+    strip_mathtext,
 )
 
-DARK = "keep"
+from ._plots import format_learned, mark_point
 
 PARAMETERS = {
     "m_1": Parameter("nm", "first marked wavelength", ABSENT, 380.0, 780.0),
@@ -33,140 +29,136 @@ PARAMETERS = {
     "night": Parameter("", "1 marks V' instead of V", 0.0, 0.0, 1.0, whole=True),
     "log": Parameter("", "1 for a logarithmic axis from 0.0001", 0.0, 0.0, 1.0, whole=True),
 }
+SIZE = (268.0, 128.0)
 
 FIRST, LAST = 380.0, 780.0
-_LEFT, _RIGHT, _LOW, _HIGH = 34.0, 300.0, 36.0, 160.0
-_DECADES = 4
-_TICKS = range(400, 800, 50)
+_FLOOR = 1e-4  # of the logarithmic axis
+_LEVELS = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
+_DECADES = range(-4, 1)
+_FINE = [decade + log10(digit) for decade in _DECADES[:-1] for digit in range(2, 10)]
+_NAMED = {0: (606.0, 457.0), 1: (692.0, 622.0)}  # nm where V and V' are named, by the axis
 
 
-def _x(wavelength: float) -> float:
-    return _LEFT + (_RIGHT - _LEFT) * (wavelength - FIRST) / (LAST - FIRST)
-
-
-def _y(value: float, *, logarithmic: bool) -> float:
-    share = max(0.0, 1.0 + log10(value) / _DECADES) if logarithmic else value
-    return _LOW + (_HIGH - 14.0 - _LOW) * share
-
-
-def marks(values: Values) -> tuple[float, ...]:
+def list_marks(values: Values) -> tuple[float, ...]:
     """Marked wavelengths in nm."""
     return tuple(values[name] for name in ("m_1", "m_2") if name in values)
 
 
-def read(wavelength: float, *, night: bool) -> float:
+@lru_cache(256)
+def read_efficiency(wavelength: float, *, night: bool) -> float:
     """V or V' at a wavelength in nm."""
-    from quizgen.arrays.luminosity import DAY, NIGHT, efficiency
-
     return float(efficiency(wavelength, NIGHT if night else DAY))
 
 
-def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
-    """Draw the figure; in a quiz, leave out the values at the marks."""
-    apart = len(marks(values)) < 2 or abs(values["m_1"] - values["m_2"]) >= 5
-    require("luminosity", apart, "m_1 and m_2 must be at least 5 nm apart")
-    told = bool(marks(values)) and not quiz
-    pen = Pen(height=186.0 if told else 168.0)
-    log = bool(values["log"])
-    _axes(canvas, pen, logarithmic=log)
-    for night in (True, False):
-        _curve(pen, night=night, logarithmic=log)
-    for place, wavelength in enumerate(marks(values)):
-        _mark(pen, values, place, wavelength, told=told)
-        if told:
-            pen.label((WIDTH * (0.3 + 0.4 * place), 177), _reading(values, place, wavelength))
-    pen.onto(canvas, background="#ffffff")  # a dark page would turn the spectrum round
-
-
-def _axes(canvas: Canvas, pen: Pen, *, logarithmic: bool) -> None:
-
-    canvas.picture(_strip(), (_LEFT, _LOW - 9, _RIGHT - _LEFT, 8))
-    pen.line("axes", [(_LEFT, _HIGH), (_LEFT, _LOW), (_RIGHT, _LOW)], LINE)
-    for wavelength in _TICKS:
-        x = _x(wavelength)
-        pen.line("ticks", [(x, _LOW), (x, _LOW - 12)], THIN)
-        pen.label((x, _LOW - 18), str(wavelength), size=9)
-    pen.label((_RIGHT, 7), "λ / {nm}", "r", 9.5)
-    for value in _levels(logarithmic=logarithmic):
-        y = _y(value, logarithmic=logarithmic)
-        pen.line("ticks", [(_LEFT - 4, y), (_LEFT, y)], THIN)
-        pen.label((_LEFT - 6, y), given(value), "r", 8 if logarithmic else 9)
-
-
-def _levels(*, logarithmic: bool) -> tuple[float, ...]:
-    return (0.0001, 0.001, 0.01, 0.1, 1.0) if logarithmic else (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
+@cache
+def _curve(night: bool, logarithmic: bool) -> Any:
+    """Points of a curve; on a logarithmic axis it leaves through the floor."""
+    grid = np.linspace(FIRST, LAST, 161)
+    heights = np.asarray(efficiency(grid, NIGHT if night else DAY), float)
+    if logarithmic:
+        seen = heights >= _FLOOR
+        grid, heights = grid[seen], np.log10(heights[seen])
+    return np.column_stack([grid, heights])
 
 
 @cache
-def _strip() -> bytes:
+def _spectrum() -> Any:
     """Colours of the spectrum, one column every 4 nm: each pure hue with the brightness at its end.
 
     Hues run from violet (270 degrees, 400 nm) over blue 460, green 530 and yellow 580 to red 640.
     """
-    import numpy as np
-
-    from quizgen.arrays.hsv import to_rgb
-    from quizgen.png import encode
-
     places = np.arange(FIRST, LAST, 4.0)
     hues = np.interp(places, [400, 460, 490, 530, 580, 640], [270, 240, 180, 120, 60, 0])
     fades = np.interp(places, [FIRST, 430, 680, LAST], [0.35, 1, 1, 0.35])
     row = np.stack(to_rgb(hues, 1.0, fades), axis=-1)
-    return encode(np.round(row[None] * 255).astype(np.uint8))
+    return np.round(row[None] * 255).astype(np.uint8)
 
 
-@cache
-def _points(night: bool, logarithmic: bool) -> tuple[Point, ...]:
-    from quizgen.arrays.luminosity import DAY, NIGHT, efficiency
-
-    grid = [FIRST + 2.5 * step for step in range(161)]
-    heights = efficiency(grid, NIGHT if night else DAY)
-    # A logarithmic curve leaves through the floor of the axis: nothing is drawn along it.
-    return tuple(
-        (_x(x), _y(float(v), logarithmic=logarithmic))
-        for x, v in zip(grid, heights, strict=True)
-        if not logarithmic or v >= 10.0**-_DECADES
-    )
+def _height(values: Values, efficiency_there: float) -> float:
+    """Where a height stands on the upright axis."""
+    return log10(max(efficiency_there, 1e-9)) if values["log"] else efficiency_there
 
 
-def _curve(pen: Pen, *, night: bool, logarithmic: bool) -> None:
-
-    pen.line("night" if night else "day", _points(night, logarithmic), DASHED if night else BOLD)
-    beside = _NAMED[logarithmic][night]
-    y = _y(read(beside, night=night), logarithmic=logarithmic)
-    pen.label((_x(beside) + (-5 if night else 5), y), "V'" if night else "V", "r" if night else "l")
-
-
-_NAMED = {False: {True: 458.0, False: 604.0}, True: {True: 404.0, False: 690.0}}
-"""Where the curves are named: logarithmic, then night, to a wavelength on the outer slope."""
-
-
-def _mark(pen: Pen, values: Values, place: int, wavelength: float, *, told: bool) -> None:
-    """A mark from the axis to the name; a dot on the curve would say which one is to be read."""
-    x = _x(wavelength)
-    y = _y(read(wavelength, night=bool(values["night"])), logarithmic=bool(values["log"]))
-    if told:
-        pen.line("marks", [(x, _LOW), (x, y)], THIN)
-        pen.dot("marks", (x, y), 2.6)
-    pen.line("marks", [(x, y if told else _LOW), (x, _HIGH - 8)], DOTTED)
-    pair = marks(values)
-    near = len(pair) == 2 and abs(_x(pair[0]) - _x(pair[1])) < 18
-    side = "c" if not near else "r" if wavelength == min(pair) else "l"
-    shift = {"c": 0, "r": 2, "l": -2}[side]
-    pen.label((x + shift, _HIGH - 1), f"λ_{place + 1}", side, 10)
+def draw(ax: Any, values: Values, *, quiz: bool) -> None:
+    """Draw the figure; in a quiz, leave out the values at the marks."""
+    marks = list_marks(values)
+    apart = len(marks) < 2 or abs(marks[0] - marks[1]) >= 5
+    require("luminosity", apart, "m_1 and m_2 must be at least 5 nm apart")
+    _draw_axes(ax, logarithmic=bool(values["log"]))
+    art = ax.figure.sketch(ax)
+    for night, ink in ((True, "blue"), (False, "ink")):
+        line = _curve(night, bool(values["log"]))
+        art.line(line, ink, 1.2 if night else 1.6, dashes=(5, 2.2) if night else None,
+                 part="night" if night else "day")  # fmt: skip
+        at = _NAMED[int(values["log"])][night]
+        y = _height(values, read_efficiency(at, night=night))
+        side = -1 if night and not values["log"] else 1
+        art.label((at, y), "$V'$" if night else "$V$", "l" if side > 0 else "r", 11, ink,
+                  shift=(5 * side, 2))  # fmt: skip
+    _draw_marks(ax, art, values, told=not quiz)
 
 
-def _reading(values: Values, place: int, wavelength: float) -> str:
+def _draw_axes(ax: Any, *, logarithmic: bool) -> None:
+    ax.set(xlim=(FIRST, LAST), ylim=(-4, 0.6) if logarithmic else (0, 1.15))
+    ax.set_xlabel(r"$\lambda$ / nm")
+    ax.set_ylabel(r"$V(\lambda)$,  $V'(\lambda)$")
+    ax.set_xticks(range(400, 800, 50))
+    if logarithmic:
+        ax.set_yticks(_DECADES, [f"$10^{{{d}}}$" if d else "1" for d in _DECADES])
+        ax.set_yticks(_FINE, minor=True)
+        ax.tick_params(axis="y", labelsize=10)  # its exponents are smaller
+    else:
+        ax.set_yticks(_LEVELS, map(format_given, _LEVELS))
+    ax.grid(axis="y")
+    ax.tick_params(axis="x", pad=9.5)
+    box = ax.bbox
+    ax.figure.picture(_spectrum(), (box.x0, box.y0 - 9, box.width, 5.5), gid="spectrum")
+
+
+def _draw_marks(ax: Any, art: Any, values: Values, *, told: bool) -> None:
+    """Marks from the axis up; a dot on the curve would say which one is to be read."""
+    night, (low, high), marks = bool(values["night"]), ax.get_ylim(), list_marks(values)
+    top = high - 0.1 * (high - low)
+    near = len(marks) == 2 and abs(marks[0] - marks[1]) < 30
+    for number, at in enumerate(marks):
+        y = _height(values, read_efficiency(at, night=night))
+        art.line([(at, low), (at, top)], "red", 0.8, dashes=(1.4, 1.6), part="marks")
+        align = "c" if at > FIRST + 8 else "l"  # beside the axis
+        if near:
+            align = "r" if at == min(marks) else "l"
+        shift = {"c": 0, "r": -0.5, "l": 2.5}[align]
+        name = rf"$\lambda_{number + 1}$"
+        art.label((at, top), name, align, 10, "red", shift=(shift, 6), part="mark-names")
+        if told and y >= low:
+            art.line([(FIRST, y), (at, y)], "red", 0.6, dashes=(1.4, 1.6), part="marks")
+            art.dot((at, y), 2.3, "red", part="marks")
+    if told and marks:
+        text = ",   ".join(_reading(values, *mark) for mark in enumerate(marks))
+        art.label((LAST, high), text, "r", 10, "red", shift=(0, 11.5), part="readings")
+
+
+def _reading(values: Values, number: int, wavelength: float) -> str:
     night = bool(values["night"])
-    name = "V'" if night else "V"
-    return f"{name}(λ_{place + 1}) ≈ {derived(read(wavelength, night=night))}"
+    value = format_derived(read_efficiency(wavelength, night=night))
+    return rf"${'V' + chr(39) * night}(\lambda_{number + 1})$ ≈ {value}"
+
+
+def mark(ax: Any, values: Values, marks: Values) -> None:
+    """Draw a learner's heights ``V_1`` and ``V_2`` of the marked curve at the marks."""
+    x0, y0, x1, y1 = ax.bbox.extents
+    for number, at in enumerate(list_marks(values), 1):
+        if (value := marks.get(f"V_{number}")) is not None:
+            point = ax.transData.transform((at, _height(values, value)))
+            mark_point(ax.figure, (x0, y0, x1, y1), tuple(point), format_learned(value))
 
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words; in a quiz, leave out the values at the marks."""
-    words = words_of(__file__, lang)
-    told = [words["log" if values["log"] else "figure"] + words["seen" if quiz else "curves"]]
-    for place, wavelength in enumerate(marks(values)):
-        text = f"λ_{place + 1} = {given(wavelength)} nm"
-        told.append(text if quiz else f"{text}, {spoken(_reading(values, place, wavelength))}")
-    return told[0] + ("".join(f" {text}{words['stop']}" for text in told[1:]))
+    words = load_alt_words(__file__, lang)
+    text = words["log" if values["log"] else "figure"] + words["seen" if quiz else "curves"]
+    for number, wavelength in enumerate(list_marks(values)):
+        text += f" λ_{number + 1} = {format_given(wavelength)} nm"
+        if not quiz:
+            text += f", {strip_mathtext(_reading(values, number, wavelength))}"
+        text += words["stop"]
+    return text

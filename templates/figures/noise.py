@@ -2,26 +2,17 @@
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, lru_cache
 from itertools import permutations
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from quizgen.figures.kit import (
-    WIDTH,
-    Canvas,
-    Parameter,
-    Pen,
-    Values,
-    given,
-    numbered,
-    spoken,
-    words_of,
-)
+from quizgen.figures.kit import Parameter, Values, format_given, load_alt_words, strip_mathtext
 
 if TYPE_CHECKING:
-    from quizgen.camera.scene import Image
+    import numpy as np
+    from numpy.typing import NDArray
 
-DARK = "keep"
+    from quizgen.camera.scene import Image
 
 PARAMETERS = {
     "sigma": Parameter("1", "standard deviation of the Gaussian noise, 1 = white", 0.08, 0.01, 0.3),
@@ -33,13 +24,15 @@ PARAMETERS = {
 }
 
 KINDS = ("clean", "gaussian", "impulse")
-BINS = 52
-_WIDE, _HIGH = 96, 72
-_GAP, _CAPTION, _ZOOM, _HISTOGRAM, _TICKS = 6.0, 15.0, 48.0, 42.0, 13.0
+BINS = 64
+_PIXELS = (96, 72)
 _DETAIL = (slice(26, 38), slice(30, 54))
+_WIDE, _HIGH, _GAP = 92.0, 69.0, 18.0
+_FOOT, _BARS, _BETWEEN, _ZOOM = 14.0, 42.0, 18.0, 46.0
+SIZE = (3 * _WIDE + 2 * _GAP, _FOOT + _BARS + _BETWEEN + _ZOOM + 9 + _HIGH + 14)
 
 
-def noise_order(order: float) -> tuple[str, ...]:
+def order_noises(order: float) -> tuple[str, ...]:
     """Which picture has number 1, 2 and 3.
 
     Parameters
@@ -51,7 +44,7 @@ def noise_order(order: float) -> tuple[str, ...]:
 
 
 @cache
-def scene() -> Image:
+def take_photo() -> Image:
     """Four flat greys, shape (72, 96, 3): noise shows in the histogram as what it does to each."""
     from quizgen.camera import Camera, Length, Scene, Thing, simulate
     from quizgen.camera.filters import everywhere_alike
@@ -66,50 +59,64 @@ def scene() -> Image:
               colour=grey(0.8)),
     )  # fmt: skip
     with everywhere_alike():
-        return simulate(Scene(_WIDE, _HIGH, things, background=grey(0.6)), Camera()).values
+        return simulate(Scene(*_PIXELS, things, background=grey(0.6)), Camera()).values
 
 
-def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
-    """Draw the figure; in a quiz, show numbers without the noise."""
+@lru_cache(maxsize=32)
+def _take_noisy(sigma: float, p: float, seed: int) -> dict[str, NDArray[np.uint8]]:
     from quizgen.camera import pictures
 
-    wide = (WIDTH - 4 * _GAP) / 3
-    high = wide * _HIGH / _WIDE
-    pen = Pen(WIDTH, _TICKS + _HISTOGRAM + _ZOOM + high + 2 * _GAP + _CAPTION + 2)
-    made = pictures.noisy(scene(), values["sigma"], values["p"], int(values["seed"]))
-    for place, kind in enumerate(noise_order(values["order"])):
-        left = _GAP + place * (wide + _GAP)
-        _column(canvas, pen, made[KINDS.index(kind)], (left, wide, high))
-        text = numbered(place + 1, _symbols(values, kind), quiz=quiz)
-        pen.label((left + wide / 2, pen.height - 8), text, size=9.5)
-    pen.onto(canvas, background="#ffffff")
-
-
-def _column(canvas: Canvas, pen: Pen, image: Image, where: tuple[float, float, float]) -> None:
-    from quizgen.camera import pictures
-    from quizgen.figures.photographs import histogram, place
-
-    left, wide, high = where
-    codes = pictures.codes(image)[..., 0]
-    low = _TICKS + _HISTOGRAM + _GAP
-    place(canvas, pen, codes[_DETAIL].repeat(4, axis=0).repeat(4, axis=1), (left, low, wide, _ZOOM))
-    place(canvas, pen, codes, (left, low + _ZOOM + _GAP, wide, high))
-    histogram(pen, codes, BINS, (left, _TICKS, wide, _HISTOGRAM))
-
-
-def _symbols(values: Values, kind: str) -> str:
+    made = pictures.noisy(take_photo(), sigma, p, seed)
     return {
-        "clean": "σ = 0, p = 0",
-        "gaussian": f"σ = {given(values['sigma'])}",
-        "impulse": f"p = {given(values['p'])}",
+        kind: pictures.codes(image)[..., 0] for kind, image in zip(KINDS, made, strict=True)
+    }  # fmt: skip
+
+
+def draw(fig: Any, values: Values, *, quiz: bool) -> None:
+    """Draw the figure; in a quiz, show numbers without the noise."""
+    from quizgen.figures.photographs import place_photo, plot_histogram
+
+    photos = _take_noisy(values["sigma"], values["p"], int(values["seed"]))
+    art = fig.sketch()
+    for place, kind in enumerate(order_noises(values["order"])):
+        left, low, codes = place * (_WIDE + _GAP), _FOOT, photos[kind]
+        plot_histogram(fig, codes, BINS, (left, low, _WIDE, _BARS))
+        low += _BARS + _BETWEEN
+        place_photo(fig, codes[_DETAIL], (left, low, _WIDE, _ZOOM))
+        up = low + _ZOOM + 9
+        told = "" if quiz else _write_noise(values, kind)
+        box = (left, up, _WIDE, _HIGH)
+        place_photo(fig, codes, box, number=place + 1, told=told)
+        _frame_detail(art, box, low + _ZOOM)
+    art.set_zorder(4)
+
+
+def _frame_detail(art: Any, box: tuple[float, float, float, float], top: float) -> None:
+    """Mark in a photograph what stands enlarged below it."""
+    left, low, wide, high = box
+    step = wide / _PIXELS[0]
+    rows, columns = _DETAIL
+    west, east = left + step * columns.start, left + step * columns.stop
+    foot, head = low + high - step * rows.stop, low + high - step * rows.start
+    art.area([(west, foot), (east, foot), (east, head), (west, head)], None, "red", 0.7,
+             part="detail")  # fmt: skip
+    for start, end in ((west, left), (east, left + wide)):
+        art.line([(start, foot), (end, top)], "red", 0.5, part="detail")
+
+
+def _write_noise(values: Values, kind: str) -> str:
+    return {
+        "clean": "$σ$ = 0, $p$ = 0",
+        "gaussian": f"$σ$ = {format_given(values['sigma'])}",
+        "impulse": f"$p$ = {format_given(values['p'])}",
     }[kind]
 
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words; in a quiz, say what is seen, not which noise it is."""
-    words = words_of(__file__, lang)
+    words = load_alt_words(__file__, lang)
     told = []
-    for number, kind in enumerate(noise_order(values["order"]), 1):
-        seen = words[f"{kind} seen"] if quiz else f"{words[kind]}, {spoken(_symbols(values, kind))}"
-        told.append(f"{number}: {seen}")
+    for number, kind in enumerate(order_noises(values["order"]), 1):
+        amount = strip_mathtext(_write_noise(values, kind))
+        told.append(f"{number}: " + (words[f"{kind} seen"] if quiz else f"{words[kind]}, {amount}"))
     return words["figure"] + " " + "; ".join(told) + words["stop"]

@@ -2,26 +2,21 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from math import ceil, floor
+from typing import Any
 
 from quizgen.figures.kit import (
-    BOLD,
-    DOTTED,
-    GREY,
-    LINE,
-    THIN,
-    Canvas,
     Parameter,
-    Pen,
-    Point,
     Values,
-    derived,
-    equation,
-    given,
-    words_of,
+    format_derived,
+    format_equation,
+    format_given,
+    load_alt_words,
+    strip_mathtext,
 )
 
-DARK = "invert"
+from ._plots import trace_lines
 
 PARAMETERS = {
     "n": Parameter("", "number of levels", low=2.0, high=16.0, whole=True),
@@ -29,77 +24,79 @@ PARAMETERS = {
         "", "0 nearest, 1 down, 2 down by n equal parts, 3 up", 0.0, 0.0, 3.0, whole=True
     ),
 }
+SIZE = (262.0, 116.0)
 
-_LEFT, _RIGHT, _LOW, _HIGH = 30.0, 296.0, 30.0, 168.0
 _RULES = (
     lambda value, n: floor(value * (n - 1) + 0.5),
     lambda value, n: floor(value * (n - 1)),
     lambda value, n: min(floor(value * n), n - 1),
     lambda value, n: ceil(value * (n - 1)),
 )
+_MOST = 64  # levels of a learner that can still be drawn
 
 
-def code(value: float, values: Values) -> int:
+def find_code(value: float, values: Values) -> int:
     """Code of an intensity in [0, 1]."""
     return _RULES[int(values["rule"])](value, int(values["n"]))
 
 
-def jumps(values: Values) -> list[float]:
+def list_jumps(values: Values) -> list[float]:
     """Intensities at which the code rises by 1."""
     n = int(values["n"])
     first, parts = ((0.5, n - 1), (1.0, n - 1), (1.0, n), (0.0, n - 1))[int(values["rule"])]
     return [(first + k) / parts for k in range(n - 1)]
 
 
-def _at(value: float, level: float, n: int) -> Point:
-    share = level / (n - 1)
-    return _LEFT + (_RIGHT - _LEFT) * value, _LOW + (_HIGH - 14.0 - _LOW) * share
-
-
-def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
+def draw(ax: Any, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, leave out the line without steps, n and the step."""
-    n = int(values["n"])
-    pen = Pen(height=182.0)
-    _axes(pen, n)
+    n, jumps = int(values["n"]), list_jumps(values)
+    ax.set(xlim=(0, 1), ylim=(0, 1.12 * (n - 1)))
+    tenths = [tenth / 10 for tenth in range(11)]
+    ax.set_xticks(tenths, map(format_given, tenths))
+    ax.set_yticks(range(n), ["0", *[""] * (n - 1)])  # how many there are is asked
+    ax.grid()
+    ax.set_xlabel("$I$")
+    ax.set_ylabel("$k$")
+    art = ax.figure.sketch(ax)
     if not quiz:
-        pen.line("line", [_at(0, 0, n), _at(1, n - 1, n)], DOTTED)
-        pen.label((_LEFT + 20, _HIGH), f"n = {n}", "l")
-        pen.label((_LEFT + 90, _HIGH), equation("Δ", 1 / (n - 1)), "l")
-    start = 0.0
-    for level, jump in enumerate([*jumps(values), 1.0]):
-        if jump > start:
-            pen.line("staircase", [_at(start, level, n), _at(jump, level, n)], BOLD)
-        if level < n - 1:
-            pen.line("rises", [_at(jump, level, n), _at(jump, level + 1, n)], DOTTED)
-        start = jump
-    if not jumps(values)[0]:
-        pen.dot("staircase", _at(0, 0, n))
-    if jumps(values)[-1] == 1:
-        pen.dot("staircase", _at(1, n - 1, n))
-    pen.onto(canvas)
+        art.line([(0, 0), (1, n - 1)], "red", 0.8, dashes=(1.2, 1.8), part="line")
+        text = f"$n$ = {n},   {format_equation('$Δ$', 1 / (n - 1))}"
+        art.label((0, 1.12 * (n - 1)), text, "l", 10, "red", shift=(28, 11.5), part="answer")
+    rises = [[(jump, level), (jump, level + 1)] for level, jump in enumerate(jumps)]
+    treads = _list_treads(jumps, 1.0)
+    art.shape(trace_lines(rises), None, "blue", 0.4, part="rises")
+    art.shape(trace_lines(treads), None, "blue", 1.8, part="staircase")
+    for at, level in ((0, 0), (1, n - 1)):
+        if at in jumps:  # a tread of a single point
+            art.dot((at, level), 2.2, "blue", part="staircase")
 
 
-def _axes(pen: Pen, n: int) -> None:
+def _list_treads(jumps: list[float], rise: float) -> list[list[tuple[float, float]]]:
+    """Ends of the treads, each so much higher than the one before."""
+    ends = enumerate(pairwise([0.0, *jumps, 1.0]))
+    return [[(a, level * rise), (b, level * rise)] for level, (a, b) in ends if b > a]
 
-    for tenth in range(11):
-        x = _at(tenth / 10, 0, n)[0]
-        pen.line("grid", [(x, _LOW), (x, _HIGH - 14)], GREY)
-        pen.label((x, _LOW - 11), given(tenth / 10), size=9)
-    for level in range(n):
-        y = _at(0, level, n)[1]
-        pen.line("ticks", [(_LEFT - 4, y), (_LEFT, y)], THIN)
-    pen.label((_LEFT - 7, _LOW), "0", "r", 9)
-    pen.line("axes", [(_LEFT, _HIGH), (_LEFT, _LOW), (_RIGHT + 6, _LOW)], LINE)
-    pen.label((_LEFT - 7, _HIGH - 3), "k", "r")
-    pen.label((_RIGHT, 7), "I", "r")
+
+def mark(ax: Any, values: Values, marks: Values) -> None:
+    """Draw the staircase of a learner's ``n`` or ``Delta`` over the same range of intensities."""
+    wanted = marks["n"] if "n" in marks else 1 + 1 / max(marks["Delta"], 1e-3)
+    n = min(max(round(wanted), 2), _MOST)
+    jumps = list_jumps({**values, "n": n})
+    treads = _list_treads(jumps, (values["n"] - 1) / (n - 1))
+    art = ax.figure.sketch(ax, zorder=6)
+    art.line([end for tread in treads for end in tread], "gold", 1.1, part="learned")
+    name, value = ("n", marks["n"]) if "n" in marks else ("Δ", marks["Delta"])
+    art.label((1, 1.12 * (values["n"] - 1)), f"${name}$ = {format_derived(value)}", "r", 10,
+              "gold", shift=(0, 11.5), part="learned")  # fmt: skip
 
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words; in a quiz, leave out n and the step."""
-    words = words_of(__file__, lang)
-    at = ", ".join(derived(round(jump, 3)) for jump in jumps(values))
+    words = load_alt_words(__file__, lang)
+    at = ", ".join(format_derived(round(jump, 3)) for jump in list_jumps(values))
     told = words["figure"].format(jumps=at) + words[f"ends {int(values['rule'])}"]
     if quiz:
         return told
     n = int(values["n"])
-    return told + words["answer"].format(n=n, step=equation("Δ", 1 / (n - 1)))
+    step = strip_mathtext(format_equation("Δ", 1 / (n - 1)))
+    return told + words["answer"].format(n=n, step=step)

@@ -61,25 +61,20 @@ A block of {{ m }} shall be accelerated by {{ a }}.
 $F/m$ is $a$ again.
 """,
     "templates/figures/block.py": """
-from quizgen.figures.kit import BOLD, Canvas, Parameter, Pen, Values, equation
+from quizgen.figures.kit import Parameter, format_equation
 
-DARK = "invert"
-PARAMETERS = {
-    "m": Parameter("kg", "mass", low=0.0),
-    "F": Parameter("N", "force", low=0.0),
-}
+SIZE = (250, 60)
+PARAMETERS = {"m": Parameter("kg", "mass", low=0.0), "F": Parameter("N", "force", low=0.0)}
 
 
-def draw(canvas: Canvas, values: Values, *, quiz: bool) -> None:
-    pen = Pen(height=60.0)
-    pen.area("block", [(120, 10), (180, 10), (180, 50), (120, 50)], BOLD)
-    pen.arrow("force", (180, 30), (250, 30))
-    pen.label((215, 42), equation("F", values["F"], "N", hide=quiz))
-    pen.onto(canvas)
+def draw(fig, values, *, quiz):
+    sketch = fig.sketch()
+    sketch.area([(90, 10), (150, 10), (150, 50), (90, 50)], "shade", "ink")
+    sketch.arrow((150, 30), (220, 30), "red", 1.4)
+    sketch.label((185, 42), format_equation("$F$", values["F"], "N", hide=quiz))
 
 
-def alt(values: Values, lang: str, *, quiz: bool) -> str:
-    del lang
+def alt(values, lang, *, quiz):
     force = "of unknown size" if quiz else f"of {values['F']:g} N"
     return f"A block of {values['m']:g} kg, pushed by a force {force}."
 """,

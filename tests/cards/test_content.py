@@ -305,10 +305,10 @@ def test_a_chain_in_a_sentence_is_not_read_as_a_conjunction():
 
 
 def test_every_figure_card_draws_and_hides_its_answer():
-    from quizgen.figures import render
+    from quizgen.figures import draw_figure
 
     for entry in entries("figures"):
         figure = BANK.figure(entry.figure)
-        quiz, full = (render(figure, entry.values, quiz=quiz, lang="en") for quiz in (True, False))
-        assert quiz.svg
+        quiz, full = (draw_figure(figure, entry.values, quiz=quiz, lang="en") for quiz in (True, False))
+        assert quiz.inline_svg
         assert quiz.alt != full.alt

@@ -47,7 +47,6 @@ def test_no_command_from_making_a_paper_to_marking_it_loads_sympy(place):
 @pytest.mark.parametrize("command", [
     "practice --topic code --seed 3 --database sqlite:///learnt.sqlite3",
     "templates",
-    "sheet --topic eye --format html --out sheet",
 ])  # fmt: skip
 def test_who_draws_no_figure_loads_nothing_to_draw_with(place, command):
     assert not ({"sympy"} | DRAWING) & loaded(place, command, typed="5\n")
@@ -61,6 +60,12 @@ def test_who_draws_no_figure_loads_nothing_to_draw_with(place, command):
 ])  # fmt: skip
 def test_no_command_loads_sympy_or_matplotlib(place, command):
     assert not {"sympy", "matplotlib"} & loaded(place, command)
+
+
+def test_a_formula_sheet_loads_what_its_sketches_are_drawn_with_but_no_sympy(place):
+    made = loaded(place, "sheet --topic eye --format html --out sheet")
+    assert "matplotlib" in made
+    assert not {"sympy", "matplotlib.pyplot", "typst"} & made
 
 
 def test_a_photograph_loads_what_its_effects_need(place):

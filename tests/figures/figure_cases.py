@@ -8,7 +8,6 @@ import random
 from quizgen import figures
 from quizgen.bank.folder import builtin
 from quizgen.bank.solvers import module_of
-from quizgen.figures import _letters
 
 FIGURES = builtin().figures
 FOLDER = builtin().folder / "figures"
@@ -19,9 +18,9 @@ def module(name):
     return module_of(FOLDER, name) if name.startswith("_") else builtin().figure(name)
 
 
-def render(name, values, **wanted):
+def draw(name, values, *, quiz=False, lang="en", marks=None):
     """A figure by its name."""
-    return figures.render(module(name), values, **wanted)
+    return figures.draw_figure(module(name), values, quiz=quiz, lang=lang, marks=marks)
 
 
 MOSAIC = {
@@ -53,7 +52,21 @@ REFERENCE = {
     "fall_off": {"f": 20, "r": 15},
     "staircase": {"n": 8},
     "grey_edits": {"n": 8, "low": 70, "high": 180, "s": 60, "order": 9},
-}
+    "field_of_view": {"W": 36, "H": 24, "f": 50, "Z": 10},
+    "rolling_shutter_skew": {"v": 500, "t_r": 20, "n": 1000},
+    "pixel_grid": {"W": 640, "H": 480, "o_x": 310, "o_y": 250, "u": 430, "v": 170},
+    "vanishing_point": {
+        "f": 500, "W": 640, "H": 480, "o_x": 320, "o_y": 240, "a": (-2, 2, 4), "d": (1, 2, 4),
+    },
+    "ccd_streak": {"F": 20000, "Q": 200000, "b": 2000, "h": 3, "t": 10, "t_r": 5},
+    "reflectance_spectra": {
+        "L_r": 0.8, "L_g": 0.5, "L_b": 1, "R_r": 0.9, "R_g": 0.3, "R_b": 0.6,
+    },
+    "gaussian_contours": {"covariances": ((4, 0, 9),), "x": 1, "y": 2},
+    "imaging_pipeline": {},
+    "bayer_counts": {"W": 5, "H": 5},
+    "formula_sketch": {"formula": 5},
+}  # fmt: skip
 
 HIDDEN = {
     # what a question asks for, as the normal figure prints it: 5 * 2/3, curriculum C13, D17a, S14
@@ -74,6 +87,16 @@ HIDDEN = {
     "fall_off": ["0.4096"],
     "staircase": ["0.1429"],
     "grey_edits": ["≤", "…"],
+    "field_of_view": ["39.6", "46.79", "7.2"],  # tan(α/2) = 36/100, 10·36/50
+    "rolling_shutter_skew": ["10 px", "0.5729"],
+    "pixel_grid": ["430", "170", "120"],
+    "vanishing_point": ["445", "490"],  # 320 + 500/4, 240 + 500·2/4
+    "ccd_streak": ["30", "300"],
+    "reflectance_spectra": ["0.72", "0.15"],
+    "gaussian_contours": ["0.6944", "0.01874"],
+    "imaging_pipeline": ["demosaicing", "gamma"],
+    "bayer_counts": ["12", "9"],
+    "formula_sketch": [],
 }
 
 
@@ -147,11 +170,45 @@ def curve_draws():
         )
 
 
+def textbook_draws(rng: random.Random):
+    """Figures of projection, sensor and noise that a textbook has, all over their ranges."""
+    for _ in range(12):
+        f, width = rng.choice([4, 12, 50, 200]), rng.choice([(36, 24), (8.8, 6.6), (24, 16)])
+        yield "field_of_view", {"W": width[0], "H": width[1], "f": f, "Z": rng.randint(2, 20)}
+        speed, rows = rng.choice([400, 2500, 8000]), rng.choice([300, 1000, 2000])
+        yield "rolling_shutter_skew", {"v": speed, "t_r": rng.choice([10, 30]), "n": rows}
+        plane = {"W": 640, "H": 480, "o_x": 310, "o_y": 250}
+        pixel = {"u": rng.randrange(-320, 960, 10), "v": rng.randrange(-240, 720, 10)}
+        yield "pixel_grid", plane | pixel | {"given": rng.randint(0, 1)}
+        ways = {"a": (rng.randint(-4, 4), 2, rng.choice([2, 8])),
+                "d": (rng.choice([-3, 1, 2]), rng.choice([-2, 1]), rng.choice([2, 10]))}  # fmt: skip
+        yield "vanishing_point", plane | {"f": rng.choice([400, 1000])} | ways
+        lamp = {"Q": rng.randrange(60000, 400000, 10000), "h": rng.randint(2, 9)}
+        yield (
+            "ccd_streak",
+            {"F": 10000, "b": rng.randrange(1000, 6000, 500), "t": 5, "t_r": 10} | lamp,
+        )
+        yield (
+            "reflectance_spectra",
+            {f"{letter}_{band}": rng.randint(0, 10) / 10 for letter in "LR" for band in "rgb"},
+        )
+        row = (rng.randint(1, 5) ** 2, 0, rng.randint(1, 5) ** 2)
+        yield "gaussian_contours", {"covariances": (row,), "x": rng.randint(1, 6), "y": 3}
+        sensor = {"W": rng.randint(3, 12), "H": rng.randint(3, 12), "phase": rng.randrange(4)}
+        yield "bayer_counts", sensor
+    yield "gaussian_contours", {}
+    for step in range(11):
+        yield "imaging_pipeline", {"left_out": step}
+    for numbers, _ in module("formula_sketch").SKETCHES.values():
+        yield "formula_sketch", {"formula": numbers[0]}
+
+
 def draws():  # noqa: C901 - one loop a figure
     """Figure names and values all over the ranges of the curriculum (A3, C11-C14, D17a, S11, S14)."""
     rng = random.Random(20)
     yield from camera_draws()
     yield from curve_draws()
+    yield from textbook_draws(rng)
     for _ in range(25):
         yield from (("pinhole", values) for values in _pinhole(rng))
     for _ in range(12):
@@ -176,15 +233,3 @@ def draws():  # noqa: C901 - one loop a figure
     for k1 in (-0.3, -0.15, -0.05, 0, 0.05, 0.3):
         for k2 in (0, 0.05):
             yield "distorted_grid", {"k1": k1, "k2": k2, "c_x": rng.choice([0, 0.2]), "c_y": 0.1}
-
-
-def outline(label):
-    """Points of a label at size 1 from the start of its baseline, their codes, and its width."""
-    laid, wide = _letters.runs(label)
-    points, codes = [], b""
-    for run in laid:
-        shape = _letters.glyph(run.text, italic=run.italic)
-        (left, low), size = run.at, run.size
-        points += [(x * size + left, y * size + low) for x, y in shape.points]
-        codes += shape.codes
-    return points, codes, wide

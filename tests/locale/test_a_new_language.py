@@ -92,7 +92,7 @@ def test_figures_are_told_in_the_language(paper, known):
 
 def test_a_figure_without_words_in_the_language_is_told_in_english(known):
     values = {"f": 2, "p_z": 6, "p_y": 3}
-    drawn = figures.render(builtin().figure("pinhole"), values, quiz=True, lang=LANG)
+    drawn = figures.draw_figure(builtin().figure("pinhole"), values, quiz=True, lang=LANG)
     assert drawn.alt.startswith("Pinhole model")
 
 

@@ -12,7 +12,8 @@ import pytest
 from quizgen.bank.draw import draw
 from quizgen.bank.folder import Bank, builtin
 from quizgen.bank.prose import Code, Paragraph, Words
-from quizgen.figures import Board, Drawing, render
+from quizgen.figures import DrawingField, FieldPicture, draw_figure
+from quizgen.figures.alt_text import strip_mathtext
 from quizgen.locale import amount, language, marks, numbers_in
 from quizgen.marking.mark import mark
 from quizgen.paper.key import key_of
@@ -84,10 +85,10 @@ def test_programs_and_sentences_of_other_languages_stay():
 
 
 def test_figures_have_it_in_labels_and_in_words():
-    drawn = {lang: render(builtin().figure("thin_lens"), {"f": 52.5, "z": 200}, quiz=False, lang=lang)
+    drawn = {lang: draw_figure(builtin().figure("thin_lens"), {"f": 52.5, "z": 200}, quiz=False, lang=lang)
              for lang in ("en", "de")}  # fmt: skip
     for lang, sign in (("en", "."), ("de", ",")):
-        labels = " ".join(label.text for label in drawn[lang].canvas.labels)
+        labels = " ".join(strip_mathtext(label.text) for label in drawn[lang].labels)
         assert f"52{sign}5" in labels
         assert f"52{sign}5" in drawn[lang].alt
     assert draw(FILTERING.template("spectrum-of-a-mean"), 0).shown["n"] == 11
@@ -168,9 +169,9 @@ def test_arguments_of_functions_are_separated_alike():
 
 
 def test_the_axes_of_a_field_have_it_and_its_words():
-    board = Board((-1.0, 1.0, 0.0, 1.0), (0.5, 0.25), given=(((0.5, 0.25), (1.0, 0.75)),))
+    field = DrawingField((-1.0, 1.0, 0.0, 1.0), (0.5, 0.25), given=(((0.5, 0.25), (1.0, 0.75)),))
     for lang, sign in (("de", ","), ("en", ".")):
-        drawn = Drawing(board, lang)
-        labels = {label.text for label in drawn.figure.canvas.labels}
+        drawn = FieldPicture(field, lang)
+        labels = {label.text for label in drawn.figure.labels}
         assert {f"−0{sign}5", f"0{sign}25"} <= labels
         assert f"(0{sign}5; 0{sign}25), (1; 0{sign}75)" in drawn.alt

@@ -135,6 +135,6 @@ def test_any_other_point_of_the_ray_in_front_of_the_camera_counts(bank, typed, v
 def test_the_numbers_asked_for_are_those_of_the_picture(bank, seed):
     """The figure's own table of permutations decides where each edit stands."""
     one = draw(bank.template("hsv-edit-from-pictures"), seed)
-    order = bank.figure("hsv_edits").edit_order(float(int(one.shown["order"].p)))
+    order = bank.figure("hsv_edits").order_edits(float(int(one.shown["order"].p)))
     expected = [["1234"[order.index(edit)]] for edit in ("V", "S", "H")]
     assert [gap[:1] for gap in build(one, 0).spec.accept] == expected

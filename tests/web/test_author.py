@@ -159,19 +159,17 @@ def test_authors_are_told_what_is_wrong_with_their_bank(author, root):
 
 
 FIGURE = """
-from quizgen.figures.kit import Parameter, Pen, words_of
+from quizgen.figures.kit import Parameter, load_alt_words
 
-DARK, PARAMETERS = "invert", {"f": Parameter("", "focal length")}
+PARAMETERS = {"f": Parameter("", "focal length")}
 
 
-def draw(canvas, values, *, quiz):
-    pen = Pen(height=60)
-    pen.label((20, 20), "{7}")
-    pen.onto(canvas)
+def draw(fig, values, *, quiz):
+    fig.sketch().line([(20, 20), (60, 30)])
 
 
 def alt(values, lang, *, quiz):
-    return words_of(__file__, lang)["said"]
+    return load_alt_words(__file__, lang)["said"]
 """
 
 
@@ -191,12 +189,12 @@ def test_a_figure_that_is_saved_is_drawn_anew_and_told_in_its_new_words(author, 
         )
         first = author.get(f"/author/{NAME}").text
         assert "A small seven." in first
-        figure.write_text(FIGURE.replace("(20, 20)", "(40, 20)"), "utf-8")
+        figure.write_text(FIGURE.replace("(20, 20)", "(20, 40)"), "utf-8")
         words.write_text('[own]\nsaid = "A seven."\n', "utf-8")
         again = author.get(f"/author/{NAME}").text
         assert "A seven." in again
         assert "A small seven." not in again
-        drawings = [set(re.findall(r'<path d="M [^"]*"', page)) for page in (first, again)]
+        drawings = [set(re.findall(r'<path d="M[^"]*"', page)) for page in (first, again)]
         assert drawings[0]
         assert not drawings[0] & drawings[1]
     finally:

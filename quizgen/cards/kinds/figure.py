@@ -11,7 +11,7 @@ from quizgen.cards.note import Note
 from quizgen.cards.prose import Picture
 from quizgen.cards.wish import Wish
 from quizgen.errors import BankError
-from quizgen.figures import render
+from quizgen.figures import draw_figure
 from quizgen.question.authored import passage
 
 
@@ -33,7 +33,7 @@ def notes(wish: Wish) -> Iterator[Note]:
 def _picture(entry: FigureEntry, wish: Wish, *, quiz: bool) -> Picture:
     try:
         figure = wish.bank.figure(entry.figure)
-        drawn = [render(figure, entry.values, quiz=quiz, lang=lang) for lang in wish.langs]
+        drawn = [draw_figure(figure, entry.values, quiz=quiz, lang=lang) for lang in wish.langs]
     except BankError as error:
         raise BankError(f"{entry.place}: {error}") from error
     return Picture(entry.figure, drawn[0], " / ".join(one.alt for one in drawn))

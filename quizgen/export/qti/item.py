@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from markupsafe import Markup
 
+from quizgen.bank.pictures import PictureFile
 from quizgen.export import pictures
 from quizgen.export.asks import Ask, Write
 from quizgen.export.items import Item
@@ -16,7 +17,7 @@ from quizgen.export.kept import asked
 from quizgen.export.qti.dialect import QTI21, Dialect, written
 from quizgen.export.qti.place import Place
 from quizgen.export.qti.played import Played, played
-from quizgen.export.wording import body, inline, solution, stem
+from quizgen.export.wording import body, inline, pictures_at, solution, stem
 from quizgen.figures import Figure
 from quizgen.locale import word
 from quizgen.responses.keys import Entry
@@ -44,6 +45,11 @@ def name_of(item: Item) -> str:
 
 def item_file(item: Item, dialect: Dialect) -> bytes:
     """A question as the file of an item."""
+    with pictures_at(_source):
+        return _item_file(item, dialect)
+
+
+def _item_file(item: Item, dialect: Dialect) -> bytes:
     groups = [
         [Row(ask, at, played(ask, at)) for ask, at in group] for group in _asked(item, dialect)
     ]
@@ -159,8 +165,8 @@ def _modal(dialect: Dialect, outcome: str, value: str, said: Markup, title: str 
     return dialect.flow("modalFeedback", {**named, **({"title": title} if title else {})}, said)
 
 
-def _source(figure: Figure) -> str:
-    return f"../{pictures.path(figure)}"
+def _source(shown: Figure | PictureFile) -> str:
+    return f"../{pictures.path(shown)}"
 
 
 def _xml(page: Markup) -> Markup:

@@ -97,4 +97,4 @@ def _told(item: Item) -> Markup:
 def _named(path: str) -> str:
     """What a file is called in the manifest; a figure has no letter in front."""
     pure = PurePosixPath(path)
-    return f"figure-{pure.stem}" if pure.suffix == ".svg" else pure.stem
+    return f"figure-{pure.stem}" if pure.suffix != ".xml" else pure.stem

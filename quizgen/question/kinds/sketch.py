@@ -9,7 +9,7 @@ from typing import Any
 from quizgen.bank.answers import Curve, Formulas, Line, Sketch
 from quizgen.bank.draw import Draw
 from quizgen.bank.prose import Code
-from quizgen.figures import Board
+from quizgen.figures import DrawingField
 from quizgen.marking.features.sheet import Feature
 from quizgen.marking.kinds.sketch import Spec
 from quizgen.marking.mark import show
@@ -56,12 +56,14 @@ def build(drawn: Draw, index: int) -> Built[Spec]:
         notes=notes(drawn, traps) if traps else {},
         why=why(drawn, [(name, name) for name in features]),
     )
-    board = Board(
+    board = DrawingField(
         view=spec.field,
         grid=right.point(answer.grid),
         tall=tall,
         given=tuple(map(tuple, right.lines(answer.given).values())),
+        bars=answer.bars,
         marks=tuple((label, right.point(at)) for label, at in answer.marks.items()),
+        axes=answer.axes,
     )
     return Built(
         spec,

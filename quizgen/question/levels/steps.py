@@ -20,11 +20,8 @@ from quizgen.bank.prose import (
     CodeBlock,
     Formula,
     Inline,
-    Items,
-    Paragraph,
-    Styled,
-    Table,
     Words,
+    leaves,
     slots,
 )
 from quizgen.bank.traps import APART, answer_names
@@ -120,7 +117,7 @@ def defined(drawn: Draw) -> frozenset[str]:
     """Quantities whose formula the text writes down."""
     return frozenset(
         left.name
-        for part in _leaves(_text(drawn))
+        for part in leaves(_text(drawn))
         if isinstance(part, Formula) and isinstance(part.expr, Call) and part.expr.op == "eq"
         for left, right in [part.expr.args]
         if isinstance(left, Sym) and isinstance(right, Call)
@@ -133,7 +130,7 @@ _CAPITAL = re.compile(r"(?<![\w'])[B-HJ-Z](?!\w)")
 
 
 def _letters(parts: Iterable[Block | Inline]) -> Iterator[str]:
-    for part in _leaves(parts):
+    for part in leaves(parts):
         match part:
             case Formula(expr):
                 yield from names(expr)
@@ -143,20 +140,6 @@ def _letters(parts: Iterable[Block | Inline]) -> Iterator[str]:
                 yield from _CAPITAL.findall(text)
             case _:
                 pass
-
-
-def _leaves(parts: Iterable[Block | Inline]) -> Iterator[Block | Inline]:
-    """What holds nothing else, in order."""
-    for part in parts:
-        match part:
-            case Paragraph(children) | Styled(_, children):
-                yield from _leaves(children)
-            case Items(items):
-                yield from (leaf for item in items for leaf in _leaves(item))
-            case Table(head, rows):
-                yield from (n for row in (head, *rows) for cell in row for n in _leaves(cell))
-            case _:
-                yield part
 
 
 def flat(expr: Expr) -> Expr:

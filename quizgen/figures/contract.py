@@ -1,0 +1,136 @@
+"""What a figure's module offers, and what every figure becomes."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from inspect import signature
+from types import ModuleType
+from typing import TYPE_CHECKING, Any, Protocol, cast
+
+from quizgen.errors import BankError
+
+if TYPE_CHECKING:
+    from quizgen.figures.parameters import Parameter, Values
+    from quizgen.figures.svg import Label
+
+
+class FigureModule(Protocol):
+    """One figure: what it is drawn from, the drawing, and the same picture in words.
+
+    Beside these it may have ``SIZE``, width and height in points of its axes or sheet (``COLUMN``,
+    ``WIDE`` and ``SQUARE`` of the kit are ready ones); ``COLOUR = True``, or a function of the
+    values, if it cannot be read on grey paper; and ``mark(place, values, marks)``, which draws
+    values of a learner beside the right ones.
+    """
+
+    PARAMETERS: dict[str, Parameter]
+    """Parameter name to unit, meaning, range and default."""
+
+    def __hash__(self) -> int:
+        """Modules are what drawn figures are kept by."""
+        ...
+
+    def draw(self, place: Any, values: Values, *, quiz: bool) -> None:
+        """Draw with matplotlib.
+
+        The first parameter is called ``ax`` (axes of the house) or ``fig`` (a figure of
+        matplotlib whose unit is the point); ``quiz`` hides what the question asks for. Symbols and
+        digits only: with a parameter ``lang`` it may write words, too.
+        """
+        ...
+
+    def alt(self, values: Values, lang: str, *, quiz: bool) -> str:
+        """Describe the figure in words, in a language of the bank."""
+        ...
+
+
+def figure_name(module: ModuleType) -> str:
+    """What templates call a figure."""
+    return module.__name__.rpartition(".")[2]
+
+
+def check_figure_module(module: ModuleType) -> FigureModule:
+    """Return a module that draws a figure.
+
+    Raises
+    ------
+    BankError
+        If it lacks something that a figure has.
+    """
+    what = f"figure {figure_name(module)!r}: the module"
+    for name in ("PARAMETERS", "draw", "alt"):
+        if not hasattr(module, name):
+            raise BankError(f"{what} has no {name} (see docs/figures.md)")
+    if first_parameter(module.draw) not in {"ax", "fig"}:
+        raise BankError(f"{what}'s draw() takes 'ax' or 'fig' first (see docs/figures.md)")
+    return cast("FigureModule", module)
+
+
+def first_parameter(function: Any) -> str:
+    """Name of a function's first parameter."""
+    return next(iter(signature(function).parameters), "")
+
+
+def needs_colour(module: ModuleType | FigureModule, values: Mapping[str, Any]) -> bool:
+    """Whether a figure cannot be read on grey paper."""
+    rule = getattr(module, "COLOUR", False)
+    return bool(rule(values) if callable(rule) else rule)
+
+
+_VARIABLE = re.compile(rb"var\(--fig-[a-z-]+,(#[0-9a-f]{6})\)")
+
+
+@dataclass(frozen=True, eq=False)
+class Figure:
+    """A finished figure.
+
+    Attributes
+    ----------
+    inline_svg : bytes
+        One ``<svg>`` in UTF-8 for an HTML page: no prolog, no style sheet, ``role="img"``, title
+        and description; the same bytes on every machine. Its inks are CSS variables
+        (``--fig-blue``), black is ``currentColor``, so that a page decides on light and dark.
+    width_pt, height_pt : float
+        Natural size in points (1/72 inch).
+    origin_pt : tuple of float
+        Where the view box begins, from the upper left corner of the sheet.
+    alt : str
+        The same picture in words.
+    lang : str
+        The language of these words.
+    labels : tuple of Label
+        Texts in the picture with their boxes, in the order of drawing.
+    needs_colour : bool
+        Whether it cannot be read on grey paper.
+    outside : int
+        Markers that fall outside their axes, and are not drawn.
+    """
+
+    inline_svg: bytes = field(repr=False)
+    width_pt: float
+    height_pt: float
+    alt: str
+    lang: str
+    origin_pt: tuple[float, float] = (0.0, 0.0)
+    labels: tuple[Label, ...] = field(default=(), repr=False)
+    needs_colour: bool = False
+    outside: int = 0
+
+    @cached_property
+    def standalone_svg(self) -> bytes:
+        """The same in fixed colours on light paper, for files: they know no variables of a page."""
+        return _VARIABLE.sub(rb"\1", self.inline_svg).replace(b"currentColor", b"#000000")
+
+    def __eq__(self, other: object) -> bool:
+        """Whether they show the same and say the same of it."""
+        return isinstance(other, Figure) and self.inline_svg == other.inline_svg
+
+    def __hash__(self) -> int:
+        return hash(self.inline_svg)
+
+    def _repr_html_(self) -> str:
+        """The figure as a notebook shows it."""
+        return self.inline_svg.decode()

@@ -1,0 +1,191 @@
+"""A field with axes that a learner draws in: empty, or with the lines that were wanted."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import lru_cache
+from math import ceil, floor
+from typing import TYPE_CHECKING, Any
+
+import msgspec
+
+from quizgen.figures.alt_text import format_given, strip_mathtext
+from quizgen.figures.contract import Figure
+from quizgen.locale import language, numbers_in, table
+from quizgen.maths.notation.people import name
+
+if TYPE_CHECKING:
+    from quizgen.figures.sketch import Sketch
+
+Point = tuple[float, float]
+Line = tuple[Point, ...]
+
+WIDE = 250.0
+"""Width of the field in points: 88 mm."""
+LEFT, RIGHT, TOP, FOOT = 26.0, 8.0, 8.0, 18.0
+"""Room around the field, at the left and at the foot for numbers."""
+NAME = 14.0
+"""Room for the name of an axis."""
+
+
+class DrawingField(msgspec.Struct, frozen=True):
+    """A field to draw in.
+
+    Parameters
+    ----------
+    view : tuple of float
+        From and to along x, from and to along y.
+    grid : tuple of float
+        Distance of the grid's lines along x and along y.
+    tall : float
+        Height over width, where the axes do not have one scale.
+    given : tuple of lines
+        What is there already, in grey.
+    bars : bool
+        Whether what is there are bars of a histogram.
+    marks : tuple of (str, point)
+        Points with a label.
+    axes : tuple of str
+        Names of the axes with their units, such as ``$λ$ / nm``: across and upright.
+    """
+
+    view: tuple[float, float, float, float]
+    grid: tuple[float, float]
+    tall: float = 0.0
+    given: tuple[Line, ...] = ()
+    bars: bool = False
+    marks: tuple[tuple[str, Point], ...] = ()
+    axes: tuple[str, str] = ("", "")
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height of the field itself in points."""
+        left, right, low, high = self.view
+        return WIDE, WIDE * (self.tall or (high - low) / (right - left))
+
+    @property
+    def picture_size(self) -> Point:
+        """Width and height of the picture in points: the field and the room around it."""
+        wide, tall = self.size
+        return LEFT + wide + RIGHT, self._top + tall + self._foot
+
+    @property
+    def _top(self) -> float:
+        return TOP + (NAME if self.axes[1] else 0)
+
+    @property
+    def _foot(self) -> float:
+        return FOOT + (NAME if self.axes[0] else 0)
+
+    @property
+    def frame(self) -> tuple[float, float, float, float]:
+        """Where the field lies in the picture, in points from the upper left: x, y, size."""
+        return (LEFT, self._top, *self.size)
+
+    def to_picture(self, point: Point) -> Point:
+        """A point in the picture, from the lower left."""
+        left, right, low, high = self.view
+        wide, tall = self.size
+        x, y = point
+        return LEFT + (x - left) / (right - left) * wide, self._foot + (y - low) / (
+            high - low
+        ) * tall
+
+
+class FieldPicture(msgspec.Struct, frozen=True):
+    """A field to draw in and the lines in it, told in a language."""
+
+    field: DrawingField
+    lang: str
+    lines: tuple[Line, ...] = ()
+
+    @property
+    def figure(self) -> Figure:
+        """The picture."""
+        return _draw_field(self)
+
+    @property
+    def alt(self) -> str:
+        """The picture in words, without drawing it."""
+        words, field = table(self.lang, "figures")["field"], self.field
+        text = words["solved" if self.lines else "empty"]
+        text += words["ranges"].format(
+            *map(format_given, field.view), *map(format_given, field.grid)
+        )
+        for key, axis in zip(("across", "upright"), field.axes, strict=True):
+            text += words[key].format(strip_mathtext(axis)) if axis else ""
+        if field.given:
+            text += words["given"].format(_lines(field.given))
+        if field.marks:
+            marks = "; ".join(f"{name(label)} {_point(point)}" for label, point in field.marks)
+            text += words["marks"].format(marks)
+        text += words["wanted"].format(_lines(self.lines)) if self.lines else ""
+        return numbers_in(self.lang, text)
+
+
+@lru_cache(maxsize=256)
+def _draw_field(picture: FieldPicture) -> Figure:
+    from quizgen.figures.engine import draw_sheet
+    from quizgen.figures.svg import write_svg
+
+    field, decimal = picture.field, language(picture.lang).decimal
+
+    def draw(sheet: Any) -> None:
+        sketch = sheet.sketch()
+        _draw_axes(sketch, field)
+        for line in field.given:
+            points = [field.to_picture(point) for point in line]
+            if field.bars:
+                sketch.line(points, "rule", 7.0, part="given")
+            else:
+                sketch.line(points, "grey", 1.2, dashes=(5.0, 2.0), part="given")
+        for line in picture.lines:
+            points = [field.to_picture(point) for point in line]
+            sketch.line(points, "blue", 1.8, part="wanted")
+        for label, point in field.marks:
+            x, y = field.to_picture(point)
+            sketch.dot((x, y), 2.2, "red", part="marks")
+            sketch.label((x + 4, y + 8), f"${label}$", "l", fill="red", part="marks")
+
+    drawing = draw_sheet(draw, field.picture_size, decimal, axes=False, fixed=True)
+    return Figure(
+        write_svg(drawing, picture.alt, picture.lang), drawing.width, drawing.height,
+        picture.alt, picture.lang, labels=drawing.labels,
+    )  # fmt: skip
+
+
+def _draw_axes(sketch: Sketch, field: DrawingField) -> None:
+    left, right, low, high = field.view
+    size = 8.0
+    for x in _ticks(left, right, field.grid[0]):
+        foot, top = field.to_picture((x, low)), field.to_picture((x, high))
+        sketch.line([foot, top], "rule" if x else "grey", 0.4 if x else 0.7, part="grid")
+        sketch.label((foot[0], foot[1] - 8), format_given(x), "c", size)
+    for y in _ticks(low, high, field.grid[1]):
+        start, end = field.to_picture((left, y)), field.to_picture((right, y))
+        sketch.line([start, end], "rule" if y else "grey", 0.4 if y else 0.7, part="grid")
+        sketch.label((start[0] - 4, start[1]), format_given(y), "r", size)
+    corners = [(left, low), (right, low), (right, high), (left, high)]
+    places = [field.to_picture(corner) for corner in corners]
+    sketch.area(places, None, "ink", 0.7, part="frame")
+    across, upright = field.axes
+    if across:
+        x, y = places[1]
+        sketch.label((x, y - FOOT - NAME / 2 + 3), across, "r", 9.5, part="names")
+    if upright:
+        x, y = places[3]
+        sketch.label((x - LEFT + 2, y + NAME / 2 + 3), upright, "l", 9.5, part="names")
+
+
+def _ticks(first: float, last: float, step: float) -> Iterator[float]:
+    slack = 1e-9 * (last - first)
+    for count in range(ceil((first - slack) / step), floor((last + slack) / step) + 1):
+        yield round(count * step, 9) + 0.0
+
+
+def _lines(lines: tuple[Line, ...]) -> str:
+    return "; ".join(", ".join(map(_point, line)) for line in lines)
+
+
+def _point(point: Point) -> str:
+    return "({}; {})".format(*(format_given(round(value, 3)) for value in point))

@@ -1,0 +1,110 @@
+"""Parameters of figures: what each value means, and one clear line when one is missing."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any, Literal
+
+import msgspec
+
+from quizgen.errors import BankError
+
+Values = Mapping[str, Any]
+"""Parameter name to a number, a list or table of numbers, or a text."""
+
+ABSENT = math.nan
+"""Default of a parameter that may be left out altogether."""
+
+
+class Parameter(msgspec.Struct, frozen=True):
+    """One value that a figure is drawn from.
+
+    Attributes
+    ----------
+    unit : str
+        Unit that numbers are given in; empty for plain numbers.
+    meaning : str
+        What it is, and what its codes mean when it is a choice.
+    default : number, list, text or None
+        Taken when the value is left out; None if it must be given.
+    low, high : float
+        Allowed range of each number, both ends included.
+    whole : bool
+        Only whole numbers: a code or a count.
+    kind : {"number", "list", "table", "text"}
+        A number; a list of numbers; a list of lists of equal length; words or a name.
+    """
+
+    unit: str
+    meaning: str
+    default: Any = None
+    low: float = -math.inf
+    high: float = math.inf
+    whole: bool = False
+    kind: Literal["number", "list", "table", "text"] = "number"
+
+
+def fill_defaults(figure: str, table: Mapping[str, Parameter], values: Values) -> dict[str, Any]:
+    """Check values against a table and fill in the defaults, in the order of the table.
+
+    Raises
+    ------
+    BankError
+        If a name is unknown or missing, or a value is not finite, not whole, out of range or of
+        another kind.
+    """
+    unknown = sorted(set(values) - set(table))
+    if unknown:
+        raise BankError(f"figure {figure!r}: unknown parameter {unknown[0]!r}")
+    full = {name: _check_value(figure, name, rule, values) for name, rule in table.items()}
+    return {name: value for name, value in full.items() if value is not None}
+
+
+def _check_value(figure: str, name: str, rule: Parameter, values: Values) -> Any:
+    if name not in values:
+        if rule.default is None:
+            raise BankError(f"figure {figure!r}: missing parameter {name!r} ({rule.meaning})")
+        is_absent = isinstance(rule.default, float) and math.isnan(rule.default)
+        return None if is_absent else rule.default
+    value = values[name]
+    if rule.kind == "text":
+        require(figure, isinstance(value, str), f"{name} = {value!r} is no text")
+        return value
+    if rule.kind == "number":
+        return _check_number(figure, name, rule, value)
+    rows = _as_list(figure, name, value)
+    if rule.kind == "list":
+        return tuple(_check_number(figure, name, rule, item) for item in rows)
+    table = [_as_list(figure, name, row) for row in rows]
+    require(figure, len(set(map(len, table))) <= 1, f"{name}: rows of different lengths")
+    return tuple(tuple(_check_number(figure, name, rule, item) for item in row) for row in table)
+
+
+def _as_list(figure: str, name: str, value: Any) -> list[Any]:
+    if hasattr(value, "tolist"):  # an array
+        value = value.tolist()
+    require(figure, isinstance(value, (list, tuple)), f"{name} = {value!r} is no list")
+    return list(value)
+
+
+def _check_number(figure: str, name: str, rule: Parameter, given: Any) -> float:
+    number = isinstance(given, (int, float)) and not isinstance(given, bool)
+    require(figure, number, f"{name} = {given!r} is not a number")
+    value = float(given) + 0.0  # the sum turns -0.0 into 0.0
+    inside = math.isfinite(value) and rule.low <= value <= rule.high
+    require(figure, inside, f"{name} = {value:g} is not between {rule.low:g} and {rule.high:g}")
+    require(figure, not rule.whole or value.is_integer(), f"{name} = {value:g} is not whole")
+    return value
+
+
+def require(figure: str, holds: bool, message: str) -> None:
+    """Refuse values that cannot be drawn.
+
+    Raises
+    ------
+    BankError
+        If the condition does not hold.
+    """
+    if not holds:
+        raise BankError(f"figure {figure!r}: {message}")
