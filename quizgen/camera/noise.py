@@ -70,15 +70,15 @@ class Luck:
         tile, count : int
         kind : dtype
         fine : bool
-            Draw 16 more bits for every value. Without them those that are no more than 2.6 are
+            Draw 8 more bits for every value. Without them those that are no more than 2.6 are
             the middles of 2^16 equal probabilities: enough where they are added to a picture, but
             whole counts are so close beside each other that some would never be drawn.
         """
         words = self._draw_words(tile, count)
         values = np.take(_normals(np.dtype(kind)), words, mode="clip")
         if fine:
-            apart = self._draw_words(tile, count, 2).astype(kind)
-            apart -= (WORDS - 1) / 2.0
+            apart = self._draw_raw(tile, -(-count // 8), 2).view("u1")[:count].astype(kind)
+            apart -= 255.0 / 2.0
             apart *= np.take(_slopes(np.dtype(kind)), words, mode="clip")
             values += apart
         far = np.flatnonzero(words + np.uint16(TAIL) < 2 * TAIL)  # which wraps around
@@ -105,9 +105,9 @@ def _normals(kind: np.dtype[np.floating]) -> Image:
 
 @cache
 def _slopes(kind: np.dtype[np.floating]) -> Image:
-    """How wide the cell around each of them is, over 2^16."""
+    """How wide the cell around each of them is, over 2^8."""
     edges = np.asarray(inverse_tail(np.arange(1, WORDS // 2 + 1) / WORDS))
-    lower = np.concatenate([[0.0], -np.diff(edges)]) / WORDS
+    lower = np.concatenate([[0.0], -np.diff(edges)]) / 256.0
     return np.concatenate([lower, lower[::-1]]).astype(kind)
 
 

@@ -41,7 +41,7 @@ def poisson_quantiles(mean: Numbers, normal: Numbers) -> Numbers:
     numpy.ndarray
         Whole numbers. The distribution function is within 2e-5 of Poisson's: the expansion of its
         inverse in 1/sqrt(mean) (M. Giles, Algorithm 955), exact counting below `FEW_ELECTRONS`.
-        Beyond 4.5 deviations they are right within one electron, within a few where the mean is below 0.01.
+        Beyond 4.5 deviations they are right within one electron, within a few below a mean of 0.01.
     """
     enough = np.full_like(mean, FEW_ELECTRONS)
     np.maximum(mean, enough, out=enough)  # three times as fast as beside a single number

@@ -12,6 +12,7 @@ from collections import OrderedDict
 from collections.abc import Callable, Collection, Hashable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -36,7 +37,7 @@ LEAST_SPECKS = 4, 32.0
 """Single pixels, and their grey levels, that are seen however little they spread all."""
 
 # Rec. 601, by which PDF and printers turn colours to grey (ISO 32000-1, 10.3.3).
-_LUMA = np.array([0.3, 0.59, 0.11])
+_LUMA = np.array([0.3, 0.59, 0.11], np.float32)
 
 
 class InvisibleEffectError(SceneError):
@@ -108,7 +109,8 @@ class Visibility:
         if self.speckles:
             return f"{does}spreads grey levels by {self.spread:.2g}"
         if self.share:
-            return f"{does}changes {self.share:.2g} of the pixels by {self.mean:.2g} grey levels"
+            share = f"{100.0 * self.share:.2g} % of the pixels"
+            return f"{does}changes {share} by {self.mean:.0f} grey levels"
         return f"{does}changes no pixel by more than {self.levels:.2g} grey levels"
 
 
@@ -162,6 +164,8 @@ def measure_visibility(
         Whether noise is looked for.
     """
     found, gray = _Differences(), _Differences()
+    apart = max(1, round(math.sqrt(shown[..., 0].size / _MEGAPIXEL)))
+    shown, plain = shown[::apart], plain[::apart]  # of large pictures some rows tell as much
     for start, stop in pieces(len(shown), _ROWS):
         apart = _codes(shown[start:stop]) - _codes(plain[start:stop])
         found.add(np.abs(apart))
@@ -169,14 +173,14 @@ def measure_visibility(
     return replace(found.summarise(kind, speckles), grey=gray.summarise(kind, speckles))
 
 
-_ROWS = 256
+_ROWS, _MEGAPIXEL = 64, 1e6
 """Rows looked at at once, so that large pictures are not held twice."""
 
 
-def _codes(image: Image | NDArray[np.uint8]) -> NDArray[np.float64]:
+def _codes(image: Image | NDArray[np.uint8]) -> NDArray[np.floating]:
     """Grey levels of three channels."""
-    scale = 1.0 if image.dtype == np.uint8 else GREY_LEVELS
-    levels = np.clip(np.asarray(image, float) * scale, 0.0, GREY_LEVELS)
+    levels = np.asarray(image, np.float32)
+    levels = levels if image.dtype == np.uint8 else np.clip(levels * GREY_LEVELS, 0.0, GREY_LEVELS)
     levels = levels.reshape(*levels.shape[:2], -1)
     return np.broadcast_to(levels, (*levels.shape[:2], 3))
 
@@ -321,19 +325,38 @@ def _take(
     whole = Prepared(scene, camera)
     plan = plan_question(whole, asked.asks, chosen)
     prepared = Prepared(scene, camera, plan.names)
-    photo = run(prepared, told=told)
+    groups = _group_asked(plan, asked.asks, chosen)
+    if plan.asked and len(groups) != 1:
+        groups = {**groups, "": plan.asked}
+    plain = {}
+    for kind, names in groups.items():
+        rest = [name for name in plan.names if name not in names]
+        plain[kind] = _compact(run(prepared, rest, told))
+    last = _is_large((scene.height, scene.width)) and not asked.reads  # plain ones are copies
+    photo = run(prepared, told=told, last=last)
+    readings = {}
     for name, reading in asked.reads.items():
         if added := _find_needed(whole, plan, photo, reading):
             return _take(scene, camera, asked, replace(chosen, plus=(*chosen.plus, added)), told)
-        _check_reading(prepared, plan, photo, name, reading)
-    readings = {name: read_value(photo.values, reading) for name, reading in asked.reads.items()}
-    without = run(prepared, [name for name in plan.names if name not in plan.asked], told)
-    seen = []
-    for kind, names in _group_asked(plan, asked.asks, chosen).items():
-        rest = [name for name in plan.names if name not in names]
-        plain = without if set(names) >= set(plan.asked) else run(prepared, rest, told)
-        seen.append(_measure(kind, names, prepared.view, photo, plain))
-    return QuestionPhoto(photo, without, plan, tuple(seen), readings)
+        readings[name] = _check_reading(prepared, plan, photo, name, reading)
+    seen = tuple(
+        _measure(kind, names, prepared.view, photo, plain[kind])
+        for kind, names in groups.items()
+        if kind
+    )
+    without = plain[next(reversed(plain))] if plain else photo
+    return QuestionPhoto(photo, without, plan, seen, readings)
+
+
+def _is_large(shape: tuple[int, ...]) -> bool:
+    return shape[0] * shape[1] >= 2 * _MEGAPIXEL
+
+
+def _compact(photo: Photo) -> Photo:
+    """A large picture that is only compared is held in half the memory, within 0.06 grey levels."""
+    if not _is_large(photo.values.shape):
+        return photo
+    return msgspec.structs.replace(photo, values=photo.values.astype(np.float16))
 
 
 def _group_asked(
@@ -418,7 +441,8 @@ def _is_right(photo: Photo, reading: Reading) -> bool:
 
 def _check_reading(
     prepared: Prepared, plan: Plan, photo: Photo, name: str, reading: Reading
-) -> None:
+) -> float:
+    """What is read off, if that is right and nothing besides moves it."""
     value = read_value(photo.values, reading)
     if not _is_right(photo, reading):
         raise MovedReadingError(
@@ -433,3 +457,4 @@ def _check_reading(
             raise MovedReadingError(
                 f"{step.effect} moves {name} by {moved:.3g}, more than {reading.tolerance:g}"
             )
+    return value
