@@ -260,7 +260,8 @@ def _report(
     budget: float | None = None,
     asked: tuple[str, ...] = (),
 ) -> Plan:
-    steps, left_out = [], []
+    steps: list[Choice] = []
+    left_out: list[Choice] = []
     for effect in prepared.present:
         unit = [
             one.name for one in prepared.present if one is effect or effect.pair == one.pair != ""

@@ -41,7 +41,7 @@ class Prepared:
 
     def __init__(self, scene: Scene, camera: Camera, names: Collection[str] | None = None) -> None:
         self.given = View(scene, camera)
-        self.names = names
+        self.camera, self.names = camera, names
         self.prepared_ms: dict[str, float] = {}
         self.drawn_ms = 0.0
 

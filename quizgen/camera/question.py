@@ -164,8 +164,8 @@ def measure_visibility(
         Whether noise is looked for.
     """
     found, gray = _Differences(), _Differences()
-    apart = max(1, round(math.sqrt(shown[..., 0].size / _MEGAPIXEL)))
-    shown, plain = shown[::apart], plain[::apart]  # of large pictures some rows tell as much
+    every = max(1, round(math.sqrt(shown.shape[0] * shown.shape[1] / _MEGAPIXEL)))
+    shown, plain = shown[::every], plain[::every]  # of large pictures some rows tell as much
     for start, stop in pieces(len(shown), _ROWS):
         apart = _codes(shown[start:stop]) - _codes(plain[start:stop])
         found.add(np.abs(apart))
@@ -324,6 +324,7 @@ def _take(
 ) -> QuestionPhoto:
     whole = Prepared(scene, camera)
     plan = plan_question(whole, asked.asks, chosen)
+    large = _is_large((scene.height, scene.width))
     prepared = Prepared(scene, camera, plan.names)
     groups = _group_asked(plan, asked.asks, chosen)
     if plan.asked and len(groups) != 1:
@@ -331,9 +332,9 @@ def _take(
     plain = {}
     for kind, names in groups.items():
         rest = [name for name in plan.names if name not in names]
-        plain[kind] = _compact(run(prepared, rest, told))
-    last = _is_large((scene.height, scene.width)) and not asked.reads  # plain ones are copies
-    photo = run(prepared, told=told, last=last)
+        again = Prepared(scene, camera, plan.names) if large else prepared
+        plain[kind] = _compact(run(again, rest, told, last=large))
+    photo = run(prepared, told=told, last=large and not asked.reads)
     readings = {}
     for name, reading in asked.reads.items():
         if added := _find_needed(whole, plan, photo, reading):
@@ -353,7 +354,10 @@ def _is_large(shape: tuple[int, ...]) -> bool:
 
 
 def _compact(photo: Photo) -> Photo:
-    """A large picture that is only compared is held in half the memory, within 0.06 grey levels."""
+    """A large picture that is only compared is held in half the memory, within 0.06 grey levels.
+
+    For the same reason its layers are drawn for each run, and let go in it.
+    """
     if not _is_large(photo.values.shape):
         return photo
     return msgspec.structs.replace(photo, values=photo.values.astype(np.float16))
@@ -389,14 +393,14 @@ def _measure(
 # What is read off a picture
 
 
-def _patches(levels: NDArray[np.float64]) -> list[NDArray[np.float64]]:
+def _patches(levels: NDArray[np.floating]) -> list[NDArray[np.floating]]:
     """The four corners of a picture, each a sixteenth of its sides."""
     rows, columns = (max(1, side // 16) for side in levels.shape[:2])
     sides = [levels[:rows], levels[-rows:]]
     return [part for side in sides for part in (side[:, :columns], side[:, -columns:])]
 
 
-def _centre(levels: NDArray[np.float64]) -> NDArray[np.float64]:
+def _centre(levels: NDArray[np.floating]) -> NDArray[np.floating]:
     height, width = levels.shape[:2]
     rows, columns = max(1, height // 16), max(1, width // 16)
     top, left = (height - rows) // 2, (width - columns) // 2

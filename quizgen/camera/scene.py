@@ -115,7 +115,7 @@ def _lengths() -> tuple[str, ...]:
     return tuple(item.name for item in fields(Thing) if isinstance(item.default, Length))
 
 
-Measure = Callable[[NDArray[np.float64]], float]
+Measure = Callable[[NDArray[np.floating]], float]
 """Reads a number off the grey levels of a picture, shape (H, W, 3)."""
 
 

@@ -182,8 +182,7 @@ def _take(scene: str, prepared: Prepared, options: Options, told: Progress) -> S
     if options["budget"] is not None and (options["asks"] or options["only"]):
         raise ChoiceError("--budget is for pictures without a question; leave out --asks or --only")
     if options["budget"] is None and (asks or chosen.only):
-        camera = prepared.given.camera
-        taken = take_photographs(seen, camera, options["asks"], chosen=chosen, told=told)
+        taken = take_photographs(seen, prepared.camera, options["asks"], chosen=chosen, told=told)
         if not chosen.only and not set(chosen.minus) & set(taken.plan.asked):
             with located(seen.file):
                 for one in taken.seen:

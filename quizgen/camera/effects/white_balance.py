@@ -41,6 +41,12 @@ def omission_bound(signal: Signal, view: View) -> float:
     return max(abs(gain - 1.0) for gain in view.camera[WHITE_BALANCE]) * signal.size
 
 
+def carry_error(error: float, signal: Signal, view: View) -> float:
+    """Amplified by the largest gain."""
+    gains = view.camera[WHITE_BALANCE]
+    return error * max(gains)
+
+
 def range_after(signal: Signal, view: View) -> Signal:
     """Scaled by gains between the smallest and the largest."""
     gains = view.camera[WHITE_BALANCE]
@@ -55,7 +61,7 @@ EFFECT = Effect(
     is_present=lambda view: view.camera[WHITE_BALANCE] != (1.0, 1.0, 1.0),
     run=PointByPoint(work),
     omission_bound=omission_bound,
-    carry_error=lambda error, _, view: error * max(view.camera[WHITE_BALANCE]),
+    carry_error=carry_error,
     range_after=range_after,
     needs_effects=("colour filters",),
 )
