@@ -10,9 +10,9 @@ from __future__ import annotations
 import math
 from collections import OrderedDict
 from collections.abc import Callable, Collection, Hashable, Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
+from functools import cached_property
 
-import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -121,21 +121,26 @@ class QuestionPhoto:
     Parameters
     ----------
     photo : Photo
-    without : Photo
-        The same without what is asked.
     plan : Plan
         What ran, what was left out and why.
     seen : tuple of Visibility
         Of every kind that is asked.
     readings : dict of str to float
         What was read off the picture.
+    take_without : callable
+        Takes the same photograph without what is asked.
     """
 
     photo: Photo
-    without: Photo
     plan: Plan
     seen: tuple[Visibility, ...]
-    readings: dict[str, float] = field(default_factory=dict)
+    readings: dict[str, float]
+    take_without: Callable[[], Photo]
+
+    @cached_property
+    def without(self) -> Photo:
+        """The same photograph without what is asked."""
+        return self.take_without()
 
     @property
     def needs_colour(self) -> bool:
@@ -164,8 +169,6 @@ def measure_visibility(
         Whether noise is looked for.
     """
     found, gray = _Differences(), _Differences()
-    every = max(1, round(math.sqrt(shown.shape[0] * shown.shape[1] / _MEGAPIXEL)))
-    shown, plain = shown[::every], plain[::every]  # of large pictures some rows tell as much
     for start, stop in pieces(len(shown), _ROWS):
         apart = _codes(shown[start:stop]) - _codes(plain[start:stop])
         found.add(np.abs(apart))
@@ -324,43 +327,37 @@ def _take(
 ) -> QuestionPhoto:
     whole = Prepared(scene, camera)
     plan = plan_question(whole, asked.asks, chosen)
-    large = _is_large((scene.height, scene.width))
     prepared = Prepared(scene, camera, plan.names)
-    groups = _group_asked(plan, asked.asks, chosen)
-    if plan.asked and len(groups) != 1:
-        groups = {**groups, "": plan.asked}
-    plain = {}
-    for kind, names in groups.items():
+    large = scene.width * scene.height > 2 * _MEGAPIXEL  # layers are let go and drawn again
+
+    def run_without(names: Collection[str]) -> Photo:
         rest = [name for name in plan.names if name not in names]
         again = Prepared(scene, camera, plan.names) if large else prepared
-        plain[kind] = _compact(run(again, rest, told, last=large))
+        return run(again, rest, told, last=large)
+
+    groups = _group_asked(plan, asked.asks, chosen)
+    plain = {kind: run_without(names) for kind, names in groups.items()} if not large else {}
+    thin = {kind: _thin(run_without(names).values) for kind, names in groups.items() if large}
     photo = run(prepared, told=told, last=large and not asked.reads)
     readings = {}
     for name, reading in asked.reads.items():
         if added := _find_needed(whole, plan, photo, reading):
             return _take(scene, camera, asked, replace(chosen, plus=(*chosen.plus, added)), told)
         readings[name] = _check_reading(prepared, plan, photo, name, reading)
-    seen = tuple(
-        _measure(kind, names, prepared.view, photo, plain[kind])
-        for kind, names in groups.items()
-        if kind
+    shown, seen = _thin(photo.values), []
+    for kind, names in groups.items():
+        other = thin[kind] if large else _thin(plain[kind].values)
+        seen.append(_measure(kind, names, prepared.view, shown, other))
+    alone = plain[next(iter(plain))] if len(plain) == 1 else None
+    return QuestionPhoto(
+        photo, plan, tuple(seen), readings, lambda: alone or run_without(plan.asked)
     )
-    without = plain[next(reversed(plain))] if plain else photo
-    return QuestionPhoto(photo, without, plan, seen, readings)
 
 
-def _is_large(shape: tuple[int, ...]) -> bool:
-    return shape[0] * shape[1] >= 2 * _MEGAPIXEL
-
-
-def _compact(photo: Photo) -> Photo:
-    """A large picture that is only compared is held in half the memory, within 0.06 grey levels.
-
-    For the same reason its layers are drawn for each run, and let go in it.
-    """
-    if not _is_large(photo.values.shape):
-        return photo
-    return msgspec.structs.replace(photo, values=photo.values.astype(np.float16))
+def _thin(values: Image) -> Image:
+    """A megapixel of a picture, which tells as much as all of a large one."""
+    every = max(1, round(math.sqrt(values.shape[0] * values.shape[1] / _MEGAPIXEL)))
+    return values[::every, ::every].copy() if every > 1 else values
 
 
 def _group_asked(
@@ -377,7 +374,7 @@ def _asked_by(plan: Plan, kind: str) -> tuple[str, ...]:
 
 
 def _measure(
-    kind: str, names: Collection[str], view: View, photo: Photo, plain: Photo
+    kind: str, names: Collection[str], view: View, shown: Image, plain: Image
 ) -> Visibility:
     asked = [effects.by_name(name) for name in names]
     sized = [(one, one.size.of(view), one.size) for one in asked if one.size is not None]
@@ -385,7 +382,7 @@ def _measure(
     large = [one for one in asked if one.size is None or one.size.of(view) >= one.size.least]
     small = "" if large or not sized else f"{sized[0][2].least:g} would be seen"
     speckles = all(one.speckles for one in asked)
-    seen = measure_visibility(photo.values, plain.values, kind, speckles=speckles)
+    seen = measure_visibility(shown, plain, kind, speckles=speckles)
     grey = None if seen.grey is None else replace(seen.grey, too_small=small, says=says)
     return replace(seen, says=says, too_small=small, grey=grey)
 
