@@ -12,8 +12,9 @@ runs, ``question`` measures. Pictures are arrays (H, W, 3) of the scene's precis
 from quizgen.camera.camera import Camera
 from quizgen.camera.planning import Plan, plan_budget, plan_everything, plan_question
 from quizgen.camera.prepared import Prepared
+from quizgen.camera.question import simulate
 from quizgen.camera.scene import Length, Scene, SceneError, Thing
-from quizgen.camera.simulate import Photo, photographs, run, simulate, simulate_everything
+from quizgen.camera.simulate import Photo, photographs, run, simulate_everything
 from quizgen.camera.view import View
 
 __all__ = [

@@ -10,8 +10,8 @@ from numpy.typing import DTypeLike, NDArray
 
 from quizgen.arrays.gaussian import inverse_tail
 from quizgen.camera.blocks import Tile, Work
-from quizgen.camera.body import FULL_WELL
 from quizgen.camera.scene import Image
+from quizgen.camera.setup.body import FULL_WELL
 from quizgen.camera.view import View
 
 Places = NDArray[np.intp]

@@ -13,10 +13,10 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from quizgen.camera import effects
-from quizgen.camera.camera import nearest
-from quizgen.camera.effect import Effect
+from quizgen.camera.effects.effect import Effect
 from quizgen.camera.prepared import GREY_LEVELS, Prepared
 from quizgen.camera.scene import SceneError
+from quizgen.camera.setup.settings import nearest
 from quizgen.camera.view import View
 from quizgen.outside import located
 

@@ -7,21 +7,26 @@ every value, since luck and rounding have ends.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection
 from functools import cached_property
 from time import perf_counter
+from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
 from quizgen.camera import effects
-from quizgen.camera.camera import Camera
-from quizgen.camera.draw import Stack, draw
-from quizgen.camera.effect import Effect, Signal
-from quizgen.camera.margins import views
+from quizgen.camera.effects.effect import Effect
+from quizgen.camera.raster.draw import Stack, draw
 from quizgen.camera.scene import Scene, SceneError
-from quizgen.camera.view import View
+from quizgen.camera.view import Signal, View
+
+if TYPE_CHECKING:
+    from quizgen.camera.camera import Camera
 
 GREY_LEVELS = 255.0
+WIDEST = 4
+"""A margin is at most this part of the frame's side, as a barrel needs that just does not fold."""
 LARGEST = 1e30
 """Signals beyond this are no picture."""
 _ROUNDING = 2e-6
@@ -119,3 +124,31 @@ class Prepared:
 def _round(signal: Signal) -> Signal:
     slack = _ROUNDING * signal.size
     return signal.widened(slack, slack)
+
+
+def views(present: tuple[Effect, ...], frame: View) -> tuple[View, ...]:
+    """What each effect works on: the frame, and what it and the later effects need around it.
+
+    Parameters
+    ----------
+    present : tuple of Effect
+        In physical order.
+    frame : View
+        All lengths in px.
+    """
+    found = [frame] * len(present)
+    if frame.scene.image is not None:
+        return tuple(found)
+    view = frame
+    for index in range(len(present) - 1, -1, -1):
+        view = found[index] = _with_margin(view, present[index].outside(view))
+    return tuple(found)
+
+
+def _with_margin(view: View, reach: tuple[float, float]) -> View:
+    sides = view.scene.width, view.scene.height
+    wanted = (had + far for had, far in zip(view.margin, reach, strict=True))
+    across, down = (
+        math.ceil(min(far, side // WIDEST)) for far, side in zip(wanted, sides, strict=True)
+    )
+    return view if (across, down) == view.margin else replace(view, margin=(across, down))

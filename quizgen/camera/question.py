@@ -19,8 +19,16 @@ from numpy.typing import NDArray
 from quizgen.camera import effects
 from quizgen.camera.blocks import pieces
 from quizgen.camera.camera import Camera
+from quizgen.camera.codes import MEASURES
 from quizgen.camera.filters import opencv
-from quizgen.camera.planning import NO_SELECTION, Plan, Selection, describe_size, plan_question
+from quizgen.camera.planning import (
+    NO_SELECTION,
+    Plan,
+    Selection,
+    describe_size,
+    plan_budget,
+    plan_question,
+)
 from quizgen.camera.prepared import GREY_LEVELS, Prepared
 from quizgen.camera.scene import Image, Question, Reading, Scene, SceneError
 from quizgen.camera.simulate import Photo, run, silent
@@ -390,31 +398,6 @@ def _measure(
 # What is read off a picture
 
 
-def _patches(levels: NDArray[np.floating]) -> list[NDArray[np.floating]]:
-    """The four corners of a picture, each a sixteenth of its sides."""
-    rows, columns = (max(1, side // 16) for side in levels.shape[:2])
-    sides = [levels[:rows], levels[-rows:]]
-    return [part for side in sides for part in (side[:, :columns], side[:, -columns:])]
-
-
-def _centre(levels: NDArray[np.floating]) -> NDArray[np.floating]:
-    height, width = levels.shape[:2]
-    rows, columns = max(1, height // 16), max(1, width // 16)
-    top, left = (height - rows) // 2, (width - columns) // 2
-    return levels[top : top + rows, left : left + columns]
-
-
-MEASURES = {
-    "mean": lambda levels: float(levels.mean()),
-    "centre": lambda levels: float(_centre(levels).mean()),
-    "corner": lambda levels: float(np.mean([part.mean() for part in _patches(levels)])),
-    "deviation": lambda levels: float(levels.std(axis=(0, 1)).mean()),
-    "darkest": lambda levels: float(levels.min()),
-    "brightest": lambda levels: float(levels.max()),
-}
-"""What can be read off a picture by name, in grey levels from 0 to 255."""
-
-
 def read_value(image: Image, reading: Reading) -> float:
     """What is read off a finished picture."""
     measure = reading.measure
@@ -459,3 +442,20 @@ def _check_reading(
                 f"{step.effect} moves {name} by {moved:.3g}, more than {reading.tolerance:g}"
             )
     return value
+
+
+# Without a question
+
+
+def simulate(scene: Scene, camera: Camera, budget: str | float = 0.5) -> Photo:
+    """Photograph a scene without what no value shows by more than a budget.
+
+    Parameters
+    ----------
+    scene : Scene
+    camera : Camera
+    budget : float or str
+        Grey levels, see `quizgen.camera.planning.plan_budget`.
+    """
+    prepared = Prepared(scene, camera)
+    return run(prepared, plan_budget(prepared, budget).names, last=True)

@@ -14,9 +14,9 @@ import numpy as np
 from quizgen import png
 from quizgen.arrays.gamma import srgb_decode
 from quizgen.camera import codecs, effects
-from quizgen.camera.camera import Camera, nearest
-from quizgen.camera.outlines import SHAPES, SIZES, TEXTURES
-from quizgen.camera.question import MEASURES
+from quizgen.camera.camera import Camera
+from quizgen.camera.codes import MEASURES
+from quizgen.camera.raster.outlines import SHAPES, SIZES, TEXTURES
 from quizgen.camera.scene import (
     PRECISIONS,
     Image,
@@ -29,7 +29,8 @@ from quizgen.camera.scene import (
     SettingError,
     Thing,
 )
-from quizgen.camera.values import (
+from quizgen.camera.setup.settings import nearest
+from quizgen.camera.setup.values import (
     Reader,
     colour,
     length,

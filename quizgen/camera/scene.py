@@ -60,7 +60,7 @@ class Thing:
     Parameters
     ----------
     shape : str
-        A key of `quizgen.camera.outlines.SHAPES`.
+        A key of `quizgen.camera.raster.outlines.SHAPES`.
     x, y, width, height, radius, cell, stroke : Length
         Place and size in px, or in m at the object's depth.
     depth : float
@@ -68,7 +68,7 @@ class Thing:
     colour, other : (float, float, float)
         Linear radiance, 1 = white; lamps may exceed 1. ``other`` is the texture's second colour.
     texture : str
-        A key of `quizgen.camera.outlines.TEXTURES`.
+        A key of `quizgen.camera.raster.outlines.TEXTURES`.
     angle : float
         Rotation in rad, clockwise as seen.
     velocity : (Length, Length)
@@ -126,7 +126,7 @@ class Reading:
     Parameters
     ----------
     measure : str or callable
-        A name in `quizgen.camera.question.MEASURES`, or a function of the grey levels.
+        A name in `quizgen.camera.codes.MEASURES`, or a function of the grey levels.
     tolerance : float
         How far what is read may be from the key.
     value : float or None

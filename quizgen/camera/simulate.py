@@ -14,12 +14,11 @@ from numpy.typing import NDArray
 from quizgen.camera.blocks import BLOCK, in_turn, pieces
 from quizgen.camera.camera import Camera
 from quizgen.camera.codes import rounded
-from quizgen.camera.draw import Layer, Sheet, Stack, composite, lay_over, sheets
-from quizgen.camera.effect import Effect, LayerByLayer, PointByPoint
+from quizgen.camera.effects.effect import Effect, LayerByLayer, PointByPoint
 from quizgen.camera.filters import warm_up
-from quizgen.camera.margins import cropped, moved_together
-from quizgen.camera.planning import plan_budget
 from quizgen.camera.prepared import GREY_LEVELS, Prepared
+from quizgen.camera.raster.draw import Layer, Sheet, Stack, composite, lay_over, sheets
+from quizgen.camera.raster.layers import cropped, moved_together
 from quizgen.camera.scene import Image, Scene
 from quizgen.camera.view import View
 from quizgen.outside import located
@@ -184,20 +183,6 @@ class _Run:
 
 def _names(steps: list[_Step]) -> str:
     return ", ".join(effect.name for effect, _ in steps)
-
-
-def simulate(scene: Scene, camera: Camera, budget: str | float = 0.5) -> Photo:
-    """Photograph a scene without what no value shows by more than a budget.
-
-    Parameters
-    ----------
-    scene : Scene
-    camera : Camera
-    budget : float or str
-        Grey levels, see `quizgen.camera.planning.plan_budget`.
-    """
-    prepared = Prepared(scene, camera)
-    return run(prepared, plan_budget(prepared, budget).names, last=True)
 
 
 def simulate_everything(scene: Scene, camera: Camera) -> Photo:

@@ -180,7 +180,7 @@ def _ran(taken: QuestionPhoto) -> Iterator[tuple[str, str]]:
 
 def _expose(own: Camera, camera: Camera) -> tuple[float, float] | None:
     """Exposure time that lets in as much light as the scene's own f-number and time."""
-    from quizgen.camera.body import F_NUMBER, SHUTTER
+    from quizgen.camera.setup.body import F_NUMBER, SHUTTER
 
     before, after, time = own[F_NUMBER], camera[F_NUMBER], own[SHUTTER]
     if before is None or after is None or before == after or not time:

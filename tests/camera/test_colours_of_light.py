@@ -10,9 +10,9 @@ import pytest
 from scipy import constants, ndimage
 
 from quizgen.camera import Camera, Prepared, Scene, SceneError, View
-from quizgen.camera.draw import Layer
 from quizgen.camera.effects import axial_colour, colour_filters
 from quizgen.camera.kernels import disc, moved_share
+from quizgen.camera.raster.draw import Layer
 from quizgen.camera.reading import load
 from quizgen.camera.simulate import run
 

@@ -2,10 +2,11 @@
 
 import numpy as np
 
-from quizgen.camera import Camera, Length, Prepared, Scene, Thing, View, layers
-from quizgen.camera.draw import Layer, composite, draw
+from quizgen.camera import Camera, Length, Prepared, Scene, Thing, View
 from quizgen.camera.kernels import disc
-from quizgen.camera.margins import cropped
+from quizgen.camera.raster import layers
+from quizgen.camera.raster.draw import Layer, composite, draw
+from quizgen.camera.raster.layers import cropped
 from quizgen.camera.simulate import run
 
 CAMERA = Camera(

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from quizgen.camera import Camera, Length, Prepared, Scene, Thing, View
-from quizgen.camera.margins import moved_together
+from quizgen.camera.raster.layers import moved_together
 from quizgen.camera.simulate import run, simulate_everything
 
 WIDTH, HEIGHT, BESIDE = 120, 90, 60

@@ -7,11 +7,12 @@ import pytest
 from click.testing import CliRunner
 
 from quizgen.camera import Camera, Prepared, Scene, SceneError, effects
-from quizgen.camera.effect import Effect, Signal, Size, on_picture
+from quizgen.camera.effects.effect import Effect, Size, on_picture
 from quizgen.camera.question import InvisibleEffectError
-from quizgen.camera.settings import SHARE, Setting
+from quizgen.camera.setup.settings import SHARE, Setting
+from quizgen.camera.setup.values import quantity
 from quizgen.camera.simulate import run
-from quizgen.camera.values import quantity
+from quizgen.camera.view import Signal
 from quizgen.cli.simulate import simulate
 
 HAZE = Setting("haze", quantity("%"), 0.0, (SHARE,))

@@ -10,11 +10,10 @@ from scipy import stats
 from sweep import draws
 
 from quizgen.camera import Camera, Prepared, Scene, SceneError, plan_budget, run
-from quizgen.camera.effect import Signal
 from quizgen.camera.effects import EFFECTS, gamma, shot_noise
 from quizgen.camera.noise import FARTHEST, farthest_count
 from quizgen.camera.simulate import is_within, measure_difference
-from quizgen.camera.view import View
+from quizgen.camera.view import Signal, View
 
 SCENES = [pytest.param(0, 60), pytest.param(60, draws(5000), marks=pytest.mark.slow)]
 

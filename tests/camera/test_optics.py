@@ -9,11 +9,12 @@ import pytest
 from scipy import ndimage
 from scipy.integrate import quad
 
-from quizgen.camera import Camera, Length, Prepared, Scene, SceneError, Thing, View, focus, simulate
-from quizgen.camera.draw import Layer, Motion, composite
+from quizgen.camera import Camera, Length, Prepared, Scene, SceneError, Thing, View, simulate
 from quizgen.camera.effects import defocus, distortion, lateral_colour, rolling_shutter, vignetting
 from quizgen.camera.filters import convolve, sample_nearest
 from quizgen.camera.kernels import disc, line
+from quizgen.camera.raster import focus
+from quizgen.camera.raster.draw import Layer, Motion, composite
 from quizgen.camera.simulate import run
 
 

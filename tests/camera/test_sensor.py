@@ -13,7 +13,6 @@ from quizgen.arrays.gamma import srgb_decode
 from quizgen.arrays.hsv import to_rgb
 from quizgen.camera import Camera, Prepared, Scene, View, pictures, simulate
 from quizgen.camera.codes import histogram, rounded
-from quizgen.camera.draw import Layer
 from quizgen.camera.effects import (
     blooming,
     dark_current,
@@ -32,6 +31,7 @@ from quizgen.camera.hsv import edit_hsv, rgb_to_hsv
 from quizgen.camera.noise import luck
 from quizgen.camera.poisson import poisson_quantiles
 from quizgen.camera.power import encode, encode_number
+from quizgen.camera.raster.draw import Layer
 from quizgen.camera.simulate import run
 
 

@@ -4,12 +4,13 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
-from quizgen.camera import Camera, Length, Prepared, Scene, Thing, layers, uneven
-from quizgen.camera.draw import Layer, composite
+from quizgen.camera import Camera, Length, Prepared, Scene, Thing
 from quizgen.camera.effects import by_name
 from quizgen.camera.kernels import disc, line
+from quizgen.camera.raster import layers, uneven
+from quizgen.camera.raster.draw import Layer, composite
+from quizgen.camera.raster.uneven import blurred_places, places
 from quizgen.camera.simulate import run
-from quizgen.camera.uneven import blurred_places, places
 
 EFFECTS = (
     "distortion",

@@ -12,8 +12,6 @@ from collections.abc import Mapping
 from functools import cache
 from types import MappingProxyType
 
-from quizgen.camera.body import BODY, VELOCITY
-from quizgen.camera.effect import Effect
 from quizgen.camera.effects import (
     axial_colour,
     binning,
@@ -48,7 +46,9 @@ from quizgen.camera.effects import (
     vignetting,
     white_balance,
 )
-from quizgen.camera.settings import AnySetting
+from quizgen.camera.effects.effect import Effect
+from quizgen.camera.setup.body import BODY, VELOCITY
+from quizgen.camera.setup.settings import AnySetting
 from quizgen.camera.view import View
 
 EFFECTS: tuple[Effect, ...] = (

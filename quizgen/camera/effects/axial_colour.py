@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from msgspec.structs import replace
 
-from quizgen.camera import focus
-from quizgen.camera.body import F_NUMBER, FOCAL_LENGTH, PIXEL_PITCH
-from quizgen.camera.draw import Layer, Sheet
-from quizgen.camera.effect import (
+from quizgen.camera.effects.effect import (
     Effect,
     LayerByLayer,
     Signal,
     Size,
 )
 from quizgen.camera.kernels import moved_share
-from quizgen.camera.layers import bound_layers
-from quizgen.camera.settings import Rule, Setting, Settings
-from quizgen.camera.values import quantity
+from quizgen.camera.raster import focus
+from quizgen.camera.raster.draw import Layer, Sheet
+from quizgen.camera.raster.layers import bound_layers
+from quizgen.camera.setup.body import F_NUMBER, FOCAL_LENGTH, PIXEL_PITCH
+from quizgen.camera.setup.settings import Rule, Setting, Settings
+from quizgen.camera.setup.values import quantity
 from quizgen.camera.view import View
 
 

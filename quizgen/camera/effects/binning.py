@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from quizgen.camera.effect import (
+from quizgen.camera.effects.effect import (
     Effect,
     Size,
     on_picture,
 )
 from quizgen.camera.scene import Image
-from quizgen.camera.settings import Setting, between
-from quizgen.camera.values import whole
+from quizgen.camera.setup.settings import Setting, between
+from quizgen.camera.setup.values import whole
 from quizgen.camera.view import View
 
 BINNING = Setting("binning", whole, 1, (between(1, 1000, "px"),))

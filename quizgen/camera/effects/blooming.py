@@ -6,15 +6,15 @@ import math
 
 import numpy as np
 
-from quizgen.camera.body import NEEDS_FULL_WELL
-from quizgen.camera.effect import (
+from quizgen.camera.effects.effect import (
     Effect,
     Signal,
     on_picture,
 )
 from quizgen.camera.scene import Image
-from quizgen.camera.settings import Setting
-from quizgen.camera.values import truth
+from quizgen.camera.setup.body import NEEDS_FULL_WELL
+from quizgen.camera.setup.settings import Setting
+from quizgen.camera.setup.values import truth
 from quizgen.camera.view import View
 
 BLOOMING = Setting("blooming", truth, False, (NEEDS_FULL_WELL,))

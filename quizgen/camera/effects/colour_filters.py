@@ -15,14 +15,14 @@ from numpy.typing import NDArray
 
 from quizgen.arrays.luminosity import efficiency
 from quizgen.camera.blocks import Tile, Work
-from quizgen.camera.effect import (
+from quizgen.camera.effects.effect import (
     Effect,
     PointByPoint,
     Signal,
 )
 from quizgen.camera.scene import Image
-from quizgen.camera.settings import Setting, between
-from quizgen.camera.values import number, truth
+from quizgen.camera.setup.settings import Setting, between
+from quizgen.camera.setup.values import number, truth
 from quizgen.camera.view import View
 
 Curve = NDArray[np.float64]

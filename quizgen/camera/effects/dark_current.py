@@ -7,8 +7,7 @@ import math
 import numpy as np
 
 from quizgen.camera.blocks import Tile, Work
-from quizgen.camera.body import NEEDS_FULL_WELL, SHUTTER
-from quizgen.camera.effect import (
+from quizgen.camera.effects.effect import (
     Effect,
     PointByPoint,
     Signal,
@@ -16,8 +15,9 @@ from quizgen.camera.effect import (
 )
 from quizgen.camera.noise import WORDS, electrons_at_white, farthest_count, luck
 from quizgen.camera.scene import Image, Precision
-from quizgen.camera.settings import NOT_NEGATIVE, SHARE, Rule, Setting, Settings
-from quizgen.camera.values import quantity
+from quizgen.camera.setup.body import NEEDS_FULL_WELL, SHUTTER
+from quizgen.camera.setup.settings import NOT_NEGATIVE, SHARE, Rule, Setting, Settings
+from quizgen.camera.setup.values import quantity
 from quizgen.camera.view import View
 
 MOST_CHARGE = 1e8

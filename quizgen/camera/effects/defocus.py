@@ -7,17 +7,17 @@ import math
 import numpy as np
 from msgspec.structs import replace
 
-from quizgen.camera import focus
-from quizgen.camera.body import aperture
-from quizgen.camera.draw import ALL_CHANNELS, Layer, Sheet
-from quizgen.camera.effect import (
+from quizgen.camera.effects.effect import (
     Effect,
     LayerByLayer,
     Signal,
     Size,
 )
 from quizgen.camera.kernels import moved_share
-from quizgen.camera.layers import bound_layers
+from quizgen.camera.raster import focus
+from quizgen.camera.raster.draw import ALL_CHANNELS, Layer, Sheet
+from quizgen.camera.raster.layers import bound_layers
+from quizgen.camera.setup.body import aperture
 from quizgen.camera.view import View
 
 

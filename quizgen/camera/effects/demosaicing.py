@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from quizgen.camera.blocks import pieces
-from quizgen.camera.effect import (
+from quizgen.camera.effects.effect import (
     Effect,
     on_picture,
 )

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from quizgen.camera.body import NEEDS_LENS, aperture
-from quizgen.camera.draw import Layer
-from quizgen.camera.effect import (
+from quizgen.camera.effects.effect import (
     Effect,
     LayerByLayer,
     Size,
 )
 from quizgen.camera.kernels import Kernel, airy, airy_radius, moved_share
-from quizgen.camera.layers import blurred, bound_layers, farthest
-from quizgen.camera.settings import Rule, Setting, Settings, between
-from quizgen.camera.values import quantity
+from quizgen.camera.raster.draw import Layer
+from quizgen.camera.raster.layers import blurred, bound_layers, farthest
+from quizgen.camera.setup.body import NEEDS_LENS, aperture
+from quizgen.camera.setup.settings import Rule, Setting, Settings, between
+from quizgen.camera.setup.values import quantity
 from quizgen.camera.view import View
 
 

@@ -12,25 +12,25 @@ from msgspec.structs import replace
 
 from quizgen.arrays.distortion import fold_radius, inverse_radius
 from quizgen.camera.blocks import pieces
-from quizgen.camera.body import NEEDS_LENS, aperture
-from quizgen.camera.draw import Box, Layer
-from quizgen.camera.effect import (
+from quizgen.camera.effects.effect import (
     Effect,
     LayerByLayer,
     Signal,
     Size,
 )
 from quizgen.camera.filters import sample, sample_nearest
-from quizgen.camera.layers import (
+from quizgen.camera.raster.draw import Box, Layer
+from quizgen.camera.raster.layers import (
     Field,
     bound_shift,
     farthest,
     worked_on,
 )
+from quizgen.camera.raster.uneven import places
 from quizgen.camera.scene import Image, Precision, SceneError
-from quizgen.camera.settings import Setting
-from quizgen.camera.uneven import places
-from quizgen.camera.values import number
+from quizgen.camera.setup.body import NEEDS_LENS, aperture
+from quizgen.camera.setup.settings import Setting
+from quizgen.camera.setup.values import number
 from quizgen.camera.view import View
 
 K1 = Setting("k1", number, 0.0, (NEEDS_LENS,))

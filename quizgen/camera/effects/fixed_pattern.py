@@ -7,8 +7,7 @@ from dataclasses import replace
 import msgspec
 
 from quizgen.camera.blocks import Tile, Work
-from quizgen.camera.body import NEEDS_FULL_WELL
-from quizgen.camera.effect import (
+from quizgen.camera.effects.effect import (
     Effect,
     PointByPoint,
     Signal,
@@ -16,8 +15,9 @@ from quizgen.camera.effect import (
 )
 from quizgen.camera.noise import FARTHEST, electrons_at_white, luck, normal_noise
 from quizgen.camera.scene import Image
-from quizgen.camera.settings import NOT_NEGATIVE, Setting
-from quizgen.camera.values import quantity
+from quizgen.camera.setup.body import NEEDS_FULL_WELL
+from quizgen.camera.setup.settings import NOT_NEGATIVE, Setting
+from quizgen.camera.setup.values import quantity
 from quizgen.camera.view import View
 
 FIXED_PATTERN = Setting("fixed_pattern", quantity("e-"), 0.0, (NEEDS_FULL_WELL, NOT_NEGATIVE))

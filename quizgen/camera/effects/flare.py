@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from quizgen.camera.effect import (
+from quizgen.camera.effects.effect import (
     Effect,
     Size,
     on_picture,
 )
 from quizgen.camera.scene import Image
-from quizgen.camera.settings import SHARE, Setting
-from quizgen.camera.values import quantity
+from quizgen.camera.setup.settings import SHARE, Setting
+from quizgen.camera.setup.values import quantity
 from quizgen.camera.view import View
 
 FLARE = Setting("flare", quantity("%"), 0.0, (SHARE,))

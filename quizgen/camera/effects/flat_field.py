@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from quizgen.camera.blocks import Work, at_pixels
-from quizgen.camera.effect import (
+from quizgen.camera.effects.effect import (
     Effect,
     PointByPoint,
     Size,
@@ -13,8 +13,8 @@ from quizgen.camera.effect import (
 from quizgen.camera.effects.vignetting import corner_light, fall_off_map
 from quizgen.camera.effects.vignetting import is_present as vignettes
 from quizgen.camera.scene import Image
-from quizgen.camera.settings import Setting
-from quizgen.camera.values import truth
+from quizgen.camera.setup.settings import Setting
+from quizgen.camera.setup.values import truth
 from quizgen.camera.view import View
 
 FLAT_FIELD = Setting("flat_field", truth, False)

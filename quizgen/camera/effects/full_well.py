@@ -7,12 +7,12 @@ import math
 import numpy as np
 
 from quizgen.camera.blocks import Tile, Work
-from quizgen.camera.body import FULL_WELL
-from quizgen.camera.effect import (
+from quizgen.camera.effects.effect import (
     Effect,
     PointByPoint,
 )
 from quizgen.camera.scene import Image
+from quizgen.camera.setup.body import FULL_WELL
 from quizgen.camera.view import View
 
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 
 from quizgen.camera.blocks import Work
-from quizgen.camera.effect import (
+from quizgen.camera.effects.effect import (
     Effect,
     PointByPoint,
     Signal,
 )
 from quizgen.camera.power import CURVE_ERROR, encode_number, encoder
-from quizgen.camera.settings import Rule, Setting, Settings
-from quizgen.camera.values import number
+from quizgen.camera.setup.settings import Rule, Setting, Settings
+from quizgen.camera.setup.values import number
 from quizgen.camera.view import View
 
 

@@ -5,15 +5,15 @@ from __future__ import annotations
 import numpy as np
 
 from quizgen.camera.blocks import Tile, Work
-from quizgen.camera.effect import (
+from quizgen.camera.effects.effect import (
     Effect,
     PointByPoint,
     Size,
 )
 from quizgen.camera.noise import FARTHEST, Luck, luck, normal_noise
 from quizgen.camera.scene import Image
-from quizgen.camera.settings import NOT_NEGATIVE, Setting
-from quizgen.camera.values import number
+from quizgen.camera.setup.settings import NOT_NEGATIVE, Setting
+from quizgen.camera.setup.values import number
 from quizgen.camera.view import View
 
 GAUSSIAN_NOISE = Setting("gaussian_noise", number, 0.0, (NOT_NEGATIVE,))

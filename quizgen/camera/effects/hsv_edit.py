@@ -5,15 +5,15 @@ from __future__ import annotations
 import math
 
 from quizgen.camera.blocks import Work
-from quizgen.camera.effect import (
+from quizgen.camera.effects.effect import (
     Effect,
     PointByPoint,
     Signal,
 )
 from quizgen.camera.hsv import hsv_work
 from quizgen.camera.power import CURVE_ERROR
-from quizgen.camera.settings import NOT_NEGATIVE, Setting
-from quizgen.camera.values import number, quantity
+from quizgen.camera.setup.settings import NOT_NEGATIVE, Setting
+from quizgen.camera.setup.values import number, quantity
 from quizgen.camera.view import View
 
 HUE = Setting("hue", quantity("deg"), 0.0)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from quizgen.camera.blocks import Tile, Work
-from quizgen.camera.effect import (
+from quizgen.camera.effects.effect import (
     Effect,
     PointByPoint,
     Signal,
@@ -11,8 +11,8 @@ from quizgen.camera.effect import (
 )
 from quizgen.camera.noise import Luck, luck
 from quizgen.camera.scene import Image
-from quizgen.camera.settings import SHARE, Setting
-from quizgen.camera.values import quantity
+from quizgen.camera.setup.settings import SHARE, Setting
+from quizgen.camera.setup.values import quantity
 from quizgen.camera.view import View
 
 IMPULSE_NOISE = Setting("impulse_noise", quantity("%"), 0.0, (SHARE,))

@@ -5,18 +5,18 @@ from __future__ import annotations
 import numpy as np
 from msgspec.structs import replace
 
-from quizgen.camera.draw import Box, Layer
-from quizgen.camera.effect import (
+from quizgen.camera.effects.effect import (
     Effect,
     LayerByLayer,
     Size,
 )
 from quizgen.camera.filters import sample_grid
-from quizgen.camera.layers import bound_shift, farthest, worked_on
+from quizgen.camera.raster.draw import Box, Layer
+from quizgen.camera.raster.layers import bound_shift, farthest, worked_on
+from quizgen.camera.raster.uneven import places
 from quizgen.camera.scene import Image, SceneError
-from quizgen.camera.settings import Setting
-from quizgen.camera.uneven import places
-from quizgen.camera.values import quantity
+from quizgen.camera.setup.settings import Setting
+from quizgen.camera.setup.values import quantity
 from quizgen.camera.view import View
 
 LATERAL_COLOUR = Setting("lateral_colour", quantity("px"), 0.0)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from quizgen.camera.effect import (
+from quizgen.camera.effects.effect import (
     Effect,
     on_picture,
 )
 from quizgen.camera.scene import Image
-from quizgen.camera.settings import Rule, Setting, Settings
-from quizgen.camera.values import one_of
+from quizgen.camera.setup.settings import Rule, Setting, Settings
+from quizgen.camera.setup.values import one_of
 from quizgen.camera.view import View
 
 TILES = ("RGGB", "BGGR", "GRBG", "GBRG")

@@ -6,16 +6,15 @@ import math
 
 import numpy as np
 
-from quizgen.camera.body import SHUTTER
-from quizgen.camera.draw import Layer, Motion, Sheet, sheets
-from quizgen.camera.effect import (
+from quizgen.camera.effects.effect import (
     Effect,
     LayerByLayer,
     Signal,
     Size,
 )
 from quizgen.camera.kernels import Kernel, line, moved_share
-from quizgen.camera.layers import (
+from quizgen.camera.raster.draw import Layer, Motion, Sheet, sheets
+from quizgen.camera.raster.layers import (
     anything_moves,
     blurred,
     bound_layers,
@@ -24,6 +23,7 @@ from quizgen.camera.layers import (
     path,
     turned,
 )
+from quizgen.camera.setup.body import SHUTTER
 from quizgen.camera.view import View
 
 MOST_TURNS = 64

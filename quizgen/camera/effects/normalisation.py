@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from quizgen.camera.blocks import Tile, Work
-from quizgen.camera.effect import (
+from quizgen.camera.effects.effect import (
     Effect,
     PointByPoint,
     Signal,
 )
 from quizgen.camera.scene import Image
-from quizgen.camera.settings import Rule, Setting, Settings
-from quizgen.camera.values import number, several
+from quizgen.camera.setup.settings import Rule, Setting, Settings
+from quizgen.camera.setup.values import number, several
 from quizgen.camera.view import View
 
 Ends = tuple[float, float, float, float]

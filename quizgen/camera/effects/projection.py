@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from quizgen.camera.effect import (
+from quizgen.camera.effects.effect import (
     Effect,
     keep_stack,
 )

@@ -7,15 +7,15 @@ import math
 import numpy as np
 
 from quizgen.camera.blocks import Tile, Work
-from quizgen.camera.effect import (
+from quizgen.camera.effects.effect import (
     Effect,
     PointByPoint,
     Signal,
     Size,
 )
 from quizgen.camera.scene import Image
-from quizgen.camera.settings import Setting, between
-from quizgen.camera.values import whole
+from quizgen.camera.setup.settings import Setting, between
+from quizgen.camera.setup.values import whole
 from quizgen.camera.view import View
 
 BIT_DEPTH = Setting[int | None]("bit_depth", whole, None, (between(1, 16),))

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from quizgen.camera.blocks import Work
-from quizgen.camera.body import NEEDS_FULL_WELL
-from quizgen.camera.effect import (
+from quizgen.camera.effects.effect import (
     Effect,
     PointByPoint,
     Size,
 )
 from quizgen.camera.noise import FARTHEST, electrons_at_white, luck, normal_noise
-from quizgen.camera.settings import NOT_NEGATIVE, Setting
-from quizgen.camera.values import quantity
+from quizgen.camera.setup.body import NEEDS_FULL_WELL
+from quizgen.camera.setup.settings import NOT_NEGATIVE, Setting
+from quizgen.camera.setup.values import quantity
 from quizgen.camera.view import View
 
 READ_NOISE = Setting("read_noise", quantity("e-"), 0.0, (NEEDS_FULL_WELL, NOT_NEGATIVE))

@@ -6,15 +6,15 @@ import math
 
 import numpy as np
 
-from quizgen.camera.draw import Box, Layer, Sheet, sheets
-from quizgen.camera.effect import (
+from quizgen.camera.effects.effect import (
     Effect,
     LayerByLayer,
     Signal,
     Size,
 )
 from quizgen.camera.filters import sample
-from quizgen.camera.layers import (
+from quizgen.camera.raster.draw import Box, Layer, Sheet, sheets
+from quizgen.camera.raster.layers import (
     Field,
     anything_moves,
     bound_layers,
@@ -25,10 +25,10 @@ from quizgen.camera.layers import (
     turned,
     worked_on,
 )
+from quizgen.camera.raster.uneven import places
 from quizgen.camera.scene import Image
-from quizgen.camera.settings import NOT_NEGATIVE, Setting
-from quizgen.camera.uneven import places
-from quizgen.camera.values import quantity
+from quizgen.camera.setup.settings import NOT_NEGATIVE, Setting
+from quizgen.camera.setup.values import quantity
 from quizgen.camera.view import View
 
 ROW_TIME = Setting("row_time", quantity("s"), 0.0, (NOT_NEGATIVE,))

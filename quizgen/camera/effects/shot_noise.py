@@ -7,8 +7,7 @@ import math
 import numpy as np
 
 from quizgen.camera.blocks import Tile, Work
-from quizgen.camera.body import FULL_WELL
-from quizgen.camera.effect import (
+from quizgen.camera.effects.effect import (
     Effect,
     PointByPoint,
     Signal,
@@ -17,8 +16,9 @@ from quizgen.camera.effect import (
 from quizgen.camera.noise import FARTHEST, electrons_at_white, farthest_count, luck
 from quizgen.camera.poisson import poisson_quantiles
 from quizgen.camera.scene import Image
-from quizgen.camera.settings import Setting
-from quizgen.camera.values import truth
+from quizgen.camera.setup.body import FULL_WELL
+from quizgen.camera.setup.settings import Setting
+from quizgen.camera.setup.values import truth
 from quizgen.camera.view import View
 
 SHOT_NOISE = Setting("shot_noise", truth, True)

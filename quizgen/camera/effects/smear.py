@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from quizgen.camera.body import NEEDS_FULL_WELL
-from quizgen.camera.effect import (
+from quizgen.camera.effects.effect import (
     Effect,
     Signal,
     Size,
     on_picture,
 )
 from quizgen.camera.scene import Image
-from quizgen.camera.settings import SHARE, Setting
-from quizgen.camera.values import quantity
+from quizgen.camera.setup.body import NEEDS_FULL_WELL
+from quizgen.camera.setup.settings import SHARE, Setting
+from quizgen.camera.setup.values import quantity
 from quizgen.camera.view import View
 
 SMEAR = Setting("smear", quantity("%"), 0.0, (NEEDS_FULL_WELL, SHARE))

@@ -12,16 +12,16 @@ from functools import lru_cache
 import numpy as np
 
 from quizgen.camera.blocks import Work, at_pixels
-from quizgen.camera.body import NEEDS_LENS
-from quizgen.camera.effect import (
+from quizgen.camera.effects.effect import (
     Effect,
     PointByPoint,
     Size,
 )
-from quizgen.camera.layers import Field
+from quizgen.camera.raster.layers import Field
 from quizgen.camera.scene import Image, Precision
-from quizgen.camera.settings import Rule, Setting, Settings
-from quizgen.camera.values import number, truth
+from quizgen.camera.setup.body import NEEDS_LENS
+from quizgen.camera.setup.settings import Rule, Setting, Settings
+from quizgen.camera.setup.values import number, truth
 from quizgen.camera.view import View
 
 

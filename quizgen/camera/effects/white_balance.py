@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from quizgen.camera.blocks import BLOCK, Tile, Work
-from quizgen.camera.effect import (
+from quizgen.camera.effects.effect import (
     Effect,
     PointByPoint,
     Signal,
 )
 from quizgen.camera.scene import Colour, Image
-from quizgen.camera.settings import NOT_NEGATIVE, Rule, Setting, Settings
-from quizgen.camera.values import triple
+from quizgen.camera.setup.settings import NOT_NEGATIVE, Rule, Setting, Settings
+from quizgen.camera.setup.values import triple
 from quizgen.camera.view import View
 
 

@@ -13,14 +13,22 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from quizgen.camera.blocks import pieces
-from quizgen.camera.body import VELOCITY
-from quizgen.camera.draw import Box, Layer, Motion, Sheet, both, content, leaves_frame, sheets
-from quizgen.camera.effect import Signal
 from quizgen.camera.filters import convolve, sample
 from quizgen.camera.kernels import Kernel
+from quizgen.camera.raster.draw import (
+    Box,
+    Layer,
+    Motion,
+    Sheet,
+    both,
+    content,
+    leaves_frame,
+    sheets,
+)
+from quizgen.camera.raster.uneven import Places, blurred_places, extent, places, whole, wider
 from quizgen.camera.scene import Image
-from quizgen.camera.uneven import Places, blurred_places, extent, places, whole, wider
-from quizgen.camera.view import View
+from quizgen.camera.setup.body import VELOCITY
+from quizgen.camera.view import Signal, View
 
 Field = NDArray[np.float64]
 
@@ -239,3 +247,36 @@ def _turned(
         for place, image in enumerate(images):
             totals[place] += sample(image, column, row)
     return [total * (1.0 / len(angles)) for total in totals]
+
+
+# Margins
+
+
+def cropped(layer: Layer, view: View) -> Layer:
+    """The middle of a layer that was drawn or computed with a wider margin: nothing is copied."""
+    height, width = layer.colour.shape[:2]
+    down, across = (height - view.height) // 2, (width - view.width) // 2
+    if not down and not across:
+        return layer
+    part = slice(down, down + view.height), slice(across, across + view.width)
+    cover, (x, y) = layer.cover, layer.motion.pivot
+    motion = replace(layer.motion, pivot=(x - across, y - down))
+    seen = None if cover is None else cover[part]
+    return replace(layer, colour=layer.colour[part], cover=seen, motion=motion)
+
+
+def moved_together(picture: Image, view: View) -> Image:
+    """The middle of a picture nobody else needs, row after row in the memory of the whole.
+
+    New memory for a large picture takes longer than copying it.
+    """
+    down, across = (picture.shape[0] - view.height) // 2, (picture.shape[1] - view.width) // 2
+    if not down and not across:
+        return picture
+    if not picture.flags.c_contiguous:
+        return picture[down : down + view.height, across : across + view.width]
+    length, flat = view.width * picture.shape[2], picture.reshape(-1)
+    for row in range(view.height):  # what is written lies before all that is still to be read
+        line = picture[down + row, across : across + view.width]
+        flat[row * length : (row + 1) * length] = line.reshape(-1)
+    return flat[: view.height * length].reshape(view.height, view.width, -1)

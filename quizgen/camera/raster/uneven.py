@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from quizgen.camera.draw import Box, Layer, content
+from quizgen.camera.raster.draw import Box, Layer, content
 from quizgen.camera.scene import Image
 
 Squares = NDArray[np.bool_]

@@ -8,53 +8,12 @@ from typing import Literal
 import msgspec
 
 from quizgen.camera.blocks import Work, in_turn
-from quizgen.camera.draw import Layer, Stack, composite
+from quizgen.camera.raster.draw import Layer, Stack, composite
 from quizgen.camera.scene import Image, Scene
-from quizgen.camera.settings import AnySetting
-from quizgen.camera.view import View
+from quizgen.camera.setup.settings import AnySetting
+from quizgen.camera.view import Signal, View
 
 Stage = Literal["scene", "optics", "sensor", "processing", "edit"]
-
-
-class Signal(msgspec.Struct, frozen=True):
-    """Between which numbers every value of a picture lies, luck and rounding included.
-
-    Parameters
-    ----------
-    low, high : float
-        1 = white.
-    """
-
-    low: float
-    high: float
-
-    @property
-    def span(self) -> float:
-        """Largest minus smallest value."""
-        return self.high - self.low
-
-    @property
-    def size(self) -> float:
-        """Largest magnitude."""
-        return max(abs(self.low), abs(self.high))
-
-    def widened(self, down: float, up: float) -> Signal:
-        """With more room below and above."""
-        return Signal(self.low - down, self.high + up)
-
-    def scaled(self, least: float, most: float) -> Signal:
-        """Every value times a factor of its own between two that are >= 0."""
-        return Signal(
-            min(self.low * least, self.low * most), max(self.high * least, self.high * most)
-        )
-
-    def clipped(self, low: float, high: float) -> Signal:
-        """Cut at two values."""
-        return Signal(min(max(self.low, low), high), max(min(self.high, high), low))
-
-    def outside(self, low: float, high: float) -> float:
-        """How far any value stands beyond two others."""
-        return max(self.high - high, low - self.low, 0.0)
 
 
 Run = Callable[[Stack, View], Stack]

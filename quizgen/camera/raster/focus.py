@@ -15,12 +15,12 @@ from numpy.typing import NDArray
 
 from quizgen.camera import kernels
 from quizgen.camera.blocks import pieces
-from quizgen.camera.draw import Box, Layer, Sheet, blend, content, sheets
 from quizgen.camera.filters import convolve
 from quizgen.camera.kernels import Kernel, disc, moved_share
-from quizgen.camera.layers import Field, blurred, farthest
+from quizgen.camera.raster.draw import Box, Layer, Sheet, blend, content, sheets
+from quizgen.camera.raster.layers import Field, blurred, farthest
+from quizgen.camera.raster.uneven import wider
 from quizgen.camera.scene import Image
-from quizgen.camera.uneven import wider
 from quizgen.camera.view import View
 
 MAX_SLICES = 24

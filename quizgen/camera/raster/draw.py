@@ -14,10 +14,10 @@ import numpy as np
 
 from quizgen.arrays.kernel import settle_the_allocator
 from quizgen.camera.blocks import pieces
-from quizgen.camera.body import aperture
-from quizgen.camera.cells import ALL, CELL, States, band, runs, states
-from quizgen.camera.outlines import CLOSEST, SHAPES, TEXTURES, Plane
+from quizgen.camera.raster.cells import ALL, CELL, States, band, runs, states
+from quizgen.camera.raster.outlines import CLOSEST, SHAPES, TEXTURES, Plane
 from quizgen.camera.scene import Image, SceneError, Thing
+from quizgen.camera.setup.body import aperture
 from quizgen.camera.view import View
 
 
