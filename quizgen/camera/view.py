@@ -28,7 +28,7 @@ class View(msgspec.Struct, frozen=True):
     scene : Scene
     camera : Settings
     margin : (int, int)
-        Columns and rows seen beyond the frame on each side, see `quizgen.camera.margins`.
+        Columns and rows seen beyond the frame on each side, see `quizgen.camera.prepared.views`.
     """
 
     scene: Scene
