@@ -140,7 +140,7 @@ def _finish(drawing: Drawing, alt: str, lang: str, *, colour: bool = False) -> F
 
     return Figure(
         write_svg(drawing, alt, lang), drawing.width, drawing.height, alt, lang,
-        drawing.origin, drawing.labels, colour, drawing.outside,
+        drawing.origin, drawing.labels, colour, drawing.outside, drawing.unnamed_axes,
     )  # fmt: skip
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from math import ceil, floor
 from typing import Any
 
 from quizgen.figures.kit import (
@@ -26,18 +25,7 @@ PARAMETERS = {
 }
 SIZE = (262.0, 116.0)
 
-_RULES = (
-    lambda value, n: floor(value * (n - 1) + 0.5),
-    lambda value, n: floor(value * (n - 1)),
-    lambda value, n: min(floor(value * n), n - 1),
-    lambda value, n: ceil(value * (n - 1)),
-)
 _MOST = 64  # levels of a learner that can still be drawn
-
-
-def find_code(value: float, values: Values) -> int:
-    """Code of an intensity in [0, 1]."""
-    return _RULES[int(values["rule"])](value, int(values["n"]))
 
 
 def list_jumps(values: Values) -> list[float]:
