@@ -249,6 +249,7 @@ def photograph_question(
     *,
     grey: bool = False,
     chosen: Selection = NO_SELECTION,
+    told: Callable[[str], None] = silent,
 ) -> QuestionPhoto:
     """Photograph a scene for a question and measure that it shows what is asked.
 
@@ -266,6 +267,8 @@ def photograph_question(
         Whether what is asked must also be seen in a greyscale print.
     chosen : Selection
         Effects that are chosen by name.
+    told : callable
+        Gets the names of effects before they run.
 
     Raises
     ------
@@ -276,7 +279,7 @@ def photograph_question(
         that it should have.
     """
     with located(scene.file):
-        taken = take_photographs(scene, camera, asks, reads, chosen=chosen)
+        taken = take_photographs(scene, camera, asks, reads, chosen=chosen, told=told)
         for seen in taken.seen:
             check_visible(seen, grey=grey)
     return taken
@@ -295,10 +298,8 @@ def take_photographs(
 
     Parameters
     ----------
-    scene, camera, asks, reads, chosen
+    scene, camera, asks, reads, chosen, told
         As for `photograph_question`.
-    told : callable
-        Gets the names of effects before they run.
     """
     own = scene.question or Question(())
     kinds = (asks,) if isinstance(asks, str) else tuple(asks)

@@ -17,7 +17,6 @@ from quizgen.cli import contrast
 from quizgen.cli.terminal import Progress, print_table, tell
 from quizgen.errors import ChoiceError
 from quizgen.files import write_all
-from quizgen.outside import located
 
 if TYPE_CHECKING:
     import numpy as np
@@ -173,7 +172,7 @@ def _shoot(scene: str, options: Options, told: Progress) -> Shot:
 def _take(scene: str, prepared: Prepared, options: Options, told: Progress) -> Shot:
     """Photograph for a question, or within a budget where nothing is asked."""
     from quizgen.camera.planning import plan_budget
-    from quizgen.camera.question import check_visible, take_photographs
+    from quizgen.camera.question import photograph_question, take_photographs
     from quizgen.camera.simulate import run
 
     seen, chosen = prepared.given.scene, _select(options)
@@ -182,11 +181,9 @@ def _take(scene: str, prepared: Prepared, options: Options, told: Progress) -> S
     if options["budget"] is not None and (options["asks"] or options["only"]):
         raise ChoiceError("--budget is for pictures without a question; leave out --asks or --only")
     if options["budget"] is None and (asks or chosen.only):
-        taken = take_photographs(seen, prepared.camera, options["asks"], chosen=chosen, told=told)
-        if not chosen.only and not set(chosen.minus) & set(taken.plan.asked):
-            with located(seen.file):
-                for one in taken.seen:
-                    check_visible(one)
+        # who chooses effects by name may look at what cannot be seen
+        take = take_photographs if chosen.only or chosen.minus else photograph_question
+        taken = take(seen, prepared.camera, options["asks"], chosen=chosen, told=told)
         return Shot(title, prepared, taken.plan, taken.photo, taken)
     plan = plan_budget(prepared, options["budget"] or "same", chosen)
     again = options["everything"] or options["compare"] is not None
