@@ -4,12 +4,7 @@ from __future__ import annotations
 
 from msgspec.structs import replace
 
-from quizgen.camera.effects.effect import (
-    Effect,
-    LayerByLayer,
-    Signal,
-    Size,
-)
+from quizgen.camera.effects.effect import Effect, LayerByLayer, Size
 from quizgen.camera.kernels import moved_share
 from quizgen.camera.raster import focus
 from quizgen.camera.raster.draw import Layer, Sheet
@@ -17,7 +12,7 @@ from quizgen.camera.raster.layers import bound_layers
 from quizgen.camera.setup.body import F_NUMBER, FOCAL_LENGTH, PIXEL_PITCH
 from quizgen.camera.setup.settings import Rule, Setting, Settings
 from quizgen.camera.setup.values import quantity
-from quizgen.camera.view import View
+from quizgen.camera.view import Signal, View
 
 
 def _has_f_number(_: object, camera: Settings) -> bool:

@@ -6,16 +6,12 @@ import math
 
 import numpy as np
 
-from quizgen.camera.effects.effect import (
-    Effect,
-    Signal,
-    on_picture,
-)
+from quizgen.camera.effects.effect import Effect, on_picture
 from quizgen.camera.scene import Image
 from quizgen.camera.setup.body import NEEDS_FULL_WELL
 from quizgen.camera.setup.settings import Setting
 from quizgen.camera.setup.values import truth
-from quizgen.camera.view import View
+from quizgen.camera.view import Signal, View
 
 BLOOMING = Setting("blooming", truth, False, (NEEDS_FULL_WELL,))
 

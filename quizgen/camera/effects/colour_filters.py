@@ -15,15 +15,11 @@ from numpy.typing import NDArray
 
 from quizgen.arrays.luminosity import efficiency
 from quizgen.camera.blocks import Tile, Work
-from quizgen.camera.effects.effect import (
-    Effect,
-    PointByPoint,
-    Signal,
-)
+from quizgen.camera.effects.effect import Effect, PointByPoint
 from quizgen.camera.scene import Image
 from quizgen.camera.setup.settings import Setting, between
 from quizgen.camera.setup.values import number, truth
-from quizgen.camera.view import View
+from quizgen.camera.view import Signal, View
 
 Curve = NDArray[np.float64]
 

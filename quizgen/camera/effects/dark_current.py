@@ -7,18 +7,13 @@ import math
 import numpy as np
 
 from quizgen.camera.blocks import Tile, Work
-from quizgen.camera.effects.effect import (
-    Effect,
-    PointByPoint,
-    Signal,
-    Size,
-)
+from quizgen.camera.effects.effect import Effect, PointByPoint, Size
 from quizgen.camera.noise import WORDS, electrons_at_white, farthest_count, luck
 from quizgen.camera.scene import Image, Precision
 from quizgen.camera.setup.body import NEEDS_FULL_WELL, SHUTTER
 from quizgen.camera.setup.settings import NOT_NEGATIVE, SHARE, Rule, Setting, Settings
 from quizgen.camera.setup.values import quantity
-from quizgen.camera.view import View
+from quizgen.camera.view import Signal, View
 
 MOST_CHARGE = 1e8
 """Electrons whose counts are still told apart one by one."""

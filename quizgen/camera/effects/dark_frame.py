@@ -9,11 +9,7 @@ import numpy as np
 from quizgen.camera.blocks import in_turn, times
 from quizgen.camera.effects import fixed_pattern, mosaic
 from quizgen.camera.effects.dark_current import dark_electrons
-from quizgen.camera.effects.effect import (
-    Effect,
-    Signal,
-    on_picture,
-)
+from quizgen.camera.effects.effect import Effect, on_picture
 from quizgen.camera.effects.gain import gain
 from quizgen.camera.effects.read_noise import READ_NOISE
 from quizgen.camera.noise import FARTHEST, electrons_at_white, luck, normal_noise
@@ -21,7 +17,7 @@ from quizgen.camera.scene import Image
 from quizgen.camera.setup.body import NEEDS_FULL_WELL
 from quizgen.camera.setup.settings import Setting, between
 from quizgen.camera.setup.values import whole
-from quizgen.camera.view import View
+from quizgen.camera.view import Signal, View
 
 DARK_FRAMES = Setting("dark_frames", whole, 0, (NEEDS_FULL_WELL, between(0, 10**6)))
 """Pictures with the lens covered, whose mean is subtracted; 0 subtracts nothing."""

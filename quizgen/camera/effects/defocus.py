@@ -7,18 +7,13 @@ import math
 import numpy as np
 from msgspec.structs import replace
 
-from quizgen.camera.effects.effect import (
-    Effect,
-    LayerByLayer,
-    Signal,
-    Size,
-)
+from quizgen.camera.effects.effect import Effect, LayerByLayer, Size
 from quizgen.camera.kernels import moved_share
 from quizgen.camera.raster import focus
 from quizgen.camera.raster.draw import ALL_CHANNELS, Layer, Sheet
 from quizgen.camera.raster.layers import bound_layers
 from quizgen.camera.setup.body import aperture
-from quizgen.camera.view import View
+from quizgen.camera.view import Signal, View
 
 
 def work(layer: Layer, view: View) -> Layer:

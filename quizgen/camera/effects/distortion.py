@@ -12,12 +12,7 @@ from msgspec.structs import replace
 
 from quizgen.arrays.distortion import fold_radius, inverse_radius
 from quizgen.camera.blocks import pieces
-from quizgen.camera.effects.effect import (
-    Effect,
-    LayerByLayer,
-    Signal,
-    Size,
-)
+from quizgen.camera.effects.effect import Effect, LayerByLayer, Size
 from quizgen.camera.filters import sample, sample_nearest
 from quizgen.camera.raster.draw import Box, Layer
 from quizgen.camera.raster.layers import (
@@ -31,7 +26,7 @@ from quizgen.camera.scene import Image, Precision, SceneError
 from quizgen.camera.setup.body import NEEDS_LENS, aperture
 from quizgen.camera.setup.settings import Setting
 from quizgen.camera.setup.values import number
-from quizgen.camera.view import View
+from quizgen.camera.view import Signal, View
 
 K1 = Setting("k1", number, 0.0, (NEEDS_LENS,))
 """k1 < 0 is barrel."""

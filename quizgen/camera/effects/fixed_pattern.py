@@ -7,18 +7,13 @@ from dataclasses import replace
 import msgspec
 
 from quizgen.camera.blocks import Tile, Work
-from quizgen.camera.effects.effect import (
-    Effect,
-    PointByPoint,
-    Signal,
-    Size,
-)
+from quizgen.camera.effects.effect import Effect, PointByPoint, Size
 from quizgen.camera.noise import FARTHEST, electrons_at_white, luck, normal_noise
 from quizgen.camera.scene import Image
 from quizgen.camera.setup.body import NEEDS_FULL_WELL
 from quizgen.camera.setup.settings import NOT_NEGATIVE, Setting
 from quizgen.camera.setup.values import quantity
-from quizgen.camera.view import View
+from quizgen.camera.view import Signal, View
 
 FIXED_PATTERN = Setting("fixed_pattern", quantity("e-"), 0.0, (NEEDS_FULL_WELL, NOT_NEGATIVE))
 """Standard deviation of the offsets of the photosites, e- (DSNU of EMVA 1288)."""

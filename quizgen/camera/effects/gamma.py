@@ -5,15 +5,11 @@ from __future__ import annotations
 import math
 
 from quizgen.camera.blocks import Work
-from quizgen.camera.effects.effect import (
-    Effect,
-    PointByPoint,
-    Signal,
-)
+from quizgen.camera.effects.effect import Effect, PointByPoint
 from quizgen.camera.power import CURVE_ERROR, encode_number, encoder
 from quizgen.camera.setup.settings import Rule, Setting, Settings
 from quizgen.camera.setup.values import number
-from quizgen.camera.view import View
+from quizgen.camera.view import Signal, View
 
 
 def _read(value: object) -> str | float:

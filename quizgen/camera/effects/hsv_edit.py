@@ -5,16 +5,12 @@ from __future__ import annotations
 import math
 
 from quizgen.camera.blocks import Work
-from quizgen.camera.effects.effect import (
-    Effect,
-    PointByPoint,
-    Signal,
-)
+from quizgen.camera.effects.effect import Effect, PointByPoint
 from quizgen.camera.hsv import hsv_work
 from quizgen.camera.power import CURVE_ERROR
 from quizgen.camera.setup.settings import NOT_NEGATIVE, Setting
 from quizgen.camera.setup.values import number, quantity
-from quizgen.camera.view import View
+from quizgen.camera.view import Signal, View
 
 HUE = Setting("hue", quantity("deg"), 0.0)
 """rad added."""

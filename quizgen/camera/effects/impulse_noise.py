@@ -3,17 +3,12 @@
 from __future__ import annotations
 
 from quizgen.camera.blocks import Tile, Work
-from quizgen.camera.effects.effect import (
-    Effect,
-    PointByPoint,
-    Signal,
-    Size,
-)
+from quizgen.camera.effects.effect import Effect, PointByPoint, Size
 from quizgen.camera.noise import Luck, luck
 from quizgen.camera.scene import Image
 from quizgen.camera.setup.settings import SHARE, Setting
 from quizgen.camera.setup.values import quantity
-from quizgen.camera.view import View
+from quizgen.camera.view import Signal, View
 
 IMPULSE_NOISE = Setting("impulse_noise", quantity("%"), 0.0, (SHARE,))
 """Share of pixels turned black or white (half each)."""

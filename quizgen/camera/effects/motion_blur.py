@@ -6,12 +6,7 @@ import math
 
 import numpy as np
 
-from quizgen.camera.effects.effect import (
-    Effect,
-    LayerByLayer,
-    Signal,
-    Size,
-)
+from quizgen.camera.effects.effect import Effect, LayerByLayer, Size
 from quizgen.camera.kernels import Kernel, line, moved_share
 from quizgen.camera.raster.draw import Layer, Motion, Sheet, sheets
 from quizgen.camera.raster.layers import (
@@ -24,7 +19,7 @@ from quizgen.camera.raster.layers import (
     turned,
 )
 from quizgen.camera.setup.body import SHUTTER
-from quizgen.camera.view import View
+from quizgen.camera.view import Signal, View
 
 MOST_TURNS = 64
 

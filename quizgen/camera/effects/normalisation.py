@@ -5,15 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from quizgen.camera.blocks import Tile, Work
-from quizgen.camera.effects.effect import (
-    Effect,
-    PointByPoint,
-    Signal,
-)
+from quizgen.camera.effects.effect import Effect, PointByPoint
 from quizgen.camera.scene import Image
 from quizgen.camera.setup.settings import Rule, Setting, Settings
 from quizgen.camera.setup.values import number, several
-from quizgen.camera.view import View
+from quizgen.camera.view import Signal, View
 
 Ends = tuple[float, float, float, float]
 

@@ -7,16 +7,11 @@ import math
 import numpy as np
 
 from quizgen.camera.blocks import Tile, Work
-from quizgen.camera.effects.effect import (
-    Effect,
-    PointByPoint,
-    Signal,
-    Size,
-)
+from quizgen.camera.effects.effect import Effect, PointByPoint, Size
 from quizgen.camera.scene import Image
 from quizgen.camera.setup.settings import Setting, between
 from quizgen.camera.setup.values import whole
-from quizgen.camera.view import View
+from quizgen.camera.view import Signal, View
 
 BIT_DEPTH = Setting[int | None]("bit_depth", whole, None, (between(1, 16),))
 """Bits of the converter; None is analog."""

@@ -6,12 +6,7 @@ import math
 
 import numpy as np
 
-from quizgen.camera.effects.effect import (
-    Effect,
-    LayerByLayer,
-    Signal,
-    Size,
-)
+from quizgen.camera.effects.effect import Effect, LayerByLayer, Size
 from quizgen.camera.filters import sample
 from quizgen.camera.raster.draw import Box, Layer, Sheet, sheets
 from quizgen.camera.raster.layers import (
@@ -29,7 +24,7 @@ from quizgen.camera.raster.uneven import places
 from quizgen.camera.scene import Image
 from quizgen.camera.setup.settings import NOT_NEGATIVE, Setting
 from quizgen.camera.setup.values import quantity
-from quizgen.camera.view import View
+from quizgen.camera.view import Signal, View
 
 ROW_TIME = Setting("row_time", quantity("s"), 0.0, (NOT_NEGATIVE,))
 """Delay from row to row, s."""

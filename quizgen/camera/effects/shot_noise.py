@@ -7,19 +7,14 @@ import math
 import numpy as np
 
 from quizgen.camera.blocks import Tile, Work
-from quizgen.camera.effects.effect import (
-    Effect,
-    PointByPoint,
-    Signal,
-    Size,
-)
+from quizgen.camera.effects.effect import Effect, PointByPoint, Size
 from quizgen.camera.noise import FARTHEST, electrons_at_white, farthest_count, luck
 from quizgen.camera.poisson import poisson_quantiles
 from quizgen.camera.scene import Image
 from quizgen.camera.setup.body import FULL_WELL
 from quizgen.camera.setup.settings import Setting
 from quizgen.camera.setup.values import truth
-from quizgen.camera.view import View
+from quizgen.camera.view import Signal, View
 
 SHOT_NOISE = Setting("shot_noise", truth, True)
 """Needs a full well; without one no electrons are counted."""

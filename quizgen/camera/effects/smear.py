@@ -4,17 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from quizgen.camera.effects.effect import (
-    Effect,
-    Signal,
-    Size,
-    on_picture,
-)
+from quizgen.camera.effects.effect import Effect, Size, on_picture
 from quizgen.camera.scene import Image
 from quizgen.camera.setup.body import NEEDS_FULL_WELL
 from quizgen.camera.setup.settings import SHARE, Setting
 from quizgen.camera.setup.values import quantity
-from quizgen.camera.view import View
+from quizgen.camera.view import Signal, View
 
 SMEAR = Setting("smear", quantity("%"), 0.0, (NEEDS_FULL_WELL, SHARE))
 """Share of a column's mean that is added to the column while its rows are shifted."""

@@ -5,15 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from quizgen.camera.blocks import BLOCK, Tile, Work
-from quizgen.camera.effects.effect import (
-    Effect,
-    PointByPoint,
-    Signal,
-)
+from quizgen.camera.effects.effect import Effect, PointByPoint
 from quizgen.camera.scene import Colour, Image
 from quizgen.camera.setup.settings import NOT_NEGATIVE, Rule, Setting, Settings
 from quizgen.camera.setup.values import triple
-from quizgen.camera.view import View
+from quizgen.camera.view import Signal, View
 
 
 def _no_gain_negative(gains: Colour, _: Settings) -> bool:
