@@ -24,9 +24,9 @@ import numpy as np
 
 from quizgen.camera import Camera, Prepared, Scene, View, effects, filters, plan_question
 from quizgen.camera.compare import time_in_turns
-from quizgen.camera.raster.draw import Layer
-from quizgen.camera.effects.effect import Effect
 from quizgen.camera.effects import distortion, mosaic, vignetting
+from quizgen.camera.effects.effect import Effect
+from quizgen.camera.raster.draw import Layer
 from quizgen.camera.reading import load
 from quizgen.cli.simulate import SCENES
 
