@@ -243,8 +243,13 @@ def _units(prepared: Prepared) -> list[tuple[str, ...]]:
 
 
 def describe_size(effect: Effect, view: View) -> str:
-    """What an effect does in its own terms, its verb first; empty where it has none."""
-    return effect.size.says.format(effect.size.of(view)) if effect.size else ""
+    """What an effect does in its own terms, its verb first; empty where that says nothing.
+
+    Hot pixels alone, for one, are a dark current of 0 electrons.
+    """
+    size = effect.size
+    value = size.of(view) if size else 0.0
+    return size.says.format(value) if size and (value or size.least) else ""
 
 
 def _describe_bound(bound: float) -> str:

@@ -386,14 +386,13 @@ def _measure(
     kind: str, names: Collection[str], view: View, shown: Image, plain: Image
 ) -> Visibility:
     asked = [effects.by_name(name) for name in names]
-    sized = [(one, one.size.of(view), one.size) for one in asked if one.size is not None]
-    says = tuple(describe_size(one, view) for one, _, _ in sized)
-    large = [one for one in asked if one.size is None or one.size.of(view) >= one.size.least]
-    small = "" if large or not sized else f"{sized[0][2].least:g} would be seen"
+    says = tuple(filter(None, (describe_size(one, view) for one in asked)))
+    small = [one.size for one in asked if one.size and one.size.of(view) < one.size.least]
+    too_small = f"{small[0].least:g} would be seen" if small and len(small) == len(asked) else ""
     speckles = all(one.speckles for one in asked)
     seen = measure_visibility(shown, plain, kind, speckles=speckles)
-    grey = None if seen.grey is None else replace(seen.grey, too_small=small, says=says)
-    return replace(seen, says=says, too_small=small, grey=grey)
+    grey = None if seen.grey is None else replace(seen.grey, too_small=too_small, says=says)
+    return replace(seen, says=says, too_small=too_small, grey=grey)
 
 
 # What is read off a picture

@@ -63,6 +63,14 @@ def test_what_cannot_be_seen_is_an_error_that_says_by_how_much(scene, camera, as
         photograph_question(scene, camera, asks)
 
 
+def test_hot_pixels_are_seen_without_a_dark_current():
+    """A share of 0.4 % of the photosites: about 55 of them."""
+    camera = Camera(full_well=1e4, hot_pixels=0.004, shot_noise=False, gamma="srgb")
+    (seen,) = photograph_question(WALL, camera, "hot pixels").seen
+    assert 30 < seen.specks < 85
+    assert seen.says == ()
+
+
 def test_every_kind_that_is_asked_must_be_seen():
     camera = Camera(full_well=300.0, read_noise=1e-3)
     photograph_question(WALL, camera, "shot noise")
