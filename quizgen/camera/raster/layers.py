@@ -1,8 +1,4 @@
-"""Layers that are moved or resampled, and what an error in one of them can show.
-
-A stack shows an error of its layers as at most the sum over layers of the colour's error plus half
-the range times the cover's; `LayerFacts` hold steps weighted in exactly that way.
-"""
+"""Layers that are moved or resampled, and what an error in one of them can show."""
 
 from __future__ import annotations
 
@@ -17,14 +13,22 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from quizgen.camera.blocks import pieces
-from quizgen.camera.body import VELOCITY
-from quizgen.camera.draw import Box, Layer, Motion, Sheet, both, content, leaves_frame, sheets
-from quizgen.camera.facts import Error, Facts, LayerFacts
 from quizgen.camera.filters import convolve, sample
 from quizgen.camera.kernels import Kernel
+from quizgen.camera.raster.draw import (
+    Box,
+    Layer,
+    Motion,
+    Sheet,
+    both,
+    content,
+    leaves_frame,
+    sheets,
+)
+from quizgen.camera.raster.uneven import Places, blurred_places, extent, places, whole, wider
 from quizgen.camera.scene import Image
-from quizgen.camera.uneven import Places, blurred_places, extent, places, whole, wider
-from quizgen.camera.view import View
+from quizgen.camera.setup.body import VELOCITY
+from quizgen.camera.view import Signal, View
 
 Field = NDArray[np.float64]
 
@@ -63,8 +67,7 @@ def worked_on(
         made.append((box, make(images, box)))
     _write(made, results)
     cover = None if layer.cover is None else results[1]
-    worked = max(layer.worked, where.share(layer.colour.shape))
-    return replace(layer, colour=results[0], cover=cover, own=True, worked=worked)
+    return replace(layer, colour=results[0], cover=cover, own=True)
 
 
 Made = tuple[Box, list[Image]]
@@ -119,10 +122,27 @@ def blurred(layer: Layer, kernel: Kernel) -> Layer:
     return worked_on(layer, blurred_places(layer, kernel), blur, most)
 
 
-def each(facts: Facts, view: View) -> Iterator[tuple[LayerFacts, Sheet, float]]:
-    """Facts and sheet of every layer, and the most that a layer's error can show."""
-    for layer, sheet in zip(facts.layers, sheets(view), strict=True):
-        yield layer, sheet, facts.span * (1.0 if sheet.opaque else 1.5)
+def bound_layers(signal: Signal, view: View, share: Callable[[Sheet], float]) -> float:
+    """Bound on what a picture shows of averages in its layers.
+
+    An error of a layer shows as at most that of its colour plus half the range times that of its
+    cover: one range in an opaque layer, one and a half in others. No average leaves the range.
+
+    Parameters
+    ----------
+    signal : Signal
+    view : View
+    share : callable
+        How far any value of a sheet's layer may be off, by its own range.
+    """
+    shares = (share(sheet) * (1.0 if sheet.opaque else 1.5) for sheet in sheets(view))
+    return signal.span * min(sum(shares), 1.0)
+
+
+def bound_shift(signal: Signal, view: View, distance: float) -> float:
+    """Bound on reading every layer a distance away, px: neighbours may be black and white."""
+    far = math.sqrt(2.0) * (distance + rounding(view))
+    return bound_layers(signal, view, lambda _: far)
 
 
 def farthest(view: View, reach: Callable[[Sheet], tuple[float, float]]) -> tuple[float, float]:
@@ -130,11 +150,6 @@ def farthest(view: View, reach: Callable[[Sheet], tuple[float, float]]) -> tuple
     reaches = [reach(sheet) for sheet in sheets(view) if leaves_frame(sheet, view)]
     across, down = zip((0.0, 0.0), *reaches, strict=True)
     return max(across), max(down)
-
-
-def within(amount: float, facts: Facts) -> Error:
-    """Every picture made by averaging stays inside the range."""
-    return Error(min(amount, facts.span))
 
 
 def rounding(view: View) -> float:
@@ -145,21 +160,6 @@ def rounding(view: View) -> float:
 @lru_cache(maxsize=64)
 def _spacing(side: int) -> float:
     return float(np.spacing(np.float32(side)))
-
-
-def shifted(facts: Facts, distance: float, view: View) -> Error:
-    """Error of reading every layer a distance away, px: distance times the steepest slope."""
-    far = distance + rounding(view)
-    return within(sum(far * math.hypot(*layer.jump) for layer in facts.layers), facts)
-
-
-def mixed_axes(facts: Facts, factor: float) -> Facts:
-    """Every layer magnified or turned: steps along any direction, times a factor."""
-    layers = []
-    for layer in facts.layers:
-        step = factor * math.hypot(*layer.jump)
-        layers.append(LayerFacts((step, step), (2 * step, 2 * step)))
-    return replace(facts, layers=tuple(layers))
 
 
 # Movement
@@ -247,3 +247,36 @@ def _turned(
         for place, image in enumerate(images):
             totals[place] += sample(image, column, row)
     return [total * (1.0 / len(angles)) for total in totals]
+
+
+# Margins
+
+
+def cropped(layer: Layer, view: View) -> Layer:
+    """The middle of a layer that was drawn or computed with a wider margin: nothing is copied."""
+    height, width = layer.colour.shape[:2]
+    down, across = (height - view.height) // 2, (width - view.width) // 2
+    if not down and not across:
+        return layer
+    part = slice(down, down + view.height), slice(across, across + view.width)
+    cover, (x, y) = layer.cover, layer.motion.pivot
+    motion = replace(layer.motion, pivot=(x - across, y - down))
+    seen = None if cover is None else cover[part]
+    return replace(layer, colour=layer.colour[part], cover=seen, motion=motion)
+
+
+def moved_together(picture: Image, view: View) -> Image:
+    """The middle of a picture nobody else needs, row after row in the memory of the whole.
+
+    New memory for a large picture takes longer than copying it.
+    """
+    down, across = (picture.shape[0] - view.height) // 2, (picture.shape[1] - view.width) // 2
+    if not down and not across:
+        return picture
+    if not picture.flags.c_contiguous:
+        return picture[down : down + view.height, across : across + view.width]
+    length, flat = view.width * picture.shape[2], picture.reshape(-1)
+    for row in range(view.height):  # what is written lies before all that is still to be read
+        line = picture[down + row, across : across + view.width]
+        flat[row * length : (row + 1) * length] = line.reshape(-1)
+    return flat[: view.height * length].reshape(view.height, view.width, -1)

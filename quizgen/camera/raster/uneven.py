@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from quizgen.camera.draw import Box, Layer, content
+from quizgen.camera.raster.draw import Box, Layer, content
 from quizgen.camera.scene import Image
 
 Squares = NDArray[np.bool_]
@@ -42,11 +42,6 @@ class Places(NamedTuple):
     boxes: list[Box]
     reach: int
 
-    def share(self, shape: tuple[int, ...]) -> float:
-        """Share of a layer's pixels that are in them."""
-        areas = (math.prod(part.stop - part.start for part in box) for box in self.boxes)
-        return min(sum(areas) / math.prod(shape[:2]), 1.0)
-
 
 def places(layer: Layer, reach: tuple[float, float]) -> Places:
     """Where values are read at places between pixels, nearest or mixed.
@@ -66,15 +61,6 @@ def blurred_places(layer: Layer, kernel: NDArray[np.float64]) -> Places:
     """Where a layer is convolved: around a box so much is read that small ones are dear."""
     reach = kernel.shape[0] // 2, kernel.shape[1] // 2
     return Places(_boxes(layer, reach, reach), reach[0])
-
-
-def steps(layer: Layer) -> list[Box]:
-    """Boxes with all that differs from a neighbour, and two more lines around."""
-    shape = layer.colour.shape[:2]
-    seen = extent(layer)
-    most = wider(seen, (2, 2), shape)
-    frames = _merged(_uneven(layer, seen), (SQUARE, SQUARE))  # looking at a box takes a while
-    return [wider(box, (2, 2), shape) for box in _in_px(frames, most)]
 
 
 def _boxes(layer: Layer, reach: tuple[int, int], read: tuple[int, int]) -> list[Box]:

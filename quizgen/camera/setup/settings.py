@@ -6,12 +6,13 @@ given costs nothing and changes nothing.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from difflib import get_close_matches
 from typing import Any, Generic, TypeVar
 
 import msgspec
 
-from quizgen.camera.values import Reader
+from quizgen.camera.setup.values import Reader
 
 T = TypeVar("T")
 Judged_contra = TypeVar("Judged_contra", contravariant=True)
@@ -58,7 +59,7 @@ class Setting(msgspec.Struct, Generic[T], frozen=True):
     name : str
         The key.
     read : callable
-        From what TOML gives to a value in base units; see `quizgen.camera.values`.
+        From what TOML gives to a value in base units; see `quizgen.camera.setup.values`.
     identity : object
         The value that changes nothing.
     rules : tuple of Rule
@@ -97,3 +98,9 @@ def _not_negative(value: float, _: Settings) -> bool:
 
 NOT_NEGATIVE = Rule(_not_negative, "must be >= 0")
 SHARE = between(0.0, 1.0)
+
+
+def nearest(name: str, known: Iterable[str]) -> str:
+    """A hint at the key that was probably meant."""
+    close = get_close_matches(name, known, 1)
+    return f"; did you mean {close[0]!r}?" if close else ""

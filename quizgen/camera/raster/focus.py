@@ -15,31 +15,29 @@ from numpy.typing import NDArray
 
 from quizgen.camera import kernels
 from quizgen.camera.blocks import pieces
-from quizgen.camera.costs import convolution, wide_convolution
-from quizgen.camera.draw import Box, Layer, Sheet, blend, content, sheets
-from quizgen.camera.facts import Error, Facts, LayerFacts
 from quizgen.camera.filters import convolve
-from quizgen.camera.kernels import Kernel, change, disc
-from quizgen.camera.layers import Field, blurred, farthest, within
+from quizgen.camera.kernels import Kernel, disc, moved_share
+from quizgen.camera.raster.draw import Box, Layer, Sheet, blend, content, sheets
+from quizgen.camera.raster.layers import Field, blurred, farthest
+from quizgen.camera.raster.uneven import wider
 from quizgen.camera.scene import Image
-from quizgen.camera.uneven import wider
 from quizgen.camera.view import View
 
 MAX_SLICES = 24
 
 
-def defocused(layer: Layer, view: View, shift: float = 0.0, rung: str = "") -> Layer:
+def defocused(layer: Layer, view: View, shift: float = 0.0) -> Layer:
     """Blur a layer by its circle of confusion, depth by depth where it has a map."""
     if isinstance(layer.depth, np.ndarray):
-        middles = slices(_extremes(layer.depth, view, shift), rung)
+        middles = slices(_extremes(layer.depth, view, shift))
         index = _slice_of(layer.depth, middles, view, shift)
-        return replace(layer, colour=_blurred_by_depth(layer.colour, index, middles), worked=1.0)
+        return replace(layer, colour=_blurred_by_depth(layer.colour, index, middles))
     return blurred(layer, disc(float(view.blur_diameter(layer.depth)) + shift))
 
 
-def in_channels(layer: Layer, view: View, shifts: Mapping[int, float], rung: str) -> Layer:
+def in_channels(layer: Layer, view: View, shifts: Mapping[int, float]) -> Layer:
     """Blur some channels of a layer, each by the discs of its own shift."""
-    colour, cover, worked = layer.colour.copy(), layer.cover, layer.worked
+    colour, cover = layer.colour.copy(), layer.cover
     if cover is not None:  # a cover for each colour
         cover = np.array(np.broadcast_to(cover, colour.shape))
     for channel, shift in shifts.items():
@@ -47,22 +45,21 @@ def in_channels(layer: Layer, view: View, shifts: Mapping[int, float], rung: str
         seen = None if cover is None else np.ascontiguousarray(cover[..., own])
         light = np.ascontiguousarray(colour[..., own])
         part = replace(layer, colour=light, cover=seen, own=False)
-        blurry = defocused(part, view, shift, rung)
+        blurry = defocused(part, view, shift)
         colour[..., own] = blurry.colour
         if cover is not None and blurry.cover is not None:
             cover[..., own] = blurry.cover
-        worked = max(worked, blurry.worked)
-    return replace(layer, colour=colour, cover=cover, own=True, worked=worked)
+    return replace(layer, colour=colour, cover=cover, own=True)
 
 
-def slices(diameters: tuple[float, float], rung: str = "") -> Field:
+def slices(diameters: tuple[float, float]) -> Field:
     """Blur diameters of the slices of a depth map, px, ascending.
 
     Multiples of one step, so that what is in focus stays sharp: uniform in the signed circle of
     confusion (linear in 1/z). The step is 0.5 px, or more where that makes over `MAX_SLICES`.
     """
     least, most = diameters
-    step = max(0.5, (most - least) / MAX_SLICES) * {"half": 2.0, "quarter": 4.0}.get(rung, 1.0)
+    step = max(0.5, (most - least) / MAX_SLICES)
     return step * np.arange(np.rint(least / step), np.rint(most / step) + 1.0)
 
 
@@ -145,7 +142,7 @@ def outside(view: View, shifts: tuple[float, ...]) -> tuple[float, float]:
 def check(view: View) -> None:
     """No disc may be too wide."""
     for sheet in sheets(view):
-        if not by_depth(sheet, view):
+        if not is_by_depth(sheet, view):
             kernels.check(_diameter(sheet, view))
 
 
@@ -158,65 +155,27 @@ def _diameter(sheet: Sheet, view: View) -> float:
     return view.blur_diameter(math.inf if sheet.depth is None else sheet.depth)
 
 
-def by_depth(sheet: Sheet, view: View) -> bool:
+def widest_disc(view: View) -> float:
+    """Diameter of the largest disc that anything in the frame is blurred by, px."""
+    widest = 0.0
+    for sheet in sheets(view):
+        if is_by_depth(sheet, view):
+            ends = _extremes(np.asarray(view.scene.depth), view, 0.0)
+            widest = max(widest, *(abs(end) for end in ends))
+        else:
+            widest = max(widest, abs(_diameter(sheet, view)))
+    return widest
+
+
+def is_by_depth(sheet: Sheet, view: View) -> bool:
     """Whether every pixel of a sheet has a depth of its own."""
     return sheet.opaque and view.has_depth_map
 
 
-def map_slices(view: View, shift: float = 0.0, rung: str = "") -> Field:
-    """Blur diameters of the slices of the scene's depth map, px."""
-    return slices(_extremes(np.asarray(view.scene.depth), view, shift), rung)
+def share_by_depth(view: View, shift: float) -> float:
+    """Share of the light that leaves its place where every pixel has a depth of its own.
 
-
-def map_error(layer: LayerFacts, view: View, shift: float = 0.0, rung: str = "") -> float:
-    """Light comes from within the largest kernel; in a single slice taps pair up as usual."""
-    middles = map_slices(view, shift, rung)
-    largest = disc(float(np.abs(middles).max()))
-    if len(middles) == 1:
-        return change(largest, layer.jump, layer.bend, math.inf)
-    reach = largest.shape[0] // 2
-    return float(reach * (layer.jump[0] + layer.jump[1]))
-
-
-def fewer_slices(facts: Facts, view: View, rung: str, shifts: tuple[float, ...]) -> Error:
-    """Difference of a rung from the exact way: both average inside their largest kernel."""
-    if not view.has_depth_map:
-        return Error()
-    first = facts.layers[0]
-    apart = (map_error(first, view, s) + map_error(first, view, s, rung) for s in shifts)
-    return within(max(apart), facts)
-
-
-def after(facts: Facts, view: View, shifts: tuple[float, ...]) -> Facts:
-    """A blur does not steepen a layer; the border between two slices may."""
-    spread = facts.stepped(1.0, 1.0)
-    if not view.has_depth_map:
-        return spread
-    first = facts.layers[0]
-    worst = max(map_error(first, view, shift) for shift in shifts)
-    step = min(facts.span, max(first.jump) + 2.0 * worst)
-    base = LayerFacts((step, step), (2 * step, 2 * step))
-    return replace(spread, layers=(base, *spread.layers[1:]))
-
-
-def cost(view: View, rung: str, opencv_used: bool, shift: float = 0.0) -> float:
-    """A convolution per layer and colour, or per slice of a depth map."""
-    total = 0.0
-    for sheet in sheets(view):
-        if sheet.depth is None and sheet.opaque:
-            discs = map_slices(view, shift, rung).tolist()
-            total += sum(_cost(diameter, view, opencv_used) for diameter in discs) * 1.5
-        else:
-            share = 1.0 if sheet.opaque else 4.0 / 3.0
-            total += share * _cost(_diameter(sheet, view) + shift, view, opencv_used)
-    return total
-
-
-_WIDE = 20.0
-"""Discs from this diameter on, px, have so many taps that they go by transforms."""
-
-
-def _cost(diameter: float, view: View, opencv_used: bool) -> float:
-    if abs(diameter) >= _WIDE:
-        return wide_convolution(view, opencv_used)
-    return convolution(disc(diameter), view, opencv_used)
+    Slices are divided by their own blurred coverage, so that of several any may be all.
+    """
+    middles = slices(_extremes(np.asarray(view.scene.depth), view, shift))
+    return moved_share(disc(float(middles[0]))) if len(middles) == 1 else 1.0

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from quizgen.camera.settings import NOT_NEGATIVE, AnySetting, Rule, Setting, Settings, between
-from quizgen.camera.values import Reader, number, pair, quantity
+from quizgen.camera.setup.settings import NOT_NEGATIVE, AnySetting, Rule, Setting, Settings, between
+from quizgen.camera.setup.values import Reader, number, pair, quantity
 
 
 def _f_number(value: object) -> float:

@@ -14,10 +14,10 @@ import numpy as np
 
 from quizgen.arrays.kernel import settle_the_allocator
 from quizgen.camera.blocks import pieces
-from quizgen.camera.body import aperture
-from quizgen.camera.cells import ALL, CELL, States, band, runs, states
-from quizgen.camera.outlines import CLOSEST, SHAPES, TEXTURES, Plane
+from quizgen.camera.raster.cells import ALL, CELL, States, band, runs, states
+from quizgen.camera.raster.outlines import CLOSEST, SHAPES, TEXTURES, Plane
 from quizgen.camera.scene import Image, SceneError, Thing
+from quizgen.camera.setup.body import aperture
 from quizgen.camera.view import View
 
 
@@ -57,8 +57,6 @@ class Layer(msgspec.Struct, frozen=True):
         Channels that are not out of focus yet: axial colour takes red and blue before the rest.
     own : bool
         Whether nobody else needs its memory, so that it may be written over.
-    worked : float
-        Share of its pixels that the effect at work has made anew.
     """
 
     colour: Image
@@ -67,7 +65,6 @@ class Layer(msgspec.Struct, frozen=True):
     motion: Motion = STILL
     sharp: tuple[int, ...] = ALL_CHANNELS
     own: bool = False
-    worked: float = 0.0
 
     @property
     def even(self) -> bool:

@@ -9,6 +9,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
+from quizgen.camera.kernels import disc_area_below
 from quizgen.camera.scene import Thing
 
 Plane = NDArray[np.float64]
@@ -22,6 +23,19 @@ def _box(thing: Thing, x: Plane, y: Plane) -> Plane:
 
 
 def _disc(thing: Thing, x: Plane, y: Plane) -> Plane:
+    """Of one smaller than a pixel what gives each pixel its exact share: an edge would be wider."""
+    radius = thing.radius.value
+    if radius >= 1.0:
+        return _from_rim(thing, x, y)
+    left, right = (np.clip((x + side) / radius, -1.0, 1.0) for side in (-0.5, 0.5))
+    upper, lower = (np.clip((y + side) / radius, -1.0, 1.0) for side in (-0.5, 0.5))
+    corners = [
+        disc_area_below(*np.broadcast_arrays(a, b)) for a in (left, right) for b in (upper, lower)
+    ]
+    return np.asarray(0.5 - radius**2 * (corners[3] - corners[2] - corners[1] + corners[0]))
+
+
+def _from_rim(thing: Thing, x: Plane, y: Plane) -> Plane:
     return np.hypot(x, y) - thing.radius.value
 
 
@@ -116,6 +130,7 @@ def _closest_of_ellipse(thing: Thing, x: Plane, y: Plane) -> Plane:
 
 CLOSEST: dict[str, Shape] = {
     **SHAPES,
+    "disc": _from_rim,
     "ellipse": _closest_of_ellipse,
     "polygon": partial(_polygon, reach=math.inf),
 }

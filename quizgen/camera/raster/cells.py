@@ -32,7 +32,7 @@ def states(away: NDArray[np.float64], reach: float) -> States:
     Parameters
     ----------
     away : numpy.ndarray
-        From `quizgen.camera.outlines.CLOSEST` in the middle of each.
+        From `quizgen.camera.raster.outlines.CLOSEST` in the middle of each.
     reach : float
         From there to a corner, px; the soft edge is half a pixel more.
     """
