@@ -19,8 +19,9 @@ _TALLEST = 4
 
 
 def check_seen(
-    shown: NDArray[np.uint8], plain: NDArray[np.uint8], kind: str, *, speckles: bool = False
-) -> None:
+    shown: NDArray[np.uint8], plain: NDArray[np.uint8], kind: str, *, speckles: bool = False,
+    grey: bool = True,
+) -> None:  # fmt: skip
     """Refuse a picture in which nobody sees what it is asked about.
 
     Parameters
@@ -31,6 +32,8 @@ def check_seen(
         What is asked, for the message.
     speckles : bool
         Whether it is noise, which is seen by the spread of single pixels.
+    grey : bool
+        Whether it must be seen in a greyscale print, too: unless the figure says ``COLOUR``.
 
     Raises
     ------
@@ -39,7 +42,7 @@ def check_seen(
     """
     from quizgen.camera.question import check_visible, measure_visibility
 
-    check_visible(measure_visibility(shown, plain, kind, speckles=speckles))
+    check_visible(measure_visibility(shown, plain, kind, speckles=speckles), grey=grey)
 
 
 def place_photo(

@@ -102,7 +102,8 @@ def _take_pair(kind: str, variant: int, way: int) -> tuple[NDArray[np.uint8], ..
     from quizgen.camera.question import photograph_question
 
     with everywhere_alike():
-        taken = photograph_question(*make_scene(kind, variant, way), _ASKED.get(kind, kind))
+        asks, grey = _ASKED.get(kind, kind), kind not in _COLOURED
+        taken = photograph_question(*make_scene(kind, variant, way), asks, grey=grey)
         return taken.without.pixels(), taken.photo.pixels()
 
 

@@ -68,7 +68,7 @@ def _take_photo(f: float, extent: float, rim: float) -> Any:
     """The photograph in 8-bit codes, for the question and for its solution."""
     with everywhere_alike():
         scene, camera = set_camera({"f": f, "extent": extent, "rim": rim})
-        return photograph_question(scene, camera, "vignetting").photo.pixels()
+        return photograph_question(scene, camera, "vignetting", grey=True).photo.pixels()
 
 
 def draw(ax: Any, values: Values, *, quiz: bool) -> None:
