@@ -69,7 +69,7 @@ def test_a_wheel_brings_what_its_bank_comes_to(built, tmp_path):
 def test_what_decides_the_bytes_of_a_pdf_is_fixed_for_who_installs_it():
     fixed = {needed for needed in TABLE["project"]["dependencies"] if "==" in needed}
     names = {needed.partition("==")[0] for needed in fixed}
-    assert names == {"typst", "fontpkg-hind-siliguri", "ziamath"}
+    assert names == {"matplotlib", "typst", "fontpkg-hind-siliguri", "ziamath"}
     assert fixed <= set(PINS)
 
 
