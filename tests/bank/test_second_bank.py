@@ -108,8 +108,8 @@ def test_the_topics_of_the_built_in_bank_are_those_of_its_templates():
 
 SUBJECT = {"arrays", "camera", "tradeoff"}
 """What pictures are made with: an effect or a formula may be called as a topic or a figure is."""
-OTHERWISE = {"code", "camera", "colour", "image", "pinhole", "projection"}
-"""An answer kind, a command's word, a spelling, an element of SVG, a camera, a parameter of matplotlib."""
+OTHERWISE = {"code", "camera", "colour", "image", "projection"}
+"""An answer kind, a command's word, a spelling, an element of SVG, and a parameter of matplotlib."""
 
 
 def test_the_engine_names_no_topic_and_no_title():
@@ -138,8 +138,8 @@ EXAMPLE = {"point-to-image-plane"}
 """The question that the examples of the Python interface ask."""
 
 
-SCENES = {"pinhole"}
-"""What the camera photographs, on a page of its own, and a figure as well."""
+SCENES = {"pinhole", "defocus"}
+"""A scene and an effect of the camera's own page, which a figure and a solver are called as well."""
 
 
 def _texts(path: Path) -> set[object]:
