@@ -61,7 +61,7 @@ def run(
     def ready() -> None:
         tell(f"quizgen is at {address}\nCtrl-C ends it; nothing that was answered is lost.")
         if show:
-            webbrowser.open(address)
+            webbrowser.open(_opened(site, address))
 
     _end_like_ctrl_c()
     _serve(app, settings, listening, ready)
@@ -111,6 +111,16 @@ def _address(site: Site, port: int, *, invite: bool) -> str:
     if invite or not accounts.managed():
         return f"{place}{INVITED}?key={accounts.invite(manages=True)}"
     return place
+
+
+def _opened(site: Site, address: str) -> str:
+    """What the browser is started with: anybody on the machine may read that."""
+    if site.settings.accounts:  # an invitation is for whoever reads the terminal
+        return address.partition("?")[0].removesuffix(INVITED)
+    from platformdirs import user_data_path
+
+    folder = user_data_path("quizgen", ensure_exists=True)
+    return site.keys.write_redirect(folder, address.partition("?")[0]).as_uri()
 
 
 def _as_before(host: str, store: Store) -> socket.socket:
