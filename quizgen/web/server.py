@@ -16,6 +16,7 @@ from starlette.applications import Starlette
 from quizgen.errors import StoreError
 from quizgen.web.app import application
 from quizgen.web.door import ENTRANCE, INVITED
+from quizgen.web.limits import TimedProtocol, allow_connections
 from quizgen.web.settings import LOCAL, Settings
 from quizgen.web.site import Site
 from quizgen.web.store import Store
@@ -74,8 +75,9 @@ def _serve(
     config = uvicorn.Config(
         app, log_level="warning", access_log=False, server_header=False,
         proxy_headers=settings.behind_proxy, forwarded_allow_ips=[LOCAL[0], "::1"],
-        timeout_graceful_shutdown=PATIENCE, timeout_keep_alive=IDLE,
+        timeout_graceful_shutdown=PATIENCE, timeout_keep_alive=IDLE, http=TimedProtocol,
     )  # fmt: skip
+    allow_connections()
     gc.freeze()  # what was loaded stays; looking through it each time would take 60 ms
     with contextlib.suppress(KeyboardInterrupt):  # the way in which it ends
         asyncio.run(_Server(config, ready).serve(sockets=[listening]))

@@ -12,9 +12,11 @@ from http.client import HTTPConnection
 from pathlib import Path
 
 import pytest
+import uvicorn
 from served import ran
 from starlette.testclient import TestClient
 
+from quizgen.web import limits
 from quizgen.web.app import application
 from quizgen.web.server import _as_before, _listening, _opened
 from quizgen.web.settings import Settings
@@ -118,3 +120,37 @@ def test_a_connection_outlives_some_seconds_of_thought(served):
         kept.request("GET", "/static/app.css")
         assert kept.getresponse().read()
     kept.close()
+
+
+@pytest.mark.parametrize(
+    "sent",
+    [b"", b"GET / HTTP/1.1\r\nHost: x\r\n", b"POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 9\r\n\r\nab"],
+)  # fmt: skip
+def test_a_request_that_never_comes_whole_is_given_up(monkeypatch, sent):
+    monkeypatch.setattr(limits, "HEAD", 0.05)
+    monkeypatch.setattr(limits, "BODY", 0.05)
+
+    async def app(scope, receive, send) -> None:
+        await receive()
+        await asyncio.Event().wait()
+
+    async def ask() -> bytes:
+        config = uvicorn.Config(
+            app, http=limits.TimedProtocol, lifespan="off", log_level="critical"
+        )
+        config.load()
+        server = uvicorn.Server(config)
+        listening = _listening("127.0.0.1", 0)
+        loop = asyncio.get_running_loop()
+
+        def protocol():
+            return config.http_protocol_class(config, server.server_state, {})
+
+        async with await loop.create_server(protocol, sock=listening):
+            reader, writer = await asyncio.open_connection(*listening.getsockname())
+            writer.write(sent)
+            answer = await asyncio.wait_for(reader.read(), 20)
+            writer.close()
+            return answer
+
+    assert ran(ask()) == b"", "closed"
