@@ -27,15 +27,14 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests" / "arrays"))
 from functions import COUNTS, FUNCTIONS
 
-from quizgen.arrays import distortion, gamma, gaussian, hsv, luminosity, poisson
-from quizgen.tradeoff.families import BY_NAME
-from quizgen.tradeoff.ladder import rungs
+from quizgen.arrays import distortion, gamma, gaussian, hsv, luminosity, projection
+from quizgen.tradeoff.lines import fixed_point
 
 COUNT, RUNS = 10**6, 7
 HARD = Path(__file__).parents[1] / "tests" / "arrays" / "rows"
 ACCURATE = 5.0
 """Units in the last place up to which a textbook formula counts as right."""
-ROOT2, GAMMA = 2**0.5, 2.2
+ROOT2 = 2**0.5
 ODD = (0.0, -0.0, 5e-324, 1e-310, sys.float_info.min, sys.float_info.max, 1e-200, 1e200, 1e-30,
        1e30, 1e-8, 1e8, 1.0, 0.5, 1 / 3, 2.0, 3.0, 37.0, 60.0, 61.0, 1e6, 1e15, 2.0**53, 0.1, 0.02,
        0.8606629658238703, 1 + 2**-52, 1 - 2**-53, 359.9999, 120.0, 447.3, 555.0)  # fmt: skip
@@ -87,45 +86,28 @@ def hard_rows(name: str) -> Iterator[tuple[list[float], mp.mpf]]:
             yield list(map(float.fromhex, args.split())), right
 
 
-def from_families(rng: np.random.Generator) -> Iterator[Case]:
-    """Families of the accuracy page: their chain in float64 is the textbook formula."""
-    for name, fixed in SCALARS.items():
-        family = BY_NAME[name]
-        columns = [np.resize(column, COUNT) for column in family.exam(rng, 4096)]
-        for i in fixed:
-            columns[i] = columns[i][0]
-        textbook = next(r for r in rungs(family) if r.key == "float64").run
-        limit = 20.0 if name == "inverse-distortion" else 3.0
-        peer, rows = PEERS.get(name), named(family.stable)
-        yield Case(name, textbook, family.stable, columns, peer, limit, rows)
-
-
-SCALARS: dict[str, tuple[int, ...]] = {
-    "gaussian-tail": (), "far-limit": (2,), "inverse-distortion": (1, 2), "pixel": (0, 1, 4),
-    "poisson": (), "gamma-gap": (),
-}  # fmt: skip
-"""Arguments that are one number for a whole picture."""
-
-
-def others(rng: np.random.Generator) -> Iterator[Case]:
-    """Functions that have no page of their own."""
-    k = rng.integers(0, 13, COUNT) / 4
+def cases(rng: np.random.Generator) -> Iterator[Case]:
+    """Every array function, on inputs as an exam has them; what is no array is a camera's."""
     unit, other, third = (rng.integers(0, 256, COUNT) / 255 for _ in range(3))
-    lam = rng.integers(1, 21, COUNT) * 5.0
-    counts = rng.poisson(lam).astype(np.float64)
-    columns = [k]
-    rows = "gaussian.upper_tail"
-    yield Case("upper tail", textbook_tail, gaussian.upper_tail, columns, peer_tail, rows=rows)
+    radius = 0.8606629658238703 * (0.05 + 0.45 * unit)
+    yield Case("inverse radius", fixed_point, distortion.inverse_radius, [radius, -0.2],
+               opencv_inverse, 20.0, "distortion.inverse_radius")  # fmt: skip
     for name, textbook, stable, columns in (
+        (
+            "pixel",
+            textbook_pixel,
+            projection.pixel,
+            [0.004, 5e-6, unit, 1 + other, 320.0],
+        ),
         ("inverse tail", textbook_quantile, gaussian.inverse_tail, [(unit + 0.01) / 2]),
-        ("poisson lower", textbook_lower, poisson.lower, [counts, lam]),
         ("srgb decode", textbook_linear, gamma.srgb_decode, [unit]),
         ("distort", textbook_distort, distortion.distort, [unit, other, -0.2, 0.05]),
         ("to rgb", textbook_rgb, hsv.to_rgb, [360 * unit, other, third]),
         ("fold radius", textbook_fold, distortion.fold_radius, [-unit - 1]),
         ("V(lambda)", textbook_v, luminosity.efficiency, [380 + 400 * unit]),
     ):
-        yield Case(name, textbook, stable, columns, rows=ROWS.get(name) or named(stable))
+        peer = scipy_quantile if name == "inverse tail" else None
+        yield Case(name, textbook, stable, columns, peer, rows=ROWS.get(name) or named(stable))
 
 
 ROWS = {"to rgb": "hsv.red", "distort": "distortion.distort_x"}
@@ -141,28 +123,20 @@ def textbook_fold(k1: Any) -> Any:
     return np.sqrt(-1 / (3 * k1))
 
 
-def textbook_lower(k: Any, lam: Any) -> Any:
-    import scipy.special
-
-    return scipy.special.pdtr(k, lam)
-
-
 def textbook_quantile(p: Any) -> Any:
     import scipy.special
 
     return ROOT2 * scipy.special.erfcinv(2 * p)
 
 
-def textbook_tail(k: Any) -> Any:
+def scipy_quantile(p: Any) -> Any:
     import scipy.special
 
-    return 1 - (1 + scipy.special.erf(k / ROOT2)) / 2
+    return -scipy.special.ndtri(p)
 
 
-def peer_tail(k: Any) -> Any:
-    import scipy.special
-
-    return scipy.special.ndtr(-k)
+def textbook_pixel(f: Any, pitch: Any, x: Any, z: Any, o: Any) -> Any:
+    return o + f * x / (pitch * z)
 
 
 def textbook_linear(x: Any) -> Any:
@@ -191,23 +165,11 @@ def textbook_v(wavelength: Any) -> Any:
     return np.interp(wavelength, first + step * np.arange(values.size), values)
 
 
-def opencv_inverse(r_d: Any, k1: float, k2: float) -> Any:
+def opencv_inverse(r_d: Any, k1: float) -> Any:
     import cv2
 
     points = np.stack([r_d, np.zeros_like(r_d)], axis=-1)[:, None, :]
-    return cv2.undistortPoints(points, np.eye(3), np.array([k1, k2, 0.0, 0.0]))
-
-
-def scipy_two_sided(k: Any) -> Any:
-    import scipy.special
-
-    return scipy.special.erfc(k / ROOT2)
-
-
-PEERS = {
-    "gaussian-tail": scipy_two_sided,
-    "inverse-distortion": opencv_inverse,
-}
+    return cv2.undistortPoints(points, np.eye(3), np.array([k1, 0.0, 0.0, 0.0]))
 
 
 def least(case: Case, *, peer: bool) -> list[float]:
@@ -275,7 +237,7 @@ def main() -> int:
     print(f"{'':20} {'a million draws':^25} {'one camera':^25}")
     timed = f"{'textbook':>9} {'stable':>8} {'ratio':>6}"
     print(f"{'function':20} {timed} {timed} {'off':>8} {'limit':>6} {'peer':>8}")
-    for case in (*from_families(rng), *others(rng)):
+    for case in cases(rng):
         drawn = least(case.drawn(), peer=False)
         camera = least(case, peer=True)
         shown = [f"{t:9.2f} {s:8.2f} {s / t:6.2f}" for t, s in (drawn, camera[:2])]

@@ -17,10 +17,10 @@
     |-- ClassError       a class's roster or folder is wrong, or would be spoiled
     `-- ChoiceError      an argument is none of the values allowed (names them)
 
-Three more stand beside their subject: ``SceneError`` in ``camera.scene``, ``OraclesDisagree`` in
-``tradeoff.ladder``, and ``ReadError`` in ``maths.notation.lexer``, the ``FormulaError`` that knows
-what was found and what was expected. ``DomainError`` in ``arrays.domain`` is a plain
-``ValueError``: array functions know nothing of quizgen.
+Two more stand beside their subject: ``SceneError`` in ``camera.scene``, and ``ReadError`` in
+``maths.notation.lexer``, the ``FormulaError`` that knows what was found and what was expected.
+``DomainError`` in ``arrays.domain`` is a plain ``ValueError``: array functions know nothing of
+quizgen.
 
 What a student types never raises out of the checker: it becomes a verdict.
 """

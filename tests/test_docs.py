@@ -154,8 +154,6 @@ LONG = (
     "uv run quizgen cards --from-marks marks.json",
     "uv run python -m quizgen.cards.renew",
     "uv run quizgen tradeoff --out precision",
-    "uv run quizgen tradeoff --out precision --quick",
-    "uv run quizgen tradeoff thin-lens",
 )
 """Commands that take long and prepare nothing for the others: run with the slow tests."""
 FOLLOWED = [page for page in consoles.PAGES if consoles.steps(page)]

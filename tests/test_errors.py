@@ -14,7 +14,6 @@ from quizgen.paper.marking import mark_paper
 from quizgen.paper.paper import build
 from quizgen.question.compose import compose
 from quizgen.render import render_paper, renderer
-from quizgen.tradeoff.ladder import OraclesDisagree
 
 KEY = {"format": "quizgen-key/2", "questions": []}
 
@@ -26,7 +25,7 @@ def test_the_tree_in_the_docstring_holds_every_error_of_the_module():
             assert name in tree, name
 
 
-@pytest.mark.parametrize("error", [SceneError, OraclesDisagree, ReadError, DomainError])
+@pytest.mark.parametrize("error", [SceneError, ReadError, DomainError])
 def test_the_errors_that_stand_elsewhere_are_named_with_their_place(error):
     tree = errors.__doc__ or ""
     assert f"``{error.__name__}`` in" in tree or f"``{error.__name__}`` in ``" in tree

@@ -42,6 +42,14 @@ def test_what_is_written_is_read_by_others_and_by_ourselves(number, write):
     assert np.array_equal(in_colour(png.decode(data)), in_colour(codes))
 
 
+def test_opacity_is_kept_even_where_three_channels_are_alike():
+    grey = np.repeat(np.arange(12, dtype=np.uint8).reshape(3, 4, 1) * 20, 4, axis=2)
+    for codes in (grey, np.random.default_rng(2).integers(0, 256, (3, 4, 4)).astype(np.uint8)):
+        read = Image.open(io.BytesIO(png.encode(codes)))
+        assert read.mode == "RGBA"
+        assert np.array_equal(np.asarray(read), codes)
+
+
 @pytest.mark.parametrize("number", range(4))
 def test_small_pictures_are_read_by_others(number):
     codes = pictures()[number]

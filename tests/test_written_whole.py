@@ -168,7 +168,7 @@ def killed_at(step: int, folder, contents) -> bool:
 SETS = {
     "key.json": ["exam", "--blueprint", "sensor.10", "--seed", "1", "--format", "html"],
     "quizgen.csv": ["cards", "--kind", "figure", "--topic", "distortion", "--format", "tsv,csv"],
-    "tradeoff.html": ["tradeoff", "thin-lens", "--quick"],
+    "tradeoff.html": ["tradeoff"],
 }
 """Last file of a set to the command that writes it."""
 
@@ -183,7 +183,7 @@ def test_a_command_killed_between_two_renames_leaves_a_whole_set_or_none(
     before = dict.fromkeys([*after, "older.txt"], b"old")
     monkeypatch.setattr(os, "fsync", lambda _: None)
     assert list(after)[-1] == seal
-    assert len(after) >= 4
+    assert len(after) >= 3
     step = 0
     while killed_at(step, tmp_path / f"new{step}", after):
         assert kept(tmp_path / f"new{step}") in ({}, after)

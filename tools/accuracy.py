@@ -1,30 +1,56 @@
-"""Measure again what accuracy costs and put table and plots into ``docs/accuracy.md``."""
+"""Measure again what accuracy costs: sentences, tables and the plot of ``docs/accuracy.md``."""
 
 from __future__ import annotations
 
 import re
-import shutil
-import subprocess
 from pathlib import Path
-from tempfile import TemporaryDirectory
+
+from quizgen.bank.folder import builtin
+from quizgen.tradeoff.page import describe_arrays, describe_digits, describe_questions
+from quizgen.tradeoff.plot import draw_digits
+from quizgen.tradeoff.report import Report, measure
+from quizgen.tradeoff.texts import words
 
 PAGE = Path("docs/accuracy.md")
-PLOTS = ("overview", "gaussian-tail-input", "iterations")
-"""Those that the page shows, kept beside it."""
-MEASURED = re.compile(r"^`quizgen tradeoff` on .*?(?=\n\n[^|`>])", re.DOTALL | re.MULTILINE)
-"""From the machine and the sentence to the last row of the table."""
+MEASURED = re.compile(r"(?<=<!-- measured -->\n).*?(?=<!-- end -->)", re.DOTALL)
+
+
+def told(report: Report) -> str:
+    """What the page says, as Markdown."""
+    text, questions = words("en"), describe_questions(report, "en")
+    arrays = describe_arrays(report, "en")
+    parts = [
+        text["page"]["measured"].format(machine=report.machine, date=report.date)[:-1] + ".",
+        questions["lead"],
+        questions["sentence"],
+        rows(text["questions"]["columns"], [
+            (f"{name} ({fails})" if fails else name, *cells)
+            for name, fails, *cells in questions["rows"]
+        ]),
+        describe_digits(report, "en"),
+        f"![{text['plot']['alt']}](accuracy/digits.svg)",
+        rows(text["arrays"]["columns"], [
+            (f"{title}: {name}", *cells)
+            for title, group in arrays["groups"] for name, _, *cells in group
+        ]),
+        f"{text['arrays']['how']} {arrays['alone']}",
+    ]  # fmt: skip
+    return "\n\n".join(parts) + "\n\n"
+
+
+def rows(columns: list[str], lines: list[tuple[str, ...]]) -> str:
+    """A table."""
+    head = ["| " + " | ".join(columns) + " |", "|---" * len(columns) + "|"]
+    return "\n".join([*head, *("| " + " | ".join(line) + " |" for line in lines)])
 
 
 def main() -> None:
-    """Run the command that the page names, and copy what came out."""
-    with TemporaryDirectory() as folder:
-        made = Path(folder)
-        subprocess.run(["quizgen", "tradeoff", "--out", folder], check=True)
-        for name in PLOTS:
-            shutil.copy(made / f"{name}.svg", PAGE.with_suffix("") / f"{name}.svg")
-        table, _, _ = (made / "tradeoff.md").read_text("utf-8").rstrip().rpartition("\n\n")
+    """Measure, and write what came out."""
+    report = measure(builtin())
+    plot = draw_digits(report, words("en")["plot"]["alt"], "en")
+    PAGE.with_suffix("").joinpath("digits.svg").write_bytes(plot.standalone_svg)
     text = PAGE.read_text("utf-8")
-    PAGE.write_text(MEASURED.sub(lambda _: table, text, count=1), "utf-8")
+    PAGE.write_text(MEASURED.sub(lambda _: told(report), text, count=1), "utf-8")
 
 
 if __name__ == "__main__":

@@ -1,25 +1,157 @@
-"""Count anew how many keys go wrong in each arithmetic: ``quizgen/tradeoff/counted.json``.
+"""Count how many keys go wrong in each arithmetic: ``quizgen/tradeoff/counted.json``.
 
 Run: ``uv run python tools/do.py counts`` after a change of number systems, marking or many
-templates; ``tests/tradeoff/test_solving.py`` says when.
+templates; ``tests/tradeoff/test_wrong_keys.py`` says when. A draw is kept, its numbers are solved
+again, and its key is made and marked by the product's own code. Nothing else differs.
 """
 
 from __future__ import annotations
 
+import re
 import sys
+from collections import Counter
+from collections.abc import Iterator
+from datetime import UTC, datetime
+from decimal import Decimal
 from pathlib import Path
 
-from quizgen.bank.folder import builtin
-from quizgen.tradeoff.page import counts_json
-from quizgen.tradeoff.product import ROUND, count_faults
+import msgspec
+from flint import fmpq
+
+from quizgen.bank.draw import Draw, draw
+from quizgen.bank.folder import Bank, builtin
+from quizgen.marking.mark import mark, show
+from quizgen.marking.specs import AnySpec
+from quizgen.maths.numbers import rational, round_to
+from quizgen.maths.precision import working_precision
+from quizgen.maths.values import Value
+from quizgen.question.kinds import build
+from quizgen.tradeoff.questions import Counted
+from quizgen.tradeoff.solving import ARITHMETICS, FAILURES, solved
 
 COUNTED = Path(__file__).parents[1] / "quizgen" / "tradeoff" / "counted.json"
+ROUND = 10_000
+"""Questions that are drawn."""
+FREE = frozenset({"text", "witness", "sketch"})
+"""Kinds without one printed answer."""
+_NUMBER = re.compile(r"[-−]?\d[\d\u202f]*(?:\.\d+)?(?:/\d+)?(?:·10[⁻⁰¹²³⁴-⁹]+)?")
+_PLAIN = str.maketrans("−⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "--0123456789", "\u202f")
+
+
+def count_wrong(bank: Bank, drawn: int = ROUND) -> Counted:
+    """Count the wrong keys of each arithmetic, in questions spread evenly over the templates.
+
+    Templates without a computation count, and have none.
+    """
+    wrong: dict[str, Counter[str]] = {system: Counter() for system in ARITHMETICS}
+    names = list(bank.paths)
+    for i in range(drawn):
+        name = names[i % len(names)]
+        template = bank.template(name)
+        if not template.chain.steps:
+            continue
+        one = draw(template, i // len(names))
+        for system, counts in wrong.items():
+            counts[name] += is_wrong(one, system)
+    kept = {system: dict(sorted((+counts).items())) for system, counts in wrong.items()}
+    return Counted(datetime.now(UTC).date().isoformat(), len(names), drawn, kept)
+
+
+def is_wrong(drawn: Draw, system: str) -> bool:
+    """Whether an arithmetic would print or mark a question wrongly, or have no key for it.
+
+    Of doubles as they are only the digits count: nobody marks by equality with them.
+    """
+    found = faults(drawn, system)
+    return bool(found - {"accepted", "rejected"} if system == "float64" else found)
+
+
+def specs(drawn: Draw) -> list[AnySpec]:
+    """What each part of a question is marked by."""
+    return [build(drawn, index).spec for index in range(len(drawn.template.rules.part))]
+
+
+def faults(drawn: Draw, name: str) -> set[str]:
+    """What goes wrong with one question in an arithmetic, by comparing its key with the exact one.
+
+    Returns
+    -------
+    set of str
+        ``digit``: the printed key has a wrong one. ``accepted``, ``rejected``: a wrong answer would
+        be, a right one. ``unanswered``: there is no key, as something cannot be decided.
+    """
+    found: set[str] = set()
+    try:
+        others = specs(solved(drawn, name))
+        for index, (right, other) in enumerate(zip(specs(drawn), others, strict=True)):
+            if right.kind not in FREE and other != right:
+                found |= _compared(drawn, index, right, other)
+    except FAILURES:
+        return {"unanswered"}
+    return found
+
+
+def _compared(drawn: Draw, index: int, right: AnySpec, other: AnySpec) -> set[str]:
+    printed, made = show(right), show(other)
+    tried = dict.fromkeys([printed, made, *_neighbours(printed), *_mistaken(drawn, index)])
+    verdicts = {(_correct(right, typed), _correct(other, typed)) for typed in tried}
+    found = {
+        "digit": printed != made and not _right_digits(drawn, index, printed, made),
+        "accepted": (False, True) in verdicts,
+        "rejected": (True, False) in verdicts,
+    }
+    return {fault for fault, true in found.items() if true}
+
+
+def _correct(spec: AnySpec, typed: str) -> bool:
+    return mark(spec, typed, decimal="point").verdict == "correct"
+
+
+def _mistaken(drawn: Draw, index: int) -> Iterator[str]:
+    """What those type who make a known mistake."""
+    for spec in build(drawn, index).mistakes.values():
+        yield show(spec)
+
+
+def _neighbours(printed: str) -> Iterator[str]:
+    """The printed answer with its first number one higher or lower in the last place."""
+    found = _NUMBER.search(printed)
+    if found is None or "/" in found[0] or "·" in found[0]:
+        return
+    number = Decimal(found[0].translate(_PLAIN))
+    unit = Decimal(1).scaleb(int(number.as_tuple().exponent))
+    for near in (number - unit, number + unit):
+        yield f"{printed[: found.start()]}{near:f}{printed[found.end() :]}"
+
+
+def _right_digits(drawn: Draw, index: int, printed: str, made: str) -> bool:
+    """Whether every number of a key is its value rounded to as many places as it has."""
+    numbers = [found[0].translate(_PLAIN) for found in _NUMBER.finditer(made)]
+    percent = 100 if drawn.plan.parts[index].answer.get("percent") else 1
+    values = [value * percent for value in drawn.answer(index)]
+    if len(numbers) != len(values) or _words(printed) != _words(made):
+        return False
+    return all(map(_rounds_to, values, numbers))
+
+
+def _words(text: str) -> str:
+    return _NUMBER.sub("", text)
+
+
+def _rounds_to(value: Value, number: str) -> bool:
+    if "/" in number:
+        return isinstance(value, fmpq) and value == rational(number)
+    mantissa, _, power = number.partition("·10")
+    size = fmpq(10) ** int(power or 0)
+    places = -int(Decimal(mantissa).as_tuple().exponent)
+    with working_precision():
+        return bool(round_to(value / size, places) == rational(mantissa))
 
 
 def main() -> int:
     """Count and write."""
-    found = count_faults(builtin(), ROUND, lambda _name: None)
-    COUNTED.write_text(counts_json(found), "utf-8")
+    found = msgspec.json.format(msgspec.json.encode(count_wrong(builtin())))
+    COUNTED.write_bytes(found + b"\n")
     print(COUNTED)
     return 0
 

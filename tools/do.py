@@ -28,6 +28,7 @@ COMMANDS: dict[str, tuple[list[str], ...]] = {
     "bounds": ([sys.executable, "tests/arrays/prove.py"],),
     "pins": ([sys.executable, "tools/pin.py"],),
     "fonts": ([sys.executable, "tools/pack_fonts.py"],),
+    "figures": ([sys.executable, "tools/figures.py"],),
     "picture": ([sys.executable, "tools/picture.py"],),
     "scenes": ([sys.executable, "tools/scenes.py"],),
 }

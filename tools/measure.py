@@ -1,4 +1,4 @@
-"""Print the figures that the house is held to: file and function lengths, parameters typed Any.
+"""Print the figures that the house is held to: lengths of functions, parameters typed Any.
 
 Run: ``uv run python tools/measure.py [folder ...]`` (default: quizgen solvers templates).
 """
@@ -42,24 +42,17 @@ def main(folders: list[str]) -> None:
     """Print the figures of all modules below the folders."""
     paths = sorted(p for folder in folders for p in Path(folder).rglob("*.py"))
     trees = {p: ast.parse(p.read_text(encoding="utf-8")) for p in paths}
-    lengths = {(p, f.name, f.lineno): length(f) for p, t in trees.items() for f in functions(t)}
+    lengths = [length(f) for tree in trees.values() for f in functions(tree)]
     anys, total = Counter[str](), 0
     for path, tree in trees.items():
         found = [a for f in functions(tree) for a in parameters(f)]
         total += len(found)
         anys["/".join(path.parts[:2])] += sum(map(is_any, found))
     share = sum(anys.values()) / max(total, 1)
-    middle = median(lengths.values())
+    middle = median(lengths)
     print(f"{len(paths)} files, {len(lengths)} functions, median {middle:g} lines")
     print(f"parameters typed Any: {sum(anys.values())} of {total} ({share:.1%})")
     print("  " + ", ".join(f"{name} {count}" for name, count in anys.most_common() if count))
-    for path in paths:
-        lines = path.read_text(encoding="utf-8").count("\n")
-        if lines > 400:
-            print(f"{path}: {lines} lines")
-    for (path, name, line), lines in sorted(lengths.items(), key=lambda item: -item[1]):
-        if lines > 40:
-            print(f"{path}:{line} {name}: {lines} lines")
 
 
 if __name__ == "__main__":

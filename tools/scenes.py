@@ -9,7 +9,7 @@ from PIL import Image
 
 from quizgen.camera.codecs import WRITERS
 from quizgen.camera.reading import load
-from quizgen.camera.simulate import simulate
+from quizgen.camera.simulate import simulate_everything
 from quizgen.cli.simulate import SCENES
 
 TARGET = Path(__file__).parent.parent / "docs" / "scenes.jpg"
@@ -18,9 +18,11 @@ COLUMNS = 4
 
 
 def main() -> None:
-    """Photograph each scene with the default budget, small, four in a row."""
+    """Photograph each scene with every effect, small, four in a row."""
     taken = [
-        Image.fromarray(simulate(*load(path)).pixels()).resize(SIZE, Image.Resampling.BOX)
+        Image.fromarray(simulate_everything(*load(path)).pixels()).resize(
+            SIZE, Image.Resampling.BOX
+        )
         for path in sorted(SCENES.glob("*.toml"))
     ]
     rows = [taken[start : start + COLUMNS] for start in range(0, len(taken), COLUMNS)]

@@ -141,14 +141,22 @@ def _fold_of_barrel(radius: Array, k1: Array, k2: Array) -> bool:
 
 
 def _fold(k1: Array, k2: Array) -> Array:
-    """Fold radius, with the larger coefficient brought near 1."""
+    """Fold radius, in a unit of 2**j in which the terms that decide it are near 1.
+
+    With r = 2**j x the slope is 1 + 3 k1 4**j x**2 + 5 k2 16**j x**4, here times 2**s. Mostly 1 and
+    the larger coefficient decide. Where k1 > 0 lets the slope grow first and a far smaller k2 < 0
+    ends that, it is the two coefficients, and 1 is nothing beside them.
+    """
     if not k2.any() and (k1 > -_LARGEST).all():
         alone: Array = 1 / np.sqrt(-3 * np.minimum(k1, -0.0))
         return alone  # of 0, infinity
     k1, k2 = (np.array(arg) for arg in np.broadcast_arrays(k1, k2))
-    j = -np.maximum(_exponent(k1) // 2, _exponent(k2) // 4)
-    one = np.ones(k1.size)
-    return np.ldexp(Quintic(one, np.ldexp(k1, 2 * j), np.ldexp(k2, 4 * j), one).fold(), j)
+    e1, e2 = _exponent(k1), _exponent(k2)
+    grows = (k1 > 0) & (k2 < 0) & (e2 < 2 * e1)
+    j = np.where(grows, (e1 - e2) // 2, -np.maximum(e1 // 2, e2 // 4))
+    s = np.where(grows, -(e1 + 2 * j), 0)
+    A, B, C = np.ldexp(1.0, s), np.ldexp(k1, 2 * j + s), np.ldexp(k2, 4 * j + s)
+    return np.ldexp(Quintic(A, B, C, np.ones(k1.size)).fold(), j)
 
 
 _DISTORT = Kernel(

@@ -1,7 +1,7 @@
 """Numbers of twice the working precision on arrays: an unevaluated sum of two doubles.
 
-Formulas written with ``+ - * /`` run unchanged on ``Pair`` arrays and on ``fractions.Fraction``:
-the first is fast and good to about 2**-100, the second is exact and decides the doubtful rest.
+Formulas written with ``+ - * /`` run unchanged on ``Pair`` arrays, good to about 2**-100, and on
+fractions, which are exact and decide the doubtful rest.
 
 Sources: Dekker, Numer. Math. 18 (1971) 224; Knuth, TAOCP 2, 4.2.2. NumPy has no fused
 multiply-add, so products are split. Operands must stay within 1e-140 .. 1e140 or be zero.
@@ -9,8 +9,7 @@ multiply-add, so products are split. Operands must stay within 1e-140 .. 1e140 o
 
 from __future__ import annotations
 
-from fractions import Fraction
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 
@@ -19,7 +18,7 @@ from quizgen.arrays.aliases import Array
 Double = float | Array
 """One double, or a block of them."""
 
-SPLITTER = 134217729.0
+_SPLITTER = 134217729.0
 """2**27 + 1 splits a double into two halves of 26 bits."""
 
 
@@ -30,20 +29,9 @@ def two_sum(a: Double, b: Double) -> tuple[Any, Any]:
     return s, (a - (s - t)) + (b - t)
 
 
-def two_difference(a: Array, b: Array) -> tuple[Array, Array]:
-    """Difference of two arrays and its rounding error, with few temporaries."""
-    s = a - b
-    t = s - a
-    lost = s - t
-    np.subtract(a, lost, out=lost)
-    t += b
-    lost -= t
-    return s, lost
-
-
 def split(a: Double) -> tuple[Any, Any]:
     """Upper and lower half of a double, exactly."""
-    c = a * SPLITTER
+    c = a * _SPLITTER
     high = c - a
     high = np.subtract(c, high, out=high) if isinstance(high, np.ndarray) else c - high
     return high, a - high
@@ -150,15 +138,8 @@ class Pair:
         """Quotient."""
         return pair(other) / self
 
-    def __abs__(self) -> Pair:
-        """Absolute value."""
-        sign = np.where(self.high < 0, -1.0, 1.0)
-        return Pair(self.high * sign, None if self.low is None else self.low * sign)
-
 
 Operand = Pair | Double
-Number = TypeVar("Number", Array, Pair, Fraction)
-"""What a formula is computed in: blocks of doubles, pairs or exact fractions."""
 
 
 def _normal(s: Double, e: Double) -> Pair:

@@ -1,10 +1,10 @@
-"""The Gaussian: tails and quantile, far out as well as at the centre.
+"""The quantile of the Gaussian, far out as well as at the centre.
 
-Sources: Abramowitz & Stegun, Handbook of Mathematical Functions (1964), chapter 26. Q(k) =
-exp(-k**2/2) R(k) with R Mills' ratio over sqrt(2 pi), which varies slowly and is a polynomial in
-t = (k - 4)/(k + 4) after multiplication by (k + 3/4) (coefficients in ``tables``). The exponent
-k**2/2 is carried to twice the working precision: at 37 sigma its rounding alone would cost 1400
-units in the last place.
+Sources: Abramowitz & Stegun, Handbook of Mathematical Functions (1964), chapter 26; Wichura,
+Applied Statistics 37 (1988) 477. With Q(k) the probability beyond k, Mills' ratio Q(k) exp(k**2/2)
+varies slowly: (k + 3/4) times it is a polynomial in t = (k - 4)/(k + 4) (coefficients in
+``tables``). The exponent k**2/2 is carried to twice the working precision: at 37 sigma its rounding
+alone would cost 1400 units in the last place.
 """
 
 from __future__ import annotations
@@ -12,20 +12,14 @@ from __future__ import annotations
 import numpy as np
 
 from quizgen.arrays.aliases import Array, Numbers, Result
-from quizgen.arrays.domain import REAL, Span
+from quizgen.arrays.domain import Span
 from quizgen.arrays.double_double import two_product, two_sum
 from quizgen.arrays.kernel import Kernel
 from quizgen.arrays.polynomial import horner
-from quizgen.arrays.tables import CENTRAL, MILLS, MILLS_SCALE, MILLS_SHIFT
+from quizgen.arrays.tables import MILLS, MILLS_SCALE, MILLS_SHIFT
 
 _PEAK = 0.3989422804014327
 """1/sqrt(2 pi)."""
-
-_FAR = 40.0
-"""Beyond 40 sigma the tail is below the smallest positive double."""
-
-_CENTRAL = 0.7
-"""Below this Q is close to 1/2 and better computed as 1/2 minus the probability from 0 to k."""
 
 _MIDDLE = 0.425
 """Shares from the centre that have a fraction of their own."""
@@ -64,50 +58,11 @@ def mills(k: Array) -> tuple[Array, Array]:
     return shaped / below, lost / below
 
 
-def far_tail(k: Array) -> Array:
-    """Q(k) for k >= 0, best where k is not small."""
-    k = np.minimum(k, _FAR)
-    square, lost = two_product(k, k)
-    ratio, skew = mills(k)
-    square *= -0.5
-    value: Array = np.exp(square)
-    value *= ratio
-    lost *= 0.5
-    lost += skew
-    value -= value * lost
-    return value
-
-
-def near_tail(k: Array) -> Array:
-    """Q(k) for 0 <= k below 0.7."""
-    result: Array = 0.5 - k * horner(CENTRAL, k * k)
-    return result
-
-
-def _tail(k: Array) -> Array:
-    """Q(k) for k >= 0."""
-    tail = far_tail(k)
-    if k.min() < _CENTRAL:
-        where = np.flatnonzero(k < _CENTRAL)
-        tail[where] = near_tail(k.take(where))
-    return tail
-
-
-def _upper_tail(k: Array) -> Array:
-    tail = _tail(np.abs(k))
-    return tail if k.min() >= 0 else np.where(k < 0, 1 - tail, tail)
-
-
-def _two_sided(k: Array) -> Array:
-    tail = 2 * _tail(np.abs(k))
-    return tail if k.min() >= 0 else np.where(k < 0, 1.0, tail)
-
-
 def _inverse_tail(p: Array) -> Array:
     """Solve Q(k) = p by fractions, of the share from the centre or of the logarithm of p.
 
-    Source: Wichura, Applied Statistics 37 (1988) 477, good to one part in 10**16; all coefficients
-    are positive, so that nothing cancels.
+    The fractions are good to one part in 10**16; all coefficients are positive, so that nothing
+    cancels.
     """
     less = np.minimum(p, 1 - p)
     share = 0.5 - less
@@ -141,41 +96,7 @@ def _fraction(parts: tuple[tuple[float, ...], tuple[float, ...]], x: Array) -> A
     return horner(above, x) / horner(below, x)
 
 
-_UPPER = Kernel(_upper_tail, (REAL,))
-_BOTH = Kernel(_two_sided, (REAL,))
 _INVERSE = Kernel(_inverse_tail, (Span(low=0.0, high=1.0, reason="not-a-probability"),))
-
-
-def upper_tail(k: Numbers) -> Result:
-    """Probability Q(k) that a standard normal value exceeds k.
-
-    Parameters
-    ----------
-    k : array_like
-        Standard deviations, either sign.
-
-    Returns
-    -------
-    float or array
-        Between 0 and 1; rounds to 0 above 38.485.
-    """
-    return _UPPER(k)
-
-
-def two_sided_tail(k: Numbers) -> Result:
-    """Probability that a standard normal value is farther than k from 0.
-
-    Parameters
-    ----------
-    k : array_like
-        Standard deviations; the answer is 1 when negative.
-
-    Returns
-    -------
-    float or array
-        Between 0 and 1.
-    """
-    return _BOTH(k)
 
 
 def inverse_tail(p: Numbers) -> Result:

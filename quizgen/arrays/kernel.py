@@ -209,13 +209,16 @@ def flattened(*args: Numbers) -> tuple[tuple[int, ...], list[Array]]:
 
 def _read(arg: Numbers) -> Array:
     """Doubles; a masked element becomes NaN, which has no answer, and a huge integer infinity."""
+    array = np.asarray(arg)
+    if array.dtype.kind == "c":  # NumPy would warn, and drop what is imaginary
+        raise TypeError("the array functions take real numbers, not complex ones")
     if hasattr(arg, "mask") and isinstance(arg, np.ma.MaskedArray):  # np.ma takes long to load
         return np.asarray(np.ma.filled(arg.astype(np.float64), np.nan))
     try:
         with np.errstate(over="ignore"):
-            return np.asarray(arg, dtype=np.float64)
+            return array.astype(np.float64, copy=False)
     except OverflowError:
-        return np.vectorize(_as_double, otypes=[np.float64])(np.asarray(arg, dtype=object))
+        return np.vectorize(_as_double, otypes=[np.float64])(array)
 
 
 def _as_double(value: int) -> float:

@@ -92,11 +92,12 @@ def pixel(f: Numbers, pitch: Numbers, x: Numbers, z: Numbers, o: Numbers) -> Res
     Returns
     -------
     float or array
-        Pixels. Numbers alone are read as the decimals they print as, and the answer is correctly
-        rounded: 2 mm, 5 um, -1, 2 and 320 give 120, where doubles give 119.99999999999997. In
-        arrays the formula is taken as it stands: three roundings of f x/(pitch z), each at most one
-        unit in its last place, and one of the sum, half a unit of it. Off by at most 4 units in the
-        last place of the larger of the two terms, whatever the magnitudes.
+        Pixels. Numbers alone are read as the decimals that they print as, and
+        the answer is correctly rounded: 2 mm, 5 um, -1, 2 and 320 give 120, where doubles give
+        119.99999999999997. In arrays the formula is taken as it stands: three roundings of
+        f x/(pitch z), each at most one unit in its last place, and one of the sum, half a unit of
+        it. Off by at most 4 units in the last place of the larger of the two terms, whatever the
+        magnitudes.
 
     Raises
     ------

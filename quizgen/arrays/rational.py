@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from fractions import Fraction
 from typing import SupportsIndex
 
 from flint import fmpq, fmpz
@@ -12,8 +13,6 @@ from quizgen.arrays.aliases import Array
 
 ONE = fmpz(1)
 _BITS = 53
-_DIGITS = 15
-"""No two decimals of so many digits share a double (Matula, Comm. ACM 11 (1968) 47)."""
 
 
 def nearest(value: fmpq | float) -> float:
@@ -59,13 +58,8 @@ def fraction(value: float) -> fmpq:
 
 
 def decimal(value: float) -> fmpq:
-    """The decimal of at most fifteen digits whose nearest double this is, else the double."""
-    text = f"{value:.{_DIGITS - 1}e}"
-    if float(text) != value:
-        return fraction(value)
-    digits, power = text.split("e")
-    whole, ten = int(digits.replace(".", "")), int(power) - _DIGITS + 1
-    return fmpq(whole * 10 ** max(ten, 0), 10 ** max(-ten, 0))
+    """The decimal that a double prints as: the shortest whose nearest double it is."""
+    return fmpq(*Fraction(repr(value)).as_integer_ratio())
 
 
 def exactly(args: Sequence[Array], i: SupportsIndex) -> list[fmpq]:

@@ -26,9 +26,3 @@ MILLS_SHIFT: float = _FOUND["mills_shift"]
 MILLS_SCALE: float = _FOUND["mills_scale"]
 MILLS: Row = tuple(_FOUND["mills"])
 """Shaped Mills ratio, powers of t."""
-CENTRAL: Row = tuple(_FOUND["central"])
-"""P(0 < n < k)/k, powers of k**2."""
-STIRLING: Row = tuple(_FOUND["stirling"])
-"""Error of Stirling's formula, 0..15."""
-TEMME: tuple[Row, ...] = tuple(map(tuple, _FOUND["temme"]))
-"""Temme's c_0 .. c_8, powers of eta."""

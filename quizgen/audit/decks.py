@@ -6,12 +6,14 @@ from collections.abc import Iterator
 
 from quizgen.bank.entries import Entry
 from quizgen.bank.folder import Bank
+from quizgen.bank.formulas import formulas
 from quizgen.cards.content import KINDS as FILES
 from quizgen.cards.content import entries
 from quizgen.cards.kinds import KINDS
 from quizgen.cards.versions import FILE, registry
 from quizgen.cards.wish import Wish
 from quizgen.errors import QuizgenError
+from quizgen.question.sheet import draw_sketch
 
 DRAWN = "question"
 """The kind that is made of templates, which are examined by themselves."""
@@ -48,12 +50,17 @@ def _misread(bank: Bank, kind: type[Entry]) -> Iterator[str]:
 
 
 def _unmade(bank: Bank) -> Iterator[str]:
-    """Why the notes of a kind cannot be made."""
+    """Why the notes of a kind cannot be made, or the sketch of a formula cannot be drawn."""
     wish = Wish(bank.languages, bank=bank)
     for name, notes in KINDS.items():
         try:
             for _ in notes(wish) if name != DRAWN else ():
                 pass
+        except QuizgenError as error:
+            yield str(error)
+    for entry in formulas(bank):
+        try:
+            draw_sketch(bank, entry, bank.languages)
         except QuizgenError as error:
             yield str(error)
 

@@ -1,4 +1,4 @@
-"""Figures: whether they can be drawn from what a template gives, and whether a quiz's gives away.
+"""Figures: whether they can be drawn from what a template gives, read, and give nothing away.
 
 A figure gives an answer away if its number stands in the labels or the words of the figure in every
 draw in which the question does not state that number itself.
@@ -9,9 +9,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
+from quizgen.audit.looks import look_problems
 from quizgen.bank.draw import Draw, digits
 from quizgen.bank.traps import answer_names
 from quizgen.errors import QuizgenError
+from quizgen.figures import Figure
 from quizgen.question.picture import described, pictured
 
 DRAWN = 6
@@ -42,6 +44,16 @@ def figure_problems(draws: Sequence[Draw]) -> Iterator[str]:
     if rule.quiz:
         yield from _given_away(shown)
         yield from _unread(shown, rule.reads)
+    yield from look_problems(_figures(draws[:DRAWN]))
+
+
+def _figures(draws: Sequence[Draw]) -> Iterator[Figure]:
+    """The figures of questions and solutions, which were drawn before and so cost nothing."""
+    for one in draws:
+        for quiz in (True, False):
+            figure = pictured(one, one.template.languages[0], quiz=quiz)
+            if figure is not None:
+                yield figure
 
 
 def figure_words(one: Draw, lang: str, *, quiz: bool, drawn: bool = True) -> str:

@@ -254,7 +254,7 @@ def _inlines(tokens: Iterator[Any], until: str | None) -> Iterator[Inline]:
 def _plain(text: str) -> Iterator[Inline]:
     """Words; a number such as ``6e-8`` in them is set as mathematics."""
     if "![" in text:
-        raise BankError(f"a picture is written ![words](file.png), without blanks: {text!r}")
+        raise BankError(f"a picture is not like ![words](file.png), without blanks, in {text!r}")
     if _BANNED.search(text):
         raise BankError(f"only {{{{ name }}}} may stand in double braces: {text.strip()!r}")
     pieces = _POWER.split(text)

@@ -18,11 +18,11 @@ from importlib.abc import MetaPathFinder
 from importlib.machinery import ModuleSpec, SourceFileLoader
 from importlib.util import spec_from_file_location
 from pathlib import Path
-from threading import RLock
 from types import CodeType, ModuleType
 
 from quizgen.bank.compiled import Compiled
 from quizgen.errors import BankError
+from quizgen.imports import LOCK
 from quizgen.kept import digest_of
 from quizgen.maths.chain import Chain
 from quizgen.maths.model import Model
@@ -34,7 +34,6 @@ _RELATIVE = re.compile(rb"\bfrom[ \t]+\.")
 _PURE = {"__future__", "fractions", "math", "quizgen", "sympy", "typing"}
 """What a solver may import if its chain is to be kept: nothing that reads files or settings."""
 _IMPURE = {"__file__", "__import__", "open"}
-_LOCK = RLock()
 
 
 class _AsWritten(SourceFileLoader):
@@ -100,7 +99,7 @@ def _private(folder: Path) -> str:
 def _mounted(folder: Path) -> str:
     """Private name of the package that a folder of solvers or figures is."""
     name = _private(folder.absolute())
-    with _LOCK:
+    with LOCK:
         if _FINDER not in sys.meta_path:
             sys.meta_path.insert(0, _FINDER)
         if name not in sys.modules:
@@ -117,7 +116,7 @@ def module_of(folder: Path, name: str) -> ModuleType:
     BankError
         Naming the place, if it fails.
     """
-    with authored(folder / f"{name}.py"):
+    with authored(folder / f"{name}.py"), LOCK:
         return importlib.import_module(f"{_mounted(folder)}.{name.replace('/', '.')}")
 
 
@@ -147,7 +146,7 @@ def chain_of(folder: Path, name: str) -> tuple[Chain, bytes]:
     sources = _sources(folder, name)
     chain = _CHAINS.find(*sources)
     if chain is None:
-        with _LOCK:
+        with LOCK:
             chain = _compiled(folder, name)
         if all(map(_is_pure, sources)) and sources == _sources(folder, name):
             _CHAINS.keep(chain, *sources)

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from difflib import get_close_matches
 
 from quizgen.camera import effects
 from quizgen.camera.scene import SceneError, SettingError
-from quizgen.camera.settings import Settings
+from quizgen.camera.setup.settings import Settings, nearest
 
 
 class Camera(Settings):
@@ -23,7 +21,7 @@ class Camera(Settings):
     focus_distance : float
         Distance in perfect focus, m, may be infinite.
     **more : object
-        Any other setting of `quizgen.camera.body` or of an effect, in base units, such as
+        Any other setting of `quizgen.camera.setup.body` or of an effect, in base units, such as
         ``k1=-0.2``, ``full_well=2e4`` or ``gamma="srgb"``.
 
     Raises
@@ -57,9 +55,3 @@ class Camera(Settings):
     def but(self, **changes: object) -> Camera:
         """The same camera with other values of some settings."""
         return Camera(**{**self.given, **changes})  # type: ignore[arg-type]
-
-
-def nearest(name: str, known: Iterable[str]) -> str:
-    """A hint at the key that was probably meant."""
-    close = get_close_matches(name, known, 1)
-    return f"; did you mean {close[0]!r}?" if close else ""

@@ -1,4 +1,4 @@
-"""8-bit codes of pictures, and their histograms."""
+"""8-bit codes of pictures, their histograms, and what can be read off them by name."""
 
 from __future__ import annotations
 
@@ -35,3 +35,28 @@ def _bins(values: Numbers, bins: int, top: float) -> NDArray[np.int64]:
     steps = bins - 1 if np.issubdtype(values.dtype, np.integer) else bins
     index = (values.astype(np.float64) * (steps / top)).astype(np.int64)
     return np.clip(index, 0, bins - 1)
+
+
+def _patches(levels: NDArray[np.floating]) -> list[NDArray[np.floating]]:
+    """The four corners of a picture, each a sixteenth of its sides."""
+    rows, columns = (max(1, side // 16) for side in levels.shape[:2])
+    sides = [levels[:rows], levels[-rows:]]
+    return [part for side in sides for part in (side[:, :columns], side[:, -columns:])]
+
+
+def _centre(levels: NDArray[np.floating]) -> NDArray[np.floating]:
+    height, width = levels.shape[:2]
+    rows, columns = max(1, height // 16), max(1, width // 16)
+    top, left = (height - rows) // 2, (width - columns) // 2
+    return levels[top : top + rows, left : left + columns]
+
+
+MEASURES = {
+    "mean": lambda levels: float(levels.mean()),
+    "centre": lambda levels: float(_centre(levels).mean()),
+    "corner": lambda levels: float(np.mean([part.mean() for part in _patches(levels)])),
+    "deviation": lambda levels: float(levels.std(axis=(0, 1)).mean()),
+    "darkest": lambda levels: float(levels.min()),
+    "brightest": lambda levels: float(levels.max()),
+}
+"""What can be read off a picture by name, in grey levels from 0 to 255."""

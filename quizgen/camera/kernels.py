@@ -1,4 +1,4 @@
-"""Blur kernels on the pixel grid, and how far a blur can move a pixel.
+"""Blur kernels on the pixel grid, and how much of the light they move.
 
 Pixels are area averages, so a point spread function is splatted bilinearly (pixel box * pixel box
 * function): the response to an ideal edge between two pixels is then exact at any blur size.
@@ -16,6 +16,8 @@ from numpy.typing import NDArray
 from quizgen.camera.scene import SceneError
 
 Kernel = NDArray[np.float64]
+
+_UNMOVED: Kernel = np.ones((1, 1))
 
 SAMPLES = 64
 _ROWS = 64
@@ -40,7 +42,7 @@ def _half_chord_integral(x: Kernel) -> Kernel:
     return (x * np.sqrt(np.maximum(0.0, 1.0 - x * x)) + np.arcsin(np.clip(x, -1.0, 1.0))) / 2.0
 
 
-def _disc_area_below(x: Kernel, y: Kernel) -> Kernel:
+def disc_area_below(x: Kernel, y: Kernel) -> Kernel:
     """Area of the unit disc left of x and below y, both in [-1, 1] (closed form)."""
     corner = np.sqrt(np.maximum(0.0, 1.0 - y * y))
     chord = _half_chord_integral
@@ -122,7 +124,7 @@ def _disc_quarter(count: int) -> Kernel:
     cells = np.empty((half, half))
     for start in range(0, half, _ROWS):
         rows = edges[start : start + _ROWS + 1]
-        below = _disc_area_below(*np.meshgrid(edges, rows))
+        below = disc_area_below(*np.meshgrid(edges, rows))
         area = np.diff(np.diff(below, axis=0), axis=1)
         np.maximum(area, 0.0, out=cells[start : start + _ROWS])
     return cells
@@ -209,83 +211,18 @@ def line(across: float, down: float) -> Kernel:
     return np.asarray(kernel / kernel.sum())
 
 
-def offsets(kernel: Kernel) -> tuple[Kernel, Kernel]:
-    """Vertical and horizontal distance of every tap from the centre, in px."""
-    return _offsets(*kernel.shape)
-
-
-@lru_cache(maxsize=16)
-def _offsets(rows: int, columns: int) -> tuple[Kernel, Kernel]:
-    down = np.abs(np.arange(rows) - rows // 2)[:, None] * np.ones((1, columns))
-    across = np.abs(np.arange(columns) - columns // 2)[None, :] * np.ones((rows, 1))
-    return down, across
-
-
-def change(
-    kernel: Kernel, jump: tuple[float, float], bend: tuple[float, float], span: float
-) -> float:
-    """Bound on ``max |kernel * x - x|`` from the steps and bends of x.
-
-    Opposite taps are paired, so that only second differences count: a pair at distance i moves a
-    pixel by at most ``min(i^2 bend, 2 i jump) / 2``. For an ideal edge of height G this is the
-    known ``G c/(3 pi)``, for a smooth scene ``c^2/32 |Laplacian|`` (plus the pixel grid's share).
-
-    Parameters
-    ----------
-    kernel : numpy.ndarray
-        Non-negative, sums to 1, symmetric about its centre; off-axis taps are paired only when the
-        kernel is symmetric in both axes.
-    jump, bend : (float, float)
-        Largest first and second difference of x along (x, y), any unit.
-    span : float
-        Largest minus smallest value of x.
-    """
-    if kernel.size == 1:
-        return 0.0
-    most = (1.0 - float(kernel[kernel.shape[0] // 2, kernel.shape[1] // 2])) * span
-    if min(*jump, bend[0] / 2.0, bend[1] / 2.0) >= span:  # one pixel away all may be different
-        return most
-    return min(float((kernel * _paired(kernel, jump, bend)).sum()), most)
-
-
-def change_between(
-    one: Kernel,
-    other: Kernel,
-    jump: tuple[float, float],
-    bend: tuple[float, float],
-    span: float,
-) -> float:
-    """Bound on ``max |one * x - other * x|``, tap by tap as in `change`.
+def moved_share(one: Kernel, other: Kernel = _UNMOVED) -> float:
+    """Share of the light that two kernels bring to different places: at most so many steps of 1.
 
     Parameters
     ----------
     one, other : numpy.ndarray
-        Square, each symmetric in both axes with sum 1.
-    jump, bend, span
-        As for `change`.
+        Square or not, odd-sized, each with sum 1; by default the light that stays where it is.
     """
-    size = max(len(one), len(other))
-    apart = np.abs(_widened(one, size) - _widened(other, size))
-    return float(min((apart * _paired(apart, jump, bend)).sum(), apart.sum() / 2.0 * span))
+    sides = [max(pair) for pair in zip(one.shape, other.shape, strict=True)]
+    return float(np.abs(_widened(one, sides) - _widened(other, sides)).sum() / 2.0)
 
 
-def _widened(kernel: Kernel, size: int) -> Kernel:
-    return np.pad(kernel, (size - len(kernel)) // 2)
-
-
-def _paired(kernel: Kernel, jump: tuple[float, float], bend: tuple[float, float]) -> Kernel:
-    """How far each tap, together with the opposite ones, can carry a pixel's value."""
-    down, across = (_distances(count) for count in kernel.shape)
-    over_x = np.minimum(across * across * bend[0], 2.0 * across * jump[0]) / 2.0
-    over_y = np.minimum(down * down * bend[1], 2.0 * down * jump[1]) / 2.0
-    paired = over_x + over_y[:, None]
-    if len(down) > 1 and not (kernel == kernel[::-1]).all():
-        aslant = across * jump[0] + (down * jump[1])[:, None]
-        paired = np.where((across > 0) & (down > 0)[:, None], aslant, paired)
-    return np.asarray(paired)
-
-
-@lru_cache(maxsize=64)
-def _distances(count: int) -> Kernel:
-    """How far each of so many taps in a row is from the middle one, px."""
-    return np.abs(np.arange(count, dtype=np.float64) - count // 2)
+def _widened(kernel: Kernel, sides: list[int]) -> Kernel:
+    margins = [((side - had) // 2,) * 2 for side, had in zip(sides, kernel.shape, strict=True)]
+    return np.pad(kernel, margins)

@@ -1,36 +1,27 @@
-"""Random numbers of the effects, and what noise does to facts."""
+"""Random numbers of the effects, and how far luck carries a value."""
 
 from __future__ import annotations
 
 import math
-from functools import cache, lru_cache
-from itertools import accumulate
+from functools import cache
 
 import numpy as np
-from msgspec.structs import replace
 from numpy.typing import DTypeLike, NDArray
 
 from quizgen.arrays.gaussian import inverse_tail
 from quizgen.camera.blocks import Tile, Work
-from quizgen.camera.body import FULL_WELL
-from quizgen.camera.facts import REACH, Error, Facts
 from quizgen.camera.scene import Image
+from quizgen.camera.setup.body import FULL_WELL
 from quizgen.camera.view import View
 
-POISSON_GAP = 6.4
-"""Electrons by which the quantiles of Poisson and normal law are apart up to z = 5 deviations, at
-any mean: z^2/4 where the normal law turns negative."""
-
-_FARTHER = 4.6
-"""Electrons by which a Poisson count lies farther from its mean than z standard deviations, up to
-z = 5 at any mean: (z^2 - 1)/6 for the skewness and 1/2 for whole electrons. No luck is larger."""
-
-MANY = 16.0
-"""Electrons from which on counts keep to the root of their own mean, and those of all below."""
 Places = NDArray[np.intp]
 
-_NEVER = 2.8e-7
-"""Chance of a normal value above z = 5."""
+WORDS = 1 << 16
+TAIL = 256
+"""Cells at either end of the table in which values are drawn from the tail itself (|z| > 2.6)."""
+FARTHEST = 7.9
+"""Standard deviations that no luck exceeds: the last step of the tail has the chance 2^-49."""
+_RAREST = 49.0 * math.log(2.0)
 
 
 class Luck:
@@ -48,36 +39,60 @@ class Luck:
         self._source = np.random.Philox(key=key)
         self._start = self._source.state  # a new source for every tile would take as long again
 
-    def _words(self, tile: int, count: int) -> NDArray[np.uint16]:
-        """Whole numbers below 2^16, each as likely."""
-        self._start["state"]["counter"][1] = tile
+    def _draw_raw(self, tile: int, count: int, stream: int = 0) -> NDArray[np.uint64]:
+        """Whole numbers below 2^64; streams of one tile have nothing to do with each other."""
+        self._start["state"]["counter"][1:3] = tile, stream
         self._source.state = self._start
-        raw: NDArray[np.uint64] = self._source.random_raw(-(-count // 4)).astype("<u8", copy=False)
-        return raw.view("<u2")[:count]
+        raw: NDArray[np.uint64] = self._source.random_raw(count).astype("<u8", copy=False)
+        return raw
+
+    def _draw_words(self, tile: int, count: int, stream: int = 0) -> NDArray[np.uint16]:
+        """Whole numbers below 2^16, each as likely."""
+        return self._draw_raw(tile, -(-count // 4), stream).view("<u2")[:count]
 
     def pick(self, table: Image, tile: int, count: int) -> Image:
         """Values of a table of 2^16, each as likely."""
-        return np.take(table, self._words(tile, count), mode="clip")
+        return np.take(table, self._draw_words(tile, count), mode="clip")
 
     def beyond(self, first: int, tile: int, count: int) -> tuple[Places, NDArray[np.uint16]]:
         """Where a table of 2^16 is read from a place on, and at which places."""
-        words = self._words(tile, count)
+        words = self._draw_words(tile, count)
         where = np.flatnonzero(words >= first)
         return where, words[where]
 
-    def normal(self, tile: int, count: int, kind: DTypeLike = np.float32) -> Image:
-        """Standard normal values; their distribution function is within 8e-6 of the normal one.
+    def normal(
+        self, tile: int, count: int, kind: DTypeLike = np.float32, *, fine: bool = False
+    ) -> Image:
+        """Standard normal values, up to `FARTHEST`; in every precision the same, rounded to it.
 
-        The same luck in every precision, rounded to it.
+        Parameters
+        ----------
+        tile, count : int
+        kind : dtype
+        fine : bool
+            Draw 8 more bits for every value. Without them those that are no more than 2.6 are
+            the middles of 2^16 equal probabilities: enough where they are added to a picture, but
+            whole counts are so close beside each other that some would never be drawn.
         """
-        return self.pick(_normals(np.dtype(kind)), tile, count)
+        words = self._draw_words(tile, count)
+        values = np.take(_normals(np.dtype(kind)), words, mode="clip")
+        if fine:
+            apart = self._draw_raw(tile, -(-count // 8), 2).view("u1")[:count].astype(kind)
+            apart -= 255.0 / 2.0
+            apart *= np.take(_slopes(np.dtype(kind)), words, mode="clip")
+            values += apart
+        far = np.flatnonzero(words + np.uint16(TAIL) < 2 * TAIL)  # which wraps around
+        if far.size:
+            ends = words[far]
+            cells = np.minimum(ends, ~ends)  # as far from either end
+            chances = cells + self._draw_raw(tile, far.size, 1) * 2.0**-64
+            sizes = np.interp(chances.view(np.int64), *_tail())
+            values[far] = np.where(cells == ends, -sizes, sizes)
+        return values
 
     def uniform(self, tile: int, count: int) -> NDArray[np.float64]:
         """Values in [0, 1), multiples of 2^-32."""
-        return self._words(tile, 2 * count).view("<u4") * 2.0**-32
-
-
-WORDS = 1 << 16
+        return self._draw_words(tile, 2 * count).view("<u4") * 2.0**-32
 
 
 @cache
@@ -86,6 +101,26 @@ def _normals(kind: np.dtype[np.floating]) -> Image:
     lower = -np.asarray(inverse_tail((np.arange(WORDS // 2) + 0.5) / WORDS))
     lower /= math.sqrt(float(np.mean(lower * lower)))
     return np.concatenate([lower, -lower[::-1]]).astype(kind)
+
+
+@cache
+def _slopes(kind: np.dtype[np.floating]) -> Image:
+    """How wide the cell around each of them is, over 2^8."""
+    edges = np.asarray(inverse_tail(np.arange(1, WORDS // 2 + 1) / WORDS))
+    lower = np.concatenate([[0.0], -np.diff(edges)]) / 256.0
+    return np.concatenate([lower, lower[::-1]]).astype(kind)
+
+
+@cache
+def _tail() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Normal quantiles of chances in cells of the table, down to 2^-33 of one, by their bits.
+
+    The bits of a number, read as a whole one, are straight in each octave: between two of these 256
+    an octave a line is off by 1e-6, and no logarithm is needed, whose last bit differs between
+    processors.
+    """
+    cells = np.ldexp(1.0 + np.arange(256) / 256.0, np.arange(-33, 8)[:, None]).reshape(-1)
+    return cells.view(np.int64).astype(float), np.asarray(inverse_tail(cells / WORDS))
 
 
 def luck(view: View, effect: str) -> Luck:
@@ -104,34 +139,14 @@ def electrons_at_white(view: View) -> float:
     return view.camera[FULL_WELL] or math.inf
 
 
-@lru_cache(maxsize=256)
-def poisson_gap(mean: float) -> float:
-    """`_FARTHER` for means up to this one, from the exact tails where counts are few.
+def farthest_count(mean: float) -> float:
+    """Electrons by which no count lies farther from any mean up to this one.
 
-    The count k is reached by the luck z whose normal tail is the chance of k or more.
+    Chernoff: P(X >= m + t) <= exp(-t^2/(2 (m + t/3))), and no luck is rarer than 2^-49. One more
+    for whole electrons, and one for the expansion that counts come from.
     """
-    if mean >= MANY:
-        return _FARTHER
-    chances = list(accumulate(range(1, 80), lambda p, k: p * mean / k, initial=math.exp(-mean)))
-    gap, beyond = 1.0, 0.0
-    for count in range(len(chances) - 1, 0, -1):
-        beyond += chances[count]
-        if _NEVER < beyond < 0.5:
-            luck = float(inverse_tail(beyond))
-            gap = max(gap, count - mean - math.sqrt(mean) * luck)
-    return gap
-
-
-def noisier(facts: Facts, more: Error, dip: tuple[float, float] | None = None) -> Facts:
-    """Facts with more of the random part; where that is known, with less of it below."""
-    noise, far = math.hypot(facts.noise, more.sigma), more.sure + REACH * more.sigma
-    limits = facts.limits[0] - far, facts.limits[1] + far
-    if dip is None and facts.dip is not None:
-        dip = more.sure, more.sigma
-    if dip is not None:
-        tail, deviation = facts.down
-        dip = tail + dip[0], math.hypot(deviation, dip[1])
-    return replace(facts, noise=noise, tail=facts.tail + more.sure, limits=limits, dip=dip)
+    third = _RAREST / 3.0
+    return third + math.sqrt(third**2 + 2.0 * mean * _RAREST) + 2.0
 
 
 def normal_noise(sigma: float, source: Luck) -> Work:

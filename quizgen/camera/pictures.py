@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 from quizgen.camera.blocks import Tile, in_turn
 from quizgen.camera.camera import Camera
 from quizgen.camera.codes import histogram, rounded
-from quizgen.camera.draw import Box, blend, content, draw
 from quizgen.camera.effects import demosaicing, gamma, mosaic
 from quizgen.camera.effects.gaussian_noise import gaussian
 from quizgen.camera.effects.impulse_noise import impulses
@@ -26,8 +25,9 @@ from quizgen.camera.filters import convolve, everywhere_alike
 from quizgen.camera.hsv import edit_hsv
 from quizgen.camera.kernels import Kernel, disc
 from quizgen.camera.noise import luck
+from quizgen.camera.raster.draw import Box, blend, content, draw
+from quizgen.camera.raster.uneven import wider
 from quizgen.camera.scene import Image, Scene
-from quizgen.camera.uneven import wider
 from quizgen.camera.view import View
 
 Codes = NDArray[np.uint8]

@@ -2,7 +2,7 @@
 
 In: means and standard normal values, pixel by pixel. Out: whole numbers. One normal value per pixel
 makes the counts grow with the mean, so that a rounding error in one pixel cannot change its
-neighbours, and a Gaussian rung sees the same luck.
+neighbours.
 """
 
 from __future__ import annotations
@@ -19,12 +19,12 @@ Places = NDArray[np.intp]
 FEW_ELECTRONS = 16.18
 """Below this mean, counts are compared with their distribution function."""
 
-_LUCK = 4.5
+_LUCK = 8
 """Normal values of which the tables know, on either side: no luck is larger."""
 _CELLS = 20
 """Cells of the tables per standard deviation, and per electron of the mean's root."""
 _COLUMNS = math.ceil(math.sqrt(FEW_ELECTRONS) * _CELLS) + 1
-_MOST = 64
+_MOST = 128
 """More electrons than any luck makes of few."""
 
 
@@ -34,13 +34,14 @@ def poisson_quantiles(mean: Numbers, normal: Numbers) -> Numbers:
     Parameters
     ----------
     mean, normal : numpy.ndarray
-        Same shape (N,), same precision; mean >= 0, normal values from -4.5 to 4.5.
+        Same shape (N,), same precision; mean >= 0, normal values from -8 to 8.
 
     Returns
     -------
     numpy.ndarray
         Whole numbers. The distribution function is within 2e-5 of Poisson's: the expansion of its
         inverse in 1/sqrt(mean) (M. Giles, Algorithm 955), exact counting below `FEW_ELECTRONS`.
+        Beyond 4.5 deviations they are right within one electron, within a few below a mean of 0.01.
     """
     enough = np.full_like(mean, FEW_ELECTRONS)
     np.maximum(mean, enough, out=enough)  # three times as fast as beside a single number
@@ -58,6 +59,7 @@ def poisson_quantiles(mean: Numbers, normal: Numbers) -> Numbers:
     counts += root
     counts += enough
     np.floor(counts, out=counts)
+    np.maximum(counts, 0.0, out=counts)  # the expansion knows no end
     few = np.flatnonzero(mean < FEW_ELECTRONS)
     if few.size:
         counts[few] = _few(mean[few], normal[few])

@@ -130,29 +130,6 @@ def encode(values: Image, gamma: str | float) -> Image:
     return in_turn(values.astype(np.float32, copy=False), [by_lines(gamma)])[0]
 
 
-TABLE = 65535
-"""Steps of the tone table over [0, 1]."""
-
-
-@cache
-def _tone_table(gamma: str | float, precision: Precision) -> Image:
-    linear = (np.arange(TABLE + 1) / TABLE).astype(precision)
-    return in_turn(linear, [encoder(gamma, precision)])[0]
-
-
-def by_table(gamma: str | float, precision: Precision = "float32") -> Work:
-    """`encode` after rounding the linear values to 16 bits."""
-    table = _tone_table(gamma, precision)
-
-    def work(part: Image, _: Tile) -> None:
-        scaled = np.clip(part, 0.0, 1.0)
-        scaled *= TABLE
-        scaled += 0.5
-        np.take(table, scaled.astype(np.intp), out=part, mode="wrap")
-
-    return work
-
-
 def encode_number(value: float, gamma: str | float) -> float:
     """`encode` of one number in double precision, as the bounds need it."""
     if not 0.0 <= value <= 1.0:

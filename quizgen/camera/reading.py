@@ -14,19 +14,23 @@ import numpy as np
 from quizgen import png
 from quizgen.arrays.gamma import srgb_decode
 from quizgen.camera import codecs, effects
-from quizgen.camera.camera import Camera, nearest
-from quizgen.camera.outlines import SHAPES, SIZES, TEXTURES
+from quizgen.camera.camera import Camera
+from quizgen.camera.codes import MEASURES
+from quizgen.camera.raster.outlines import SHAPES, SIZES, TEXTURES
 from quizgen.camera.scene import (
     PRECISIONS,
     Image,
     Length,
     Precision,
+    Question,
+    Reading,
     Scene,
     SceneError,
     SettingError,
     Thing,
 )
-from quizgen.camera.values import (
+from quizgen.camera.setup.settings import nearest
+from quizgen.camera.setup.values import (
     Reader,
     colour,
     length,
@@ -74,8 +78,30 @@ def _corners(value: object) -> tuple[tuple[float, float], ...]:
     return corners
 
 
-def _questions(value: object) -> tuple[str, ...]:
-    return several(one_of(*effects.questions()))(value)
+def _asks(value: object) -> tuple[str, ...]:
+    kinds = several(one_of(*effects.questions()))([value] if isinstance(value, str) else value)
+    if not kinds:
+        raise ValueError("expected a kind of question")
+    return kinds
+
+
+def _reads(value: object) -> dict[str, Reading]:
+    table = value if isinstance(value, dict) else {}
+    if not table:
+        raise ValueError("expected a table such as { corner = 3 }")
+    return {name: _read_one(name, told) for name, told in table.items()}
+
+
+def _read_one(name: str, told: object) -> Reading:
+    """A tolerance, or a table with the key besides."""
+    measure = one_of(*MEASURES)(name)
+    table = told if isinstance(told, dict) else {"tolerance": told}
+    if "tolerance" not in table or table.keys() - {"tolerance", "value"}:
+        raise ValueError(f"{name}: expected a tolerance, and maybe a value")
+    values = {key: number(part) for key, part in table.items()}
+    if values["tolerance"] <= 0.0:
+        raise ValueError(f"{name}: a tolerance must be positive")
+    return Reading(measure, **values)
 
 
 SIDES = 2, 2**15
@@ -86,7 +112,7 @@ _SIDE = _between(*SIDES)
 SCENE: Readers = {
     "title": words, "width": _SIDE, "height": _SIDE, "background": colour,
     "background_depth": _depth, "image": words, "depth": _depth, "depth_map": words,
-    "depth_near": _depth, "depth_far": _depth, "seed": _between(0, 2**63), "question": _questions,
+    "depth_near": _depth, "depth_far": _depth, "seed": _between(0, 2**63),
     "precision": one_of(*PRECISIONS),
 }  # fmt: skip
 
@@ -98,13 +124,15 @@ THING: Readers = {
     "count": _between(1, MOST_THINGS), "points": _corners,
 }  # fmt: skip
 
-TABLES = ("scene", "camera", "thing")
+QUESTION: Readers = {"asks": _asks, "reads": _reads}
+
+TABLES = ("scene", "question", "camera", "thing")
 
 
 def _readers(table: str) -> Readers:
     """Readers of one table; those of the camera come from the effects."""
     if table != "camera":
-        return SCENE if table == "scene" else THING
+        return {"scene": SCENE, "question": QUESTION, "thing": THING}[table]
     named = {name: setting.read for name, setting in effects.settings().items()}
     return {"sensor_width": quantity("m"), "exif": truth, **named}
 
@@ -159,7 +187,7 @@ class _File:
                 line = self.lines.get((name, 0, "")) or self.lines.get(("", 0, name), 1)
                 hint = nearest(name, TABLES)
                 raise SceneError(f"{self.path}:{line}: unknown table {name!r}{hint}")
-        for name in ("scene", "camera"):
+        for name in ("scene", "question", "camera"):
             if not isinstance(self.tables.get(name, {}), dict):
                 raise self.fail(name, 0, "", f"expected one table [{name}]")
         things = self.tables.get("thing", [])
@@ -175,7 +203,7 @@ def load(path: str | Path, precision: Precision | None = None) -> tuple[Scene, C
     Parameters
     ----------
     path : str or Path
-        TOML with ``[scene]``, ``[camera]`` and any number of ``[[thing]]``.
+        TOML with ``[scene]``, ``[question]``, ``[camera]`` and any number of ``[[thing]]``.
     precision : str, optional
         What the picture is computed in, whatever the file says.
 
@@ -189,13 +217,22 @@ def load(path: str | Path, precision: Precision | None = None) -> tuple[Scene, C
     things = [
         _thing(file, which, table) for which, table in enumerate(file.tables.get("thing", []))
     ]
-    scene = _scene(file, tuple(things), precision)
+    scene = replace(_scene(file, tuple(things), precision), question=_question(file))
     values = file.read("camera", 0, file.tables.get("camera", {}))
     if values.pop("exif", False):
         scene = replace(scene, exif=_shot_with(file, values))
     camera = _camera(file, {**scene.exif, **values}, scene.width)
     _check_effects(file, View(scene, camera))
     return scene, camera
+
+
+def _question(file: _File) -> Question | None:
+    if "question" not in file.tables:
+        return None
+    values = file.read("question", 0, file.tables["question"])
+    if "asks" not in values:
+        raise file.fail("question", 0, "", "a question needs asks")
+    return Question(**values)
 
 
 def _shot_with(file: _File, given: Mapping[str, object]) -> dict[str, float]:

@@ -6,7 +6,7 @@ Positions count from the centre of the picture, x to the right and y down.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields
 from functools import cache, cached_property
 from pathlib import Path
@@ -60,7 +60,7 @@ class Thing:
     Parameters
     ----------
     shape : str
-        A key of `quizgen.camera.outlines.SHAPES`.
+        A key of `quizgen.camera.raster.outlines.SHAPES`.
     x, y, width, height, radius, cell, stroke : Length
         Place and size in px, or in m at the object's depth.
     depth : float
@@ -68,7 +68,7 @@ class Thing:
     colour, other : (float, float, float)
         Linear radiance, 1 = white; lamps may exceed 1. ``other`` is the texture's second colour.
     texture : str
-        A key of `quizgen.camera.outlines.TEXTURES`.
+        A key of `quizgen.camera.raster.outlines.TEXTURES`.
     angle : float
         Rotation in rad, clockwise as seen.
     velocity : (Length, Length)
@@ -115,6 +115,45 @@ def _lengths() -> tuple[str, ...]:
     return tuple(item.name for item in fields(Thing) if isinstance(item.default, Length))
 
 
+Measure = Callable[[NDArray[np.floating]], float]
+"""Reads a number off the grey levels of a picture, shape (H, W, 3)."""
+
+
+@dataclass(frozen=True)
+class Reading:
+    """What is read off a picture, and how well that is marked.
+
+    Parameters
+    ----------
+    measure : str or callable
+        A name in `quizgen.camera.codes.MEASURES`, or a function of the grey levels.
+    tolerance : float
+        How far what is read may be from the key.
+    value : float or None
+        The key, by formula; None if it is what the picture shows.
+    """
+
+    measure: str | Measure
+    tolerance: float
+    value: float | None = None
+
+
+@dataclass(frozen=True)
+class Question:
+    """What is asked about a picture.
+
+    Parameters
+    ----------
+    asks : tuple of str
+        Kinds of question.
+    reads : mapping of str to Reading
+        What is read off it.
+    """
+
+    asks: tuple[str, ...]
+    reads: Mapping[str, Reading] = field(default_factory=dict)
+
+
 @dataclass(frozen=True, eq=False)
 class Scene:
     """Drawn things, or a picture with a depth (one number or a map).
@@ -133,8 +172,8 @@ class Scene:
         Shape (height, width, 3), linear radiance; replaces the background.
     depth : float or numpy.ndarray
         Distance of the picture in m, shape (height, width) if a map.
-    question : tuple of str
-        Kinds of question asked about the scene.
+    question : Question or None
+        What is asked about the picture.
     seed : int
         Seed of every random effect.
     title : str
@@ -154,7 +193,7 @@ class Scene:
     background_depth: float = math.inf
     image: Image | None = None
     depth: float | Image = math.inf
-    question: tuple[str, ...] = ()
+    question: Question | None = None
     seed: int = 0
     title: str = ""
     exif: Mapping[str, float] = field(default_factory=dict)

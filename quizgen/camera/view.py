@@ -9,15 +9,15 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from quizgen.camera.body import (
+from quizgen.camera.scene import Image, Precision, Scene, SceneError
+from quizgen.camera.setup.body import (
     FOCAL_LENGTH,
     FOCUS_DISTANCE,
     PINHOLE,
     PIXEL_PITCH,
     aperture,
 )
-from quizgen.camera.scene import Image, Precision, Scene, SceneError
-from quizgen.camera.settings import Settings
+from quizgen.camera.setup.settings import Settings
 
 
 class View(msgspec.Struct, frozen=True):
@@ -28,7 +28,7 @@ class View(msgspec.Struct, frozen=True):
     scene : Scene
     camera : Settings
     margin : (int, int)
-        Columns and rows seen beyond the frame on each side, see `quizgen.camera.margins`.
+        Columns and rows seen beyond the frame on each side, see `quizgen.camera.prepared.views`.
     """
 
     scene: Scene
@@ -121,3 +121,44 @@ class View(msgspec.Struct, frozen=True):
         if math.isinf(distance):
             return -scale / depth
         return scale / (distance - length) * (1.0 - distance / depth)
+
+
+class Signal(msgspec.Struct, frozen=True):
+    """Between which numbers every value of a picture lies, luck and rounding included.
+
+    Parameters
+    ----------
+    low, high : float
+        1 = white.
+    """
+
+    low: float
+    high: float
+
+    @property
+    def span(self) -> float:
+        """Largest minus smallest value."""
+        return self.high - self.low
+
+    @property
+    def size(self) -> float:
+        """Largest magnitude."""
+        return max(abs(self.low), abs(self.high))
+
+    def widened(self, down: float, up: float) -> Signal:
+        """With more room below and above."""
+        return Signal(self.low - down, self.high + up)
+
+    def scaled(self, least: float, most: float) -> Signal:
+        """Every value times a factor of its own between two that are >= 0."""
+        return Signal(
+            min(self.low * least, self.low * most), max(self.high * least, self.high * most)
+        )
+
+    def clipped(self, low: float, high: float) -> Signal:
+        """Cut at two values."""
+        return Signal(min(max(self.low, low), high), max(min(self.high, high), low))
+
+    def outside(self, low: float, high: float) -> float:
+        """How far any value stands beyond two others."""
+        return max(self.high - high, low - self.low, 0.0)

@@ -31,9 +31,6 @@ from quizgen.question.filling import tied
 from quizgen.question.shown import Maths, PlacedPicture
 from quizgen.typeset.nodes import RELATION, Node, Row
 
-_TITLE = re.compile(rb"<title>.*?</title>|<desc>.*?</desc>", re.DOTALL)
-_LANG = re.compile(rb' lang="[A-Za-z0-9-]+"')
-
 
 @dataclass(frozen=True, slots=True)
 class Display:
@@ -61,8 +58,8 @@ class Picture:
 
     @property
     def data(self) -> bytes:
-        """The drawing without its title, so that every language shares one file."""
-        return _LANG.sub(b"", _TITLE.sub(b"", self.figure.standalone_svg), count=1)
+        """The drawing, which every language shares."""
+        return self.figure.standalone_svg
 
     @property
     def shade(self) -> str:

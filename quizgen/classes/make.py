@@ -283,7 +283,9 @@ class _Drawing:
             seed = seed_of(self.job.settings.secret, student)
             near = [self.of(other) for other in self.job.beside[student]]
             names = _one_of_each(self.job.settings.templates, seed)
-            self._known[student] = [*draws(self.bank, names, seed, near)]
+            self._known[student] = [
+                *draws(self.bank, names, seed, near, colour=self.job.blueprint.colour)
+            ]
         return self._known[student]
 
 

@@ -1,4 +1,4 @@
-"""What ``simulate --compare`` writes: planned, everything and their difference, with the table."""
+"""What ``simulate --compare`` writes: two pictures, their difference, and the table."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from quizgen.errors import ChoiceError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
 
     from quizgen.camera.compare import Codes
     from quizgen.camera.simulate import Photo
@@ -49,11 +49,11 @@ def check(target: Path | None) -> None:
 def contents(
     target: Path,
     title: str,
-    photos: tuple[Photo, Photo],
+    photos: Mapping[str, Photo],
     told: tuple[Sequence[str], ...],
     notes: Iterable[str] = (),
 ) -> bytes:
-    """A file that shows what a plan leaves out.
+    """A file that shows two pictures and how they differ.
 
     Parameters
     ----------
@@ -61,22 +61,37 @@ def contents(
         ``.html`` for a page with the table, else three pictures beside each other.
     title : str
         The scene's.
-    photos : (Photo, Photo)
-        As planned, and with everything.
+    photos : mapping of str to Photo
+        Two pictures, by what they show.
     told : tuple of sequence of str
         Head and rows of the table.
     notes : iterable of str
         Sentences below it.
     """
     from quizgen.camera.codecs import WRITERS
-    from quizgen.camera.compare import GAIN, difference, side_by_side
+    from quizgen.camera.compare import amplify_difference, side_by_side
 
-    planned, whole = photos
-    pictures = planned.pixels(), whole.pixels(), difference(planned, whole)
+    one, other = photos.values()
+    scale, apart = amplify_difference(one.values, other.values)
+    pictures = one.pixels(), other.pixels(), _write_on(apart, f"difference x {scale}")
     if target.suffix.lower() != ".html":
         return WRITERS[target.suffix.lower()](side_by_side(*pictures))
-    names = "as planned", "everything", f"difference × {GAIN:g}"
+    names = *photos, f"difference × {scale}"
     return _page(title, zip(names, pictures, strict=True), told, notes).encode()
+
+
+def _write_on(codes: Codes, text: str) -> Codes:
+    """A picture with its scale on it, as far as it has room."""
+    import numpy as np
+    from PIL import Image, ImageDraw, ImageFont
+
+    picture = Image.fromarray(codes)
+    size = max(8, codes.shape[0] // 24)
+    font = ImageFont.load_default(size)
+    ImageDraw.Draw(picture).text(
+        (size // 2, size // 2), text, (255, 255, 255), font, stroke_width=1, stroke_fill=(0, 0, 0)
+    )
+    return np.asarray(picture)
 
 
 def _page(

@@ -39,7 +39,10 @@ COMMANDS = {
     "lint": ("quizgen.cli.lint", "Prove templates sound over many seeds."),
     "schema": ("quizgen.cli.schema", "Print what editors check bank files by."),
     "doctor": ("quizgen.cli.doctor", "Check fonts, glyphs and versions."),
-    "simulate": ("quizgen.cli.simulate", "Photograph a scene, running only the effects it needs."),
+    "simulate": (
+        "quizgen.cli.simulate",
+        "Photograph a scene with what is asked, and say what was left out.",
+    ),
     "tradeoff": ("quizgen.cli.tradeoff", "Show what accuracy costs in time."),
 }
 """Command name to the module that holds it and its one-line help."""

@@ -1,4 +1,4 @@
-"""``quizgen simulate``: photograph a scene and say what was left out."""
+"""``quizgen simulate``: photograph a scene for what is asked, and say what was left out."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import json
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Any, TypedDict, Unpack
@@ -22,12 +22,15 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from quizgen.camera.decision import Decision, Skipped, Step
+    from quizgen.camera.compare import Race
+    from quizgen.camera.planning import Choice, Plan, Selection
+    from quizgen.camera.prepared import Prepared
+    from quizgen.camera.question import QuestionPhoto, Visibility
     from quizgen.camera.scene import Precision
     from quizgen.camera.simulate import Photo
 
-HEAD = ("effect", "", "DN", "ms", "took", "")
-"""What an effect can change, what it was to take (or saves, if skipped), what it took."""
+HEAD = ("effect", "", "at most", "took", "")
+"""What leaving an effect out can change, in grey levels, and the ms it took."""
 REALLY = (*HEAD[:3], "really", *HEAD[3:])
 """With what it really changes."""
 SCENES = Path(__file__).parent.parent / "camera" / "scenes"
@@ -36,8 +39,11 @@ SCENES = Path(__file__).parent.parent / "camera" / "scenes"
 class Options(TypedDict):
     """What to run, and what to write."""
 
-    budget: str
-    question: tuple[str, ...]
+    asks: tuple[str, ...]
+    only: tuple[str, ...]
+    plus: tuple[str, ...]
+    minus: tuple[str, ...]
+    budget: str | None
     precision: Precision | None
     everything: bool
     compare: Path | None
@@ -50,18 +56,18 @@ class Shot:
     """A scene photographed: the picture, what it is compared with, and where the time went."""
 
     title: str
+    prepared: Prepared
+    plan: Plan
     photo: Photo
-    whole: Photo | None
-    single: Photo | None
+    taken: QuestionPhoto | None = None
+    """The photograph with and without what is asked, where something is."""
+    whole: Photo | None = None
+    single: Photo | None = None
     """The same effects in float32, where the picture is in float64."""
-    seed: int
-    idle: dict[str, str]
-    """Settings that do nothing, and what they need."""
-    exif: dict[str, float]
-    """Settings that the photograph's file said, in base units."""
-    really: dict[str, float]
-    """What each effect really changes, where that was asked."""
-    times: dict[str, float]
+    race: Race | None = None
+    really: dict[str, float] = field(default_factory=dict)
+    """Grey levels that each effect really changes, where that was wanted."""
+    times: dict[str, float] = field(default_factory=dict)
     """ms of reading, planning, drawing, the effects and writing."""
 
     @contextmanager
@@ -72,65 +78,75 @@ class Shot:
         self.times[what] = self.times.get(what, 0.0) + (perf_counter() - started) * 1e3
 
 
+def _names(*flags: str, name: str, text: str) -> Callable[[Any], Any]:
+    return click.option(*flags, name, multiple=True, metavar="EFFECT", help=text)
+
+
 @click.command()
 @click.argument("scene", required=False)
+@click.option("--asks", multiple=True, metavar="KIND", help="Ask this instead of the scene's own.")
+@_names("--only", name="only", text="Run this effect, what it needs, and nothing else.")
+@_names("--with", name="plus", text="Run this effect besides.")
+@_names("--without", name="minus", text="Leave this effect out.")
 @click.option(
     "--budget",
-    default="0.5",
-    show_default=True,
     metavar="LEVELS",
-    help="Largest tolerated change in 8-bit grey levels, or same (0.5), visible (2), sketch (8).",
+    help="Ask nothing; leave out what changes no value by more than so many 8-bit grey levels, or "
+    "same (0.5, where nothing is asked), visible (2), sketch (8).",
 )
-@click.option("--question", multiple=True, metavar="KIND", help="Keep what decides this question.")
 @click.option(
     "--precision",
     type=click.Choice(["float32", "float64"]),
     help="What to compute in; float64 also says what float32, the default, is off by.",
 )
-@click.option("--all", "everything", is_flag=True, help="Also run everything; show the difference.")
+@click.option(
+    "--everything",
+    is_flag=True,
+    help="Run every effect of the camera, and say how it differs and how long both take.",
+)
 @click.option(
     "--compare",
     type=click.Path(path_type=Path, dir_okay=False),
-    help="As --all, and write planned, everything and their difference here: .html, .png or .jpg.",
+    help="Write the picture with and without what is asked, and their difference: .html, .png, "
+    ".jpg.",
 )
 @click.option(
     "--out",
     type=click.Path(path_type=Path, dir_okay=False),
     help="Write the picture here: .png or .jpg.",
 )
-@click.option("--json", "as_json", is_flag=True, help="Print the plan as JSON.")
+@click.option("--json", "as_json", is_flag=True, help="Print the report as JSON.")
 def simulate(scene: str | None, **options: Unpack[Options]) -> None:
     """Photograph SCENE (a TOML file, or the name of a shipped scene).
 
-    Only effects that can be seen or are asked about are run. Without SCENE, the shipped scenes are
-    listed.
+    Runs what the scene's question asks about and what its picture would be wrong without, measures
+    that it can be seen, and says what was left out. Without SCENE, the shipped scenes are listed.
     """
     if scene is None:
         _list_scenes()
         return
     contrast.check(options["compare"])
-    encode = _writer(options["out"])
+    encode = _find_writer(options["out"])
     with Progress("simulate:") as told:
         shot = _shoot(scene, options, told)
         _write(shot, options, encode)
-    report = summary(shot)
+    report = summarise(shot)
     if options["as_json"]:
         click.echo(json.dumps(report, ensure_ascii=False, indent=1))
     else:
         _print(shot, report)
-    if not report.get("promise_kept", True):
+    if not report.get("everything", {}).get("bound_kept", True):
         click.echo(
-            f"quizgen: broken: {report['predicted_error_dn']:.3g} DN at most were promised, "
-            f"{report['difference_dn']:.3g} DN are found; please report this scene",
+            f"quizgen: broken: {shot.plan.bound_dn:.3g} grey levels at most were promised, "
+            f"{report['everything']['difference_dn']:.3g} are found; please report this scene",
             err=True,
         )
         sys.exit(1)
 
 
 def _shoot(scene: str, options: Options, told: Progress) -> Shot:
-    from quizgen.camera import effects
-    from quizgen.camera.compare import really
-    from quizgen.camera.plan import Prepared, decided, everything
+    from quizgen.camera.compare import measure_each, time_in_turns
+    from quizgen.camera.prepared import Prepared
     from quizgen.camera.reading import load
     from quizgen.camera.simulate import run
 
@@ -138,42 +154,67 @@ def _shoot(scene: str, options: Options, told: Progress) -> Shot:
     told("reading")
     prepared = Prepared(*load(_find(scene), options["precision"]))
     read = (perf_counter() - started) * 1e3
-    told("planning")
-    what = decided(prepared, options["question"] or None, options["budget"])
-    planned = (perf_counter() - started) * 1e3 - read - prepared.drawn_ms
-    again = options["everything"] or options["compare"] is not None
-    photo = run(prepared, what, told, last=not again)
-    times = {"read": read, "planned": planned, "drawn": photo.drawn_ms}
-    seen, idle = prepared.given.scene, effects.idle(prepared.given)
-    times["effects"] = photo.measured_ms
-    single = _in_float32(scene, what, told) if seen.precision == "float64" else None
-    shot = Shot(
-        seen.title or scene, photo, None, single, seen.seed, idle, dict(seen.exif), {}, times
-    )
-    if again:
-        shot.whole = run(prepared, everything(prepared), told)
+    shot = _take(scene, prepared, options, told)
+    shot.times = {"read": read, "drawn": shot.photo.drawn_ms, "effects": shot.photo.measured_ms}
+    if prepared.given.scene.precision == "float64":
+        single = Prepared(*load(_find(scene), "float32"), shot.plan.names)
+        shot.single = run(single, told=told, last=True)
+    if options["everything"] or (options["compare"] is not None and shot.taken is None):
+        shot.whole = run(prepared, told=told)
+    if options["everything"]:
+        told("timing")
+        shot.race = time_in_turns(prepared, shot.plan.names, [one.name for one in prepared.present])
     if options["compare"] is not None:
-        shot.really = really(prepared, photo, told)
+        shot.really = measure_each(prepared, run(prepared, shot.plan.names), shot.plan.names, told)
     return shot
 
 
-def _in_float32(scene: str, what: Decision, told: Callable[[str], None]) -> Photo:
-    from quizgen.camera.plan import Prepared
-    from quizgen.camera.reading import load
+def _take(scene: str, prepared: Prepared, options: Options, told: Progress) -> Shot:
+    """Photograph for a question, or within a budget where nothing is asked."""
+    from quizgen.camera.planning import plan_budget
+    from quizgen.camera.question import photograph_question, take_photographs
     from quizgen.camera.simulate import run
 
-    return run(Prepared(*load(_find(scene), "float32")), what, told, last=True)
+    seen, chosen = prepared.given.scene, _select(options)
+    asks = options["asks"] or (seen.question.asks if seen.question else ())
+    title = seen.title or scene
+    if options["budget"] is not None and (options["asks"] or options["only"]):
+        raise ChoiceError("--budget is for pictures without a question; leave out --asks or --only")
+    if options["budget"] is None and (asks or chosen.only):
+        # who chooses effects by name may look at what cannot be seen
+        take = take_photographs if chosen.only or chosen.minus else photograph_question
+        taken = take(seen, prepared.camera, options["asks"], chosen=chosen, told=told)
+        return Shot(title, prepared, taken.plan, taken.photo, taken)
+    plan = plan_budget(prepared, options["budget"] or "same", chosen)
+    again = options["everything"] or options["compare"] is not None
+    return Shot(title, prepared, plan, run(prepared, plan.names, told, last=not again))
+
+
+def _select(options: Options) -> Selection:
+    from quizgen.camera.planning import Selection, read_effect
+
+    only, plus, minus = (tuple(map(read_effect, options[way])) for way in ("only", "plus", "minus"))
+    return Selection(only, plus, minus)
 
 
 def _write(shot: Shot, options: Options, encode: Callable[[NDArray[np.uint8]], bytes]) -> None:
     out, beside = options["out"], options["compare"]
     if out is not None:
+        photo = shot.whole if options["everything"] and shot.whole else shot.photo
         with shot.timed("written"):
-            write_all(out.parent, {out.name: encode(shot.photo.pixels())})
-    if beside is not None and shot.whole is not None:
-        photos, told = (shot.photo, shot.whole), (REALLY, *_rows(shot))
-        page = contrast.contents(beside, shot.title, photos, told, _in_parts(shot))
+            write_all(out.parent, {out.name: encode(photo.pixels())})
+    if beside is not None:
+        told = (REALLY, *_rows(shot))
+        page = contrast.contents(beside, shot.title, _pair(shot), told, _sentences(shot))
         write_all(beside.parent, {beside.name: page})
+
+
+def _pair(shot: Shot) -> dict[str, Photo]:
+    """Two pictures to compare, by what they show."""
+    if shot.taken is not None:
+        asked = ", ".join(shot.plan.asked)
+        return {f"with {asked}": shot.photo, f"without {asked}": shot.taken.without}
+    return {"what is run": shot.photo, "everything": shot.whole or shot.photo}
 
 
 def _find(scene: str) -> Path:
@@ -194,7 +235,7 @@ def _list_scenes() -> None:
         click.echo(f"{path.stem:14} {load(path)[0].title}")
 
 
-def _writer(target: Path | None) -> Callable[[NDArray[np.uint8]], bytes]:
+def _find_writer(target: Path | None) -> Callable[[NDArray[np.uint8]], bytes]:
     """What encodes a picture for a file, by its ending; asked before anything is computed."""
     from quizgen.camera.codecs import WRITERS
 
@@ -204,132 +245,143 @@ def _writer(target: Path | None) -> Callable[[NDArray[np.uint8]], bytes]:
     return WRITERS[ending]
 
 
-def summary(shot: Shot) -> dict[str, Any]:
-    """The plan as plain data; what everything gives only where it was run for comparison."""
-    from quizgen.camera.simulate import difference_dn, farthest_dn, is_broken
+def summarise(shot: Shot) -> dict[str, Any]:
+    """The report as plain data; what everything gives only where it was run for comparison."""
+    from quizgen.camera import effects
+    from quizgen.camera.simulate import measure_difference
 
-    photo, whole, what = shot.photo, shot.whole, shot.photo.plan
+    plan, seen = shot.plan, shot.prepared.given.scene
     report: dict[str, Any] = {
-        "ran": [step.effect for step in what.steps],
-        "rungs": {step.effect: step.rung for step in what.steps if step.rung},
-        "steps": [_step(step, shot) for step in what.steps],
-        "skipped": [_skip(item, shot) for item in what.skipped],
-        "levels": [
-            {"above": level.above, "share": share, "ways": level.ways, "bound_dn": level.bound_dn}
-            for share, level in zip(photo.shares[1:], what.levels.each, strict=True)
-        ],
-        "absent": list(what.absent),
-        "idle": shot.idle,
-        "exif": shot.exif,
-        "seed": shot.seed,
-        "precision": str(photo.values.dtype),
-        "budget_dn": what.budget,
-        "predicted_error_dn": what.predicted_error_dn,
-        "predicted_ms": what.predicted_ms,
-        "measured_ms": photo.measured_ms,
+        "ran": list(plan.names),
+        "steps": [_tell(step, shot) for step in plan.steps],
+        "left_out": [_tell(item, shot) for item in plan.left_out],
+        "absent": list(plan.absent),
+        "asked": list(plan.asked),
+        "idle": effects.idle(shot.prepared.given),
+        "exif": dict(seen.exif),
+        "seed": seen.seed,
+        "precision": str(shot.photo.values.dtype),
+        "budget_dn": plan.budget,
+        "bound_dn": plan.bound_dn,
+        "measured_ms": shot.photo.measured_ms,
         "times_ms": shot.times,
     }
+    if shot.taken is not None:
+        report["seen"] = [_tell_seen(one) for one in shot.taken.seen]
+        report["readings"] = shot.taken.readings
     if shot.single is not None:
-        report["float32_difference_dn"] = farthest_dn(shot.single, photo)
+        report["float32_difference_dn"] = measure_difference(shot.single, shot.photo)
         report["float32_ms"] = shot.single.measured_ms
-    if whole is not None:
-        report["difference_dn"] = difference_dn(photo, whole)
-        report["everything_ms"] = whole.measured_ms
-        report["promise_kept"] = not is_broken(photo, whole)
+    if shot.race is not None and shot.whole is not None:
+        report["everything"] = _tell_everything(shot, shot.race, shot.whole)
     return report
 
 
-def _step(step: Step, shot: Shot) -> dict[str, Any]:
+def _tell(choice: Choice, shot: Shot) -> dict[str, Any]:
+    told: dict[str, Any] = {
+        "effect": choice.effect,
+        "why": choice.why,
+        "does": choice.says,
+        "bound_dn": choice.bound_dn,
+    }
+    if choice.effect in shot.photo.times:
+        told["measured_ms"] = shot.photo.times[choice.effect]
+    if choice.effect in shot.really:
+        told["really_dn"] = shot.really[choice.effect]
+    return told
+
+
+def _tell_seen(seen: Visibility) -> dict[str, Any]:
     return {
-        "effect": step.effect,
-        "rung": step.rung,
-        "share": shot.photo.share(step.effect),
-        "reason": step.reason,
-        "bound_dn": step.bound_dn,
-        "predicted_ms": step.predicted_ms,
-        "measured_ms": shot.photo.times[step.effect],
-        **_real(step.effect, shot),
+        "kind": seen.kind,
+        "is_visible": seen.is_visible,
+        "needs_colour": seen.needs_colour,
+        "explanation": seen.explain(),
+        "share": seen.share,
+        "mean_dn": seen.mean,
+        "spread_dn": seen.spread,
     }
 
 
-def _skip(item: Skipped, shot: Shot) -> dict[str, Any]:
+def _tell_everything(shot: Shot, race: Race, whole: Photo) -> dict[str, Any]:
+    from quizgen.camera.simulate import is_within, measure_difference
+
     return {
-        "effect": item.effect,
-        "reason": item.reason,
-        "bound_dn": item.bound_dn,
-        "saved_ms": item.saved_ms,
-        **_real(item.effect, shot),
+        "difference_dn": measure_difference(shot.photo, whole),
+        "bound_kept": is_within(shot.plan.bound_dn, shot.photo, whole),
+        "ms": race.second_ms,
+        "chosen_ms": race.first_ms,
+        "saves_time": race.saves,
     }
-
-
-def _real(effect: str, shot: Shot) -> dict[str, float]:
-    return {"really_dn": shot.really[effect]} if effect in shot.really else {}
 
 
 def _print(shot: Shot, report: dict[str, Any]) -> None:
     click.echo(shot.title)
     if rows := list(_rows(shot)):
         print_table(REALLY if shot.really else HEAD, rows)
-    _print_totals(shot, report)
+    for line in (*_sentences(shot), *_totals(shot, report)):
+        tell(line)
 
 
 def _rows(shot: Shot) -> Iterator[tuple[str, ...]]:
-    """Rows of the table; what the column of grey levels says is not said again as a reason."""
-
-    def cells(effect: str, state: str, bound: float) -> tuple[str, ...]:
-        real = f"{shot.really[effect]:.3g}" if effect in shot.really else ""
-        return effect, state, f"{bound:.3g}", *((real,) if shot.really else ())
-
-    for step in shot.photo.plan.steps:
-        times = f"{step.predicted_ms:.2f}", f"{shot.photo.times[step.effect]:.2f}"
-        off = step.reason.partition("this rung is ")[2].removesuffix(" at most")
-        rung = f"{step.rung}, {off}"
-        why = rung if step.rung else "" if step.reason.startswith("may change") else step.reason
-        share = shot.photo.share(step.effect)
-        ran = "ran" if share == 1.0 else f"ran in {share:.0%}"
-        yield *cells(step.effect, ran, step.bound_dn), *times, why
-    for item in shot.photo.plan.skipped:
-        yield *cells(item.effect, "skipped", item.bound_dn), f"{item.saved_ms:.2f}", "", ""
+    """Rows of the table."""
+    plan = shot.plan
+    for state, choice in [*(("ran", x) for x in plan.steps), *(("", x) for x in plan.left_out)]:
+        bound = "any" if choice.bound_dn >= 255.0 else f"{choice.bound_dn:.3g}"
+        really = (f"{shot.really[choice.effect]:.3g}",) if choice.effect in shot.really else ("",)
+        took = f"{shot.photo.times.get(choice.effect, 0.0):.2f}" if state else ""
+        why = choice.why if state else "left out"
+        yield choice.effect, state, bound, *(really if shot.really else ()), took, why
 
 
-def _in_parts(shot: Shot) -> Iterator[str]:
-    """What bright tiles of the picture do without."""
-    photo = shot.photo
-    for share, level in zip(photo.shares[1:], photo.what.levels.each, strict=True):
-        without = [f"no {name}" for name, way in level.ways.items() if way == "skip"]
-        cheaper = [f"{name} {way}" for name, way in level.ways.items() if way != "skip"]
-        if share:
-            yield (
-                f"tiles with no value below {level.above:.3g} ({share:.0%} of the picture): "
-                f"{', '.join(without + cheaper)}; {level.bound_dn:.3g} DN at most"
-            )
+def _sentences(shot: Shot) -> Iterator[str]:
+    """What was left out and why, and what is seen."""
+    plan = shot.plan
+    for item in plan.left_out:
+        yield f"{item.effect}: {item.why}; would {item.says}"
+    if not plan.steps and not plan.left_out:
+        yield "nothing is called for: the picture is the scene"
+    for seen in shot.taken.seen if shot.taken else ():
+        state = "is seen" if seen.is_visible else "is not seen"
+        grey = " (only in colour)" if seen.needs_colour else ""
+        yield f"{seen.kind} {state}{grey}: {seen.explain()}"
+    for name, value in shot.taken.readings.items() if shot.taken else ():
+        yield f"{name} is read as {value:.4g}"
 
 
-def _print_totals(shot: Shot, report: dict[str, Any]) -> None:
-    what, whole = shot.photo.plan, shot.whole
-    if not what.steps and not what.skipped:
-        tell("nothing is called for: the picture is the scene")
-    for line in _in_parts(shot):
-        tell(line)
-    tell(
-        f"error at most {report['predicted_error_dn']:.3g} DN of {report['budget_dn']:g} allowed; "
-        f"effects {report['predicted_ms']:.1f} ms predicted, {report['measured_ms']:.1f} ms taken"
-    )
-    tell("; ".join(f"{name} {spent:.0f} ms" for name, spent in shot.times.items()))
+def _totals(shot: Shot, report: dict[str, Any]) -> Iterator[str]:
+    plan = shot.plan
+    if plan.budget is not None:
+        yield (
+            f"at most {plan.bound_dn:.3g} grey levels from everything, of {plan.budget:g} allowed"
+        )
+    yield "; ".join(f"{name} {spent:.0f} ms" for name, spent in shot.times.items())
     if shot.single is not None:
-        tell(
+        yield (
             f"float64; the same effects in float32: {report['float32_ms']:.1f} ms, "
-            f"difference {report['float32_difference_dn']:.3g} DN"
+            f"difference {report['float32_difference_dn']:.3g} grey levels"
         )
-    if what.absent:
-        tell(f"not in this camera: {', '.join(what.absent)}")
-    if shot.exif:
-        said = ", ".join(f"{name} {value:g}" for name, value in shot.exif.items())
-        tell(f"from the photograph's file: {said}")
-    for name, need in shot.idle.items():
-        tell(f"{name} does nothing without {need}")
-    if whole is not None:
-        tell(
-            f"everything: {report['everything_ms']:.1f} ms, "
-            f"difference {report['difference_dn']:.3g} DN"
-        )
+    if plan.absent:
+        yield f"not in this camera: {', '.join(plan.absent)}"
+    if report["exif"]:
+        said = ", ".join(f"{name} {value:g}" for name, value in report["exif"].items())
+        yield f"from the photograph's file: {said}"
+    for name, need in report["idle"].items():
+        yield f"{name} does nothing without {need}"
+    if shot.race is not None:
+        yield from _tell_race(shot.race, report["everything"]["difference_dn"])
+
+
+def _tell_race(race: Race, difference: float) -> Iterator[str]:
+    yield f"everything: really {difference:.3g} grey levels apart"
+    chosen, whole = race.medians
+    yield (
+        f"what was run {_told_ms(chosen, race.first_ms)}, everything "
+        f"{_told_ms(whole, race.second_ms)}: medians of {len(race.first_ms)} turns, both warm"
+    )
+    if not race.saves:
+        yield "leaving out saves no time here"
+
+
+def _told_ms(middle: float, times: tuple[float, ...]) -> str:
+    return f"{middle:.1f} ms ({times[0]:.1f} to {times[-1]:.1f})"

@@ -66,7 +66,8 @@ class Item:
     def solved_figure(self) -> Figure | None:
         """The figure of the solution, if it shows more than that of the question."""
         asked, solved = self.question.figure, self.key.figure
-        return None if asked and solved and asked.standalone_svg == solved.standalone_svg else solved
+        alike = asked and solved and asked.standalone_svg == solved.standalone_svg
+        return None if alike else solved
 
     @cached_property
     def parts(self) -> tuple[tuple[Part, tuple[Ask, ...]], ...]:

@@ -24,6 +24,7 @@ from quizgen.figures.contract import (
     needs_colour,
 )
 from quizgen.figures.drawing_field import DrawingField, FieldPicture, Line
+from quizgen.figures.loading import load_engine
 from quizgen.figures.parameters import Parameter, fill_defaults
 from quizgen.locale import language, languages, numbers_in
 from quizgen.maths.notation import people
@@ -114,6 +115,7 @@ def plot_figure(
     size : tuple of float, optional
         Width and height of the axes in points; a text column by default.
     """
+    load_engine()
     from quizgen.figures.engine import draw_sheet
     from quizgen.figures.kit import COLUMN
 
@@ -127,6 +129,7 @@ def _describe(module: FigureModule, values: Mapping[str, Any], lang: str, *, qui
 
 @lru_cache(maxsize=256)
 def _draw(module: FigureModule, items: Items, quiz: bool, lang: str, marks: Items) -> Figure:
+    load_engine()
     from quizgen.figures.engine import draw_module
 
     decimal, values = language(lang).decimal, dict(items)
@@ -140,7 +143,7 @@ def _finish(drawing: Drawing, alt: str, lang: str, *, colour: bool = False) -> F
 
     return Figure(
         write_svg(drawing, alt, lang), drawing.width, drawing.height, alt, lang,
-        drawing.origin, drawing.labels, colour, drawing.outside,
+        drawing.origin, drawing.labels, colour, drawing.outside, drawing.unnamed_axes,
     )  # fmt: skip
 
 

@@ -63,12 +63,12 @@ _MATHTEXT = re.compile(r"\\[,;! ]|[${}]|\\(?:mathrm|mathit|mathbf|text)")
 _COMMANDS = {r"\lambda": "λ", r"\sigma": "σ", r"\mu": "μ", r"\varphi": "φ", r"\Delta": "Δ",
              r"\alpha": "α", r"\theta": "θ", r"\nu": "ν", r"\cdot": "·", r"\times": "×",
              r"\pm": "±", r"\le": "≤", r"\ge": "≥", r"\approx": "≈", r"\circ": "°"}  # fmt: skip
+_COMMAND = re.compile(rf"({'|'.join(map(re.escape, _COMMANDS))})(?![A-Za-z])\s?")
 
 
 def strip_mathtext(label: str) -> str:
     """A label of a figure as plain text: ``$z'_p$ = 60 mm`` is ``z'_p = 60 mm``."""
-    for command, sign in _COMMANDS.items():
-        label = re.sub(re.escape(command) + r"(?![A-Za-z])\s?", sign, label)
+    label = _COMMAND.sub(lambda found: _COMMANDS[found[1]], label)
     return _MATHTEXT.sub("", label)
 
 

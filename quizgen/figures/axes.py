@@ -7,8 +7,12 @@ or moved spines; from then on that axis draws in matplotlib's own way. Everythin
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
+import quizgen.figures.font_list  # noqa: F401 - before all that sets text
+
+# isort: split
 import matplotlib as mpl
 import numpy as np
 from matplotlib.artist import Artist
@@ -27,6 +31,8 @@ _IN_POINTS = IdentityTransform()
 _settings: Any = mpl.rcParams
 _TOP_GAP = 8.0  # between the highest tick and the name of an upright axis, in points
 
+_IN_NUMBERS = re.compile(r"\\mathdefault|\\times|[${}^]")
+_IS_NUMBER = re.compile(r"[-−+]?\d[\d.,\s%°−-]*").fullmatch
 
 # What an author may set without leaving the lean way: all ticks alike, at the left and below.
 _LEAN = {"size", "width", "pad", "labelsize", "gridOn", "tick1On", "tick2On", "label1On",
@@ -91,6 +97,8 @@ class _LeanAxis:
         moved = spine._position not in (None, ("outward", 0.0))
         if self.styled or made or moved or not hasattr(renderer, "labels"):
             super().draw(renderer)  # type: ignore[misc]
+            ticks = (label for tick in here.majorTicks for label in (tick.label1, tick.label2))
+            self._note_name(renderer, [text.get_text() for text in ticks if text.get_visible()])
             return
         renderer.open_group("axis", here.get_gid() or "axis")
         gc, reach = renderer.new_gc(), 0.0
@@ -143,6 +151,7 @@ class _LeanAxis:
             return float(size)
         font = house_font(settings.get("labelsize", _settings[f"{name}tick.labelsize"]))
         texts = getattr(here, kind).formatter.format_ticks(places)
+        self._note_name(renderer, texts)
         return self._draw_labels(renderer, gc, font, zip(at, texts, strict=True), size + pad)
 
     def _draw_labels(self, renderer: Any, gc: Any, font: Any, labels: Any, gap: float) -> float:
@@ -172,6 +181,13 @@ class _LeanAxis:
         points[0::2, 1 - along], points[1::2, 1 - along] = start, end
         codes = np.tile(np.array([1, 2], np.uint8), len(places))
         renderer.draw_path(gc, Path(points, codes), _IN_POINTS)
+
+    def _note_name(self, renderer: Any, texts: Any) -> None:
+        """Count an axis that has numbers, and no name that says of what."""
+        here: Any = self
+        named = here.label.get_visible() and here.label.get_text()
+        if not named and any(_IS_NUMBER(_IN_NUMBERS.sub("", str(text))) for text in texts):
+            renderer.unnamed_axes = getattr(renderer, "unnamed_axes", 0) + 1
 
     def _draw_name(self, renderer: Any, gc: Any, reach: float) -> None:
         """Write the name of the axis at its end, level, as textbooks have it."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, lru_cache
 from inspect import signature
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, Protocol, cast
@@ -69,9 +69,15 @@ def check_figure_module(module: ModuleType) -> FigureModule:
     return cast("FigureModule", module)
 
 
+@lru_cache(256)
+def parameters_of(function: Any) -> tuple[str, ...]:
+    """Names of a function's parameters; finding them out takes as long as a kept figure."""
+    return tuple(signature(function).parameters)
+
+
 def first_parameter(function: Any) -> str:
     """Name of a function's first parameter."""
-    return next(iter(signature(function).parameters), "")
+    return next(iter(parameters_of(function)), "")
 
 
 def needs_colour(module: ModuleType | FigureModule, values: Mapping[str, Any]) -> bool:
@@ -80,6 +86,8 @@ def needs_colour(module: ModuleType | FigureModule, values: Mapping[str, Any]) -
     return bool(rule(values) if callable(rule) else rule)
 
 
+_WORDS = re.compile(rb"<title>.*?</title>(<desc>.*?</desc>)?", re.DOTALL)
+_LANGUAGE = re.compile(rb' lang="[A-Za-z0-9-]+"')
 _VARIABLE = re.compile(rb"var\(--fig-[a-z-]+,(#[0-9a-f]{6})\)")
 
 
@@ -107,22 +115,29 @@ class Figure:
         Whether it cannot be read on grey paper.
     outside : int
         Markers that fall outside their axes, and are not drawn.
+    unnamed_axes : int
+        Axes that have numbers, and nothing that says of what.
     """
 
     inline_svg: bytes = field(repr=False)
     width_pt: float
     height_pt: float
-    alt: str
+    alt: str = field(repr=False)
     lang: str
     origin_pt: tuple[float, float] = (0.0, 0.0)
     labels: tuple[Label, ...] = field(default=(), repr=False)
     needs_colour: bool = False
     outside: int = 0
+    unnamed_axes: int = 0
 
     @cached_property
     def standalone_svg(self) -> bytes:
-        """The same in fixed colours on light paper, for files: they know no variables of a page."""
-        return _VARIABLE.sub(rb"\1", self.inline_svg).replace(b"currentColor", b"#000000")
+        """The same for files: in fixed colours on light paper, as they know no variables of a page.
+
+        Without its words, which stand beside it, so that all languages share one file.
+        """
+        bare = _WORDS.sub(b"", _LANGUAGE.sub(b"", self.inline_svg, count=1), count=1)
+        return _VARIABLE.sub(rb"\1", bare).replace(b"currentColor", b"#000000")
 
     def __eq__(self, other: object) -> bool:
         """Whether they show the same and say the same of it."""

@@ -11,6 +11,7 @@ import msgspec
 
 from quizgen.figures.alt_text import format_given, strip_mathtext
 from quizgen.figures.contract import Figure
+from quizgen.figures.loading import load_engine
 from quizgen.locale import language, numbers_in, table
 from quizgen.maths.notation.people import name
 
@@ -125,6 +126,7 @@ class FieldPicture(msgspec.Struct, frozen=True):
 
 @lru_cache(maxsize=256)
 def _draw_field(picture: FieldPicture) -> Figure:
+    load_engine()
     from quizgen.figures.engine import draw_sheet
     from quizgen.figures.svg import write_svg
 

@@ -10,7 +10,6 @@ import os
 import pickle
 from collections.abc import Callable
 from functools import cache, lru_cache
-from inspect import signature
 from pathlib import Path
 from threading import RLock
 from typing import Any
@@ -21,10 +20,11 @@ import numpy as np
 
 from quizgen import kept
 from quizgen.figures.axes import Sheet
-from quizgen.figures.contract import FigureModule, first_parameter
+from quizgen.figures.contract import FigureModule, first_parameter, parameters_of
 from quizgen.figures.kit import COLUMN
 from quizgen.figures.style import HouseStyle
 from quizgen.figures.svg import Drawing, SvgRenderer
+from quizgen.shapes import describe
 
 _LOCK = RLock()
 if hasattr(os, "register_at_fork"):
@@ -34,7 +34,6 @@ if hasattr(os, "register_at_fork"):
     )
 
 _KIND = "figures"
-_DECODER = msgspec.msgpack.Decoder(Drawing)
 _PACKAGE = Path(__file__).parent.parent
 _CODE = ("figures", "camera", "arrays", "png.py")  # of quizgen, that decides what is drawn
 
@@ -84,12 +83,12 @@ def draw_module(
     A drawing is kept under the digest of all that decides its bytes: the figure's code and its
     neighbours', the engine, the camera, the versions of matplotlib and NumPy, and the values.
     """
-    wants_lang = "lang" in signature(module.draw).parameters
+    wants_lang = "lang" in parameters_of(module.draw)
     told = msgspec.json.encode((items, quiz, lang if wants_lang else "", decimal, marks))
     name = str(module.__file__)  # type: ignore[attr-defined]
     key = kept.digest_of(_digest_engine(), _digest_folder(module), name.encode(), told)
     if (found := kept.find(_KIND, key)) is not None:
-        return _DECODER.decode(found)
+        return _decoder().decode(found)
     extra = {"lang": lang} if wants_lang else {}
 
     def draw(place: Any) -> None:
@@ -102,6 +101,12 @@ def draw_module(
     drawing = draw_sheet(draw, size, decimal, axes=first_parameter(module.draw) == "ax")
     kept.keep(_KIND, key, msgspec.msgpack.encode(drawing))
     return drawing
+
+
+@cache
+def _decoder() -> msgspec.msgpack.Decoder[Drawing]:
+    describe(Drawing)
+    return msgspec.msgpack.Decoder(Drawing)
 
 
 @cache

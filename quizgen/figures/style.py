@@ -1,41 +1,17 @@
-"""The look of every figure: inks that a page can change, letters of the papers, thin axes.
-
-Import this module before anything else of matplotlib: it hands the font manager a finished list of
-matplotlib's own fonts, which spares the first process on a machine a scan of 0.7 s and keeps a
-STIX of the system, which has other outlines, from deciding the bytes of a figure.
-"""
+"""The look of every figure: inks that a page can change, letters of the papers, thin axes."""
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any, ClassVar
 
+import quizgen.figures.font_list  # noqa: F401 - before all that sets text
+
+# isort: split
 import matplotlib as mpl
+from cycler import cycler
+from matplotlib.colors import get_named_colors_mapping
 
-_FONTS = Path(__file__).parent / "fonts"
-
-
-def _load_font_list() -> None:
-    """Let the font manager read the list in ``fonts`` in place of scanning the machine.
-
-    The file is named after the version of the list's form. Another matplotlib looks for another
-    name, finds none here, and would write its own beside it: then it may scan as usual.
-    """
-    if not any(_FONTS.glob("fontlist-*.json")) or not mpl.__version__.startswith("3.11."):
-        return
-    own, mpl.get_cachedir = mpl.get_cachedir, lambda: str(_FONTS)
-    try:
-        from matplotlib import font_manager  # noqa: F401
-    finally:
-        mpl.get_cachedir = own
-
-
-_load_font_list()
-
-from cycler import cycler  # noqa: E402 - after the fonts
-from matplotlib.colors import get_named_colors_mapping  # noqa: E402
-
-from quizgen.figures.inks import INKS  # noqa: E402
+from quizgen.figures.inks import INKS
 
 _LIGHT = {name: light for name, (light, _) in INKS.items()}
 _DASHES = ("-", (0, (5, 2)), (0, (1.2, 1.6)), (0, (6, 2, 1.2, 2)))

@@ -1,10 +1,10 @@
 """The one table of operators: name, number of arguments, how it is typed, what does it where.
 
 A new operator is one row. A number system looks a row's function up by name, first among its own
-helpers (``exact``, ``floats``), then in its library (``math``, NumPy, mpmath, SymPy, a ball's
-methods): under the name of the operator unless the row says otherwise. So this module imports none
-of them. The grammar, the writer and the two ways to SymPy read the table too; only an operator with
-a look of its own needs a line in ``typeset.layout``.
+helpers (``exact``, ``floats``), then in its library (``math``, NumPy, SymPy, a ball's methods):
+under the name of the operator unless the row says otherwise. So this module imports none of them.
+The grammar, the writer and the two ways to SymPy read the table too; only an operator with a look
+of its own needs a line in ``typeset.layout``.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ import msgspec
 MANY = 64
 """Most arguments of an operator that takes any number."""
 
-SYSTEMS = ("exact", "floats", "arrays", "pairs", "mpmath", "sympy")
-"""Rationals and balls, Python floats, NumPy arrays, pairs of doubles, and two libraries."""
+SYSTEMS = ("exact", "floats", "arrays", "sympy")
+"""Rationals and balls, Python floats, NumPy arrays, and SymPy."""
 
 
 class Typed(Enum):
@@ -70,29 +70,23 @@ class Operator(msgspec.Struct, frozen=True):
         return self.called.get(system, self.name)
 
 
-_NO_PAIRS = frozenset({"pairs"})
-"""Pairs of doubles know arithmetic only."""
-
-
 def _function(
     name: str, library: str = "", least: int = 1, most: int = 1, **other: str
 ) -> Operator:
-    libraries = dict.fromkeys(("floats", "arrays", "mpmath", "sympy"), library or name)
-    return Operator(
-        name, least, most, folds=most == MANY, called=libraries | other, absent=_NO_PAIRS
-    )
+    libraries = dict.fromkeys(("floats", "arrays", "sympy"), library or name)
+    return Operator(name, least, most, folds=most == MANY, called=libraries | other)
 
 
 def _relation(name: str, *signs: str, exact: str, sympy: str) -> Operator:
     called = {"exact": exact, "sympy": sympy}
-    return Operator(name, 2, 2, Typed.RELATION, signs, "RELATION", called=called, absent=_NO_PAIRS)
+    return Operator(name, 2, 2, Typed.RELATION, signs, "RELATION", called=called)
 
 
 def _word(name: str, most: int, python: str, arrays: str, sympy: str) -> Operator:
     called = dict.fromkeys(SYSTEMS, python) | {"arrays": arrays, "sympy": sympy}
     return Operator(
         name, min(2, most), most, Typed.WORD, (name,), name.upper(),
-        folds=most == MANY, called=called, absent=_NO_PAIRS,
+        folds=most == MANY, called=called,
     )  # fmt: skip
 
 
@@ -125,7 +119,7 @@ _ROWS = (
     _function("mod", least=2, most=2, exact="remainder", sympy="Mod"),
     _function("min", most=MANY, exact="least", arrays="minimum", sympy="Min"),
     _function("max", most=MANY, exact="greatest", arrays="maximum", sympy="Max"),
-    Operator("pi", 0, 0, Typed.CONSTANT, ("pi", "π"), "CONSTANT", absent=_NO_PAIRS),
+    Operator("pi", 0, 0, Typed.CONSTANT, ("pi", "π"), "CONSTANT"),
     Operator("piecewise", 3, MANY - 1, absent=frozenset(SYSTEMS) - {"arrays"}),
     _relation("eq", "=", "==", exact="equal", sympy="Eq"),
     _relation("ne", "!=", "≠", exact="unequal", sympy="Ne"),

@@ -1,8 +1,8 @@
 """Number systems, and formulas compiled for them.
 
 A formula is compiled once per number system into nested closures. Rationals become certified balls
-where a value is irrational; floats serve figures; arrays, pairs of doubles, mpmath and SymPy serve
-the comparison of what accuracy costs.
+where a value is irrational; floats serve figures; arrays serve the comparison of what accuracy
+costs; SymPy compares forms.
 """
 
 from __future__ import annotations
@@ -256,21 +256,6 @@ def _where(*args: AnyNumber) -> AnyNumber:
     for chosen, condition in zip(args[-3::-2], args[-2::-2], strict=True):
         value = np.where(condition, chosen, value)
     return value
-
-
-@cache
-def multiprecision() -> NumberSystem:
-    """``mpmath`` at the precision in force."""
-    import mpmath as mp
-
-    own: dict[str, Op] = {
-        "log2": lambda x: mp.log(x) / mp.log(2),
-        "rounded": lambda x: mp.sign(x) * mp.floor(abs(x) + mp.mpf(1) / 2),
-        "mod": lambda a, b: a - b * mp.floor(a / b),
-        "pi": lambda: +mp.pi,
-    }
-    ops = functions("mpmath", operator, mp, builtins, logic, **own)
-    return NumberSystem("mpmath", lambda q: mp.mpf(q.numerator) / q.denominator, ops)
 
 
 @cache

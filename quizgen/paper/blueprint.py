@@ -14,6 +14,7 @@
 What the paper as a whole is to hold may be asked for: ``total = 100`` points exactly,
 ``minutes = [110, 120]``, at least ``figures = 6`` of ``figure_kinds = 4`` and ``photographs = 2``.
 ``pauses = false`` forbids to stop the clock where it is sat in a browser, ``true`` allows it.
+``colour = false`` leaves out questions whose figures cannot be read on grey paper.
 
 ``reference`` lists the templates that make up the notes' own paper. A topic's name (``optics``), a
 topic with minutes (``optics.45``) or ``all.90`` is a blueprint without a file: questions of that
@@ -68,6 +69,7 @@ class Authored(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     photographs: int = 0
     aids: dict[str, str] = {}
     pauses: bool | None = None
+    colour: bool = True
 
     @property
     def demanding(self) -> bool:

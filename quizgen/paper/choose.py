@@ -6,18 +6,22 @@ import hashlib
 import math
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from functools import partial
+from functools import cache, partial
 from itertools import repeat
 
+from quizgen.bank.draw import draw
 from quizgen.bank.folder import Bank
 from quizgen.bank.rules import Rules, minutes_of
 from quizgen.errors import BankError, BlueprintError
 from quizgen.outside import located
 from quizgen.paper.blueprint import EVERYTHING, Blueprint, SlotRule
 from quizgen.paper.whole import Candidate, Whole, candidate, why_not, working_time
+from quizgen.question.picture import coloured
 
 ORDERS = 3
 """Orders in which the places of a demanding blueprint are filled; an impossible one takes all."""
+DRAWN = 20
+"""Draws by which a template is judged whose figure needs colour for some values alone."""
 TRIES = 20
 """Choices of templates until none is used more often than it has numbers."""
 
@@ -223,12 +227,27 @@ def _fitting(bank: Bank, blueprint: Blueprint, index: int) -> list[str]:
     names = list(slot.templates) or list(bank.paths)
     with located(blueprint.file):
         _check_known(bank, slot, index)
-    fitting = [name for name in names if _fits(bank.rules(name), slot)]
+    fitting = [
+        name for name in names
+        if _fits(bank.rules(name), slot) and (blueprint.colour or not may_need_colour(bank, name))
+    ]  # fmt: skip
     if not fitting:
         wish = f"tier {slot.tier or 'any'} and topic {slot.topic or 'any'}"
+        wish += "" if blueprint.colour else ", and is read without colour"
         with located(blueprint.file):
             raise BlueprintError(f"slot {index}: no template has {wish}")
     return fitting
+
+
+@cache
+def may_need_colour(bank: Bank, name: str) -> bool:
+    """Whether a template asks, in some draws, with a figure that cannot be read on grey paper."""
+    rule = bank.rules(name).figure
+    if rule is None or not rule.quiz:
+        return False
+    template = bank.template(name)
+    says = getattr(template.figure, "COLOUR", False)
+    return any(coloured(draw(template, n)) for n in range(DRAWN)) if callable(says) else bool(says)
 
 
 def _fits(rules: Rules, slot: SlotRule) -> bool:

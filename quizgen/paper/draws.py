@@ -23,6 +23,7 @@ from quizgen.maths.tree import Expr, substitute
 from quizgen.maths.values import Value
 from quizgen.question.compose import identity
 from quizgen.question.kinds import build
+from quizgen.question.picture import coloured
 from quizgen.question.specs import answer_of
 
 REDRAWS = 50
@@ -54,8 +55,9 @@ class _Seen(msgspec.Struct):
 
 
 def draws(
-    bank: Bank, names: Sequence[str], seed: str, beside: Sequence[Sequence[Draw]] = ()
-) -> Iterator[Draw]:
+    bank: Bank, names: Sequence[str], seed: str, beside: Sequence[Sequence[Draw]] = (),
+    *, colour: bool = True,
+) -> Iterator[Draw]:  # fmt: skip
     """Draw the questions of a paper in order.
 
     Parameters
@@ -66,6 +68,8 @@ def draws(
     seed : str
     beside : sequence of sequences of Draw
         Other papers of the same templates, with which no question is to share what it asks.
+    colour : bool
+        Whether a figure may need colour to be read.
 
     Raises
     ------
@@ -75,17 +79,19 @@ def draws(
     seen = _Seen()
     for place, name in enumerate(names, 1):
         near = [paper[place - 1] for paper in beside]
-        one = _other(bank.template(name), seed, place, seen, near)
+        one = _other(bank.template(name), seed, place, seen, near, colour=colour)
         seen.add(one)
         yield one
 
 
-def _other(template: Template, seed: str, place: int, seen: _Seen, near: Sequence[Draw]) -> Draw:
+def _other(
+    template: Template, seed: str, place: int, seen: _Seen, near: Sequence[Draw], *, colour: bool
+) -> Draw:
     """The first draw that is new and tells nothing; if there is none, the one that tells least."""
     new: list[Draw] = []
     for again in range(REDRAWS):
         one = draw(template, seed, f"{place}.{again}" if again else place)
-        if identity(one) not in seen.questions:
+        if identity(one) not in seen.questions and (colour or not coloured(one)):
             new.append(one)
             if not seen.tells(one) and not any(shared(one, other) for other in near):
                 return one

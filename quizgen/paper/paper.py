@@ -146,6 +146,17 @@ class Paper(msgspec.Struct, frozen=True):
         said = self.blueprint.aids
         return said.get(lang) or said.get("en") or word(lang, "paper.aids_allowed")
 
+    def printing(self, lang: str) -> str:
+        """Which questions have to be printed in colour; empty if none has."""
+        numbers = [
+            item.number for item in self.items
+            if (figure := item.questions[0].figure) and figure.needs_colour
+        ]  # fmt: skip
+        if not numbers:
+            return ""
+        key = "paper.in_colour" if len(numbers) == 1 else "paper.several_in_colour"
+        return word(lang, key, numbers=", ".join(numbers))
+
     def title(self, lang: str) -> str:
         """Title in a language, else in English, else in another one."""
         return in_language(self.blueprint.title, lang, self.blueprint.name)
@@ -182,7 +193,8 @@ def build(
     ChoiceError
         If there is no such language, or the seed is out of range.
     """
-    drawn = draws(bank, choose(bank, blueprint, seed), str(checked_seed(seed)))
+    names = choose(bank, blueprint, seed)
+    drawn = draws(bank, names, str(checked_seed(seed)), colour=blueprint.colour)
     named = Code(blueprint.name, str(seed), choice, level=blueprint.level)
     ready = composed(bank, blueprint, drawn, named, figures=figures, progress=progress)
     return replace(ready, variety=variety(bank, blueprint))

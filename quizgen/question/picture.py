@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from types import ModuleType
 from typing import Any, TypeVar
 
 from quizgen.bank.draw import Draw
 from quizgen.bank.rules import Source
 from quizgen.bank.solvers import authored
 from quizgen.errors import BankError
-from quizgen.figures import Figure, complete_parameters, describe_figure, draw_figure
+from quizgen.figures import Figure, complete_parameters, describe_figure, draw_figure, needs_colour
 from quizgen.maths.numbers import to_float
 from quizgen.outside import located
 
@@ -25,6 +26,15 @@ def pictured(drawn: Draw, lang: str, *, quiz: bool) -> Figure | None:
 def described(drawn: Draw, lang: str, *, quiz: bool) -> str | None:
     """The figure of a question in words, without drawing it; None if it has none."""
     return _shown(describe_figure, drawn, lang, quiz=quiz)
+
+
+def coloured(drawn: Draw) -> bool:
+    """Whether a question has a figure that cannot be read on grey paper, without drawing it."""
+
+    def judge(figure: ModuleType, values: Mapping[str, Any], **_how: object) -> bool:
+        return needs_colour(figure, values)
+
+    return bool(_shown(judge, drawn, "", quiz=True))
 
 
 def _shown(show: Callable[..., Shown], drawn: Draw, lang: str, *, quiz: bool) -> Shown | None:

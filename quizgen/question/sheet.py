@@ -114,12 +114,18 @@ def _line(bank: Bank, entry: FormulaEntry, langs: tuple[str, ...], asked: tuple[
         )
         for lang in langs
     )
-    figures = _figures(bank, entry, langs)
+    figures = draw_sketch(bank, entry, langs)
     return Line(entry.id, entry.section, lines, tuple(_units(entry)), said, figures)
 
 
-def _figures(bank: Bank, entry: FormulaEntry, langs: tuple[str, ...]) -> tuple[Figure, ...]:
-    """The sketch of a formula in each language."""
+def draw_sketch(bank: Bank, entry: FormulaEntry, langs: tuple[str, ...]) -> tuple[Figure, ...]:
+    """Draw the sketch of a formula for each language; none if it has no sketch.
+
+    Raises
+    ------
+    BankError
+        If there is no such figure, or it cannot be drawn; names the file and the formula.
+    """
     wanted = entry.figure
     if wanted is None:
         return ()

@@ -77,9 +77,17 @@ class _Sheet:
         rules = each(self.langs, [self._said("on_paper", lang) for lang in self.langs])
         gap = "#v(1.1em)"
         return "\n".join(
-            [head, *others, gap, facts, gap, *(f"{line}\n#v(0.5em)" for line in lines), gap,
-             f"#notice[{rules}]", "#v(0.8em)", self._overview(), "#pagebreak(weak: true)"]
+            [head, *others, gap, facts, *self._printing(), gap,
+             *(f"{line}\n#v(0.5em)" for line in lines), gap, f"#notice[{rules}]", "#v(0.8em)",
+             self._overview(), "#pagebreak(weak: true)"]
         )  # fmt: skip
+
+    def _printing(self) -> list[str]:
+        """Which questions have to be printed in colour."""
+        if not self.paper.printing(self.main):
+            return []
+        said = [f"#hint[#{string(self.paper.printing(lang))};]" for lang in self.langs]
+        return ["#v(0.6em)", each(self.langs, said)]
 
     def _said(self, name: str, lang: str) -> str:
         return f"#{string(word(lang, f'paper.{name}'))};"

@@ -1,9 +1,9 @@
-"""What accuracy costs in time: ladders of number systems, measured and shown on one page.
+"""What accuracy costs: digits, questions and arrays, measured and shown on one page.
 
-In: the formulas of solvers, with inputs as in an exam and hard ones. Out: a report, and a page,
-plots and JSON of it. Must never know: a question, a paper, a mark.
+In: printed formulas with inputs as in an exam and hard ones, the bank's questions, other libraries.
+Out: a report, a page with a slider and a plot, the numbers as JSON. Must never know: a paper, a
+learner.
 
-``families`` lists the questions' formulas with exam and hard inputs, ``rung`` is one way of
-computing, ``ladder`` and ``special`` give every family its rungs, ``measure`` times them and counts
-wrong digits, ``knobs`` does the same for tunable approximations, ``page`` writes it down.
+``formulas`` are what the slider moves, ``sweeps`` counts their digits, ``questions`` times whole
+questions and counts wrong keys (``solving``), ``rivals`` times arrays, ``page`` writes it down.
 """

@@ -22,4 +22,4 @@ def digits(value: float, truth: float, turn: float = 0.0) -> float:
 
 
 def _digits(relative: float) -> float:
-    return min(max(-math.log10(relative), 0.0), float(MOST_DIGITS))
+    return min(max(0.0, -math.log10(relative)), float(MOST_DIGITS))

@@ -1,274 +1,232 @@
-"""The page: one self-contained HTML file in every language."""
+"""The page: one self-contained HTML file in every language, or its middle for the browser."""
 
 from __future__ import annotations
 
-import json
 import math
-from collections.abc import Sequence
 from functools import cache
-from importlib.resources import files
 from pathlib import Path
+from typing import Any
 
 import jinja2
 import msgspec
-from markupsafe import Markup
 
+from quizgen.figures.inks import write_theme_css
 from quizgen.files import write_all
-from quizgen.locale import language, languages
+from quizgen.locale import language, languages, numbers_in
 from quizgen.maths.notation import people
 from quizgen.render.fonts import bangla_uri
 from quizgen.render.layouts import environment
-from quizgen.render.typ import png
-from quizgen.tradeoff import overview
-from quizgen.tradeoff.data import (
-    as_csv,
-    as_data,
-    digits_said,
-    markdown,
-    product_csv,
-    sentence,
-    steps_text,
-    verdict_text,
-    words,
-)
-from quizgen.tradeoff.measure import Measured, Timing, pareto
-from quizgen.tradeoff.numbers import in_places, in_prose, short
-from quizgen.tradeoff.plot import (
-    Axes,
-    Choices,
-    Mark,
-    Setting,
-    accuracy_panel,
-    document,
-    front_panel,
-    script,
-    style,
-    time_text,
-    work_panel,
-)
-from quizgen.tradeoff.product import ROUND, Counted, Product
-from quizgen.tradeoff.report import FamilyReport, Peer, Report
-from quizgen.tradeoff.slider import ORDER, lost, places, sweep_panel
-from quizgen.tradeoff.solving import FAULTS
-from quizgen.tradeoff.work import Curve, Point
+from quizgen.tradeoff.digits import ALL_DIGITS
+from quizgen.tradeoff.formulas import FORMULAS
+from quizgen.tradeoff.plot import ITERATED, draw_digits
+from quizgen.tradeoff.questions import Cost
+from quizgen.tradeoff.report import Report
+from quizgen.tradeoff.rivals import Match
+from quizgen.tradeoff.solving import ARITHMETICS
+from quizgen.tradeoff.sweeps import EXAMS, PLACES, Sweep
+from quizgen.tradeoff.texts import script, style_sheet, words
 
-HALF_PIXEL = 0.5 / 255
+START = 2 * PLACES // 3
+"""The place where the slider stands first: two thirds of the way to the hard end."""
+LINES = ("exact", "float64", "float32", "stable")
+"""Numbers below the slider, after what they are computed with."""
+_UNITS = ((1.0, "s"), (1e-3, "ms"), (1e-6, "µs"), (0.0, "ns"))
+
+Pieces = tuple[str, str, str]
 
 
 def write(report: Report, folder: Path, command: str) -> list[Path]:
-    """Write the page, its data and tables, one SVG per plot and the overview as PNG as well."""
-    plots = {family.name: document(family_panels(family, "en"), family.name)
-             for family in report.families}  # fmt: skip
-    plots |= {f"{family.name}-input": document([input_panel(family, "en")], family.name)
-              for family in report.families}  # fmt: skip
-    plots |= {key: document(knob_panels(key, curves, "en"), words("en")["knob"][key]["title"])
-              for key, curves in report.knobs}  # fmt: skip
-    plots["each"] = document([each_panel(report, "en")], words("en")["overview"]["each"],
-                             overview.lanes_height(report))  # fmt: skip
-    plots["overview"] = document(overview_panels(report, "en"), words("en")["overview"]["title"])
-    made = {f"{name}.svg": svg for name, svg in plots.items()}
-    made["tradeoff.json"] = json.dumps(as_data(report, command), indent=1) + "\n"
-    made["tradeoff.csv"] = as_csv(report)
-    made["tradeoff.md"] = markdown(report, command)
-    if report.product is not None:
-        made["product.csv"] = product_csv(report.product)
-        made["counted.json"] = counts_json(report.product.counted)
-    page = {"tradeoff.html": html(report, command).encode()}
-    pictures = {"overview.png": png(plots["overview"].encode(), 560)}
-    texts = {name: text.encode() for name, text in made.items()}
-    return write_all(folder, texts | pictures | page)
+    """Write the page, its plot, and all that was measured (seconds; what fails is null)."""
+    made = {
+        "digits.svg": draw_digits(report, words("en")["plot"]["alt"], "en").standalone_svg,
+        "tradeoff.json": msgspec.json.format(msgspec.json.encode(report)) + b"\n",
+        "tradeoff.html": whole_page(report, command).encode(),
+    }
+    return write_all(folder, made)
 
 
-def counts_json(counted: Counted) -> str:
-    """What was counted, as it is recorded."""
-    return msgspec.json.format(msgspec.json.encode(counted)).decode() + "\n"
-
-
-def html(report: Report, command: str) -> str:
-    """The whole page."""
-    frame = (files("quizgen.tradeoff") / "pages" / "tradeoff.css").read_text("utf-8")
-    page = _layouts().get_template("tradeoff.html.j2")
-    there = {lang: language(lang) for lang in languages()}
-    made = page.render(
-        report=report, command=command, style=frame + style(), script=script(), languages=there
-    )
-    return made + "\n"
+def whole_page(report: Report, command: str) -> str:
+    """The page on its own, with all languages in it, of which one is seen."""
+    known = {lang: language(lang) for lang in languages()}
+    return _layouts().get_template("page.html.j2").render(
+        languages=known, title=words("en")["page"]["title"], style=style_sheet(), script=script(),
+        bodies={lang: fragment(report, command, lang) for lang in known},
+        bangla=[lang for lang, one in known.items() if one.script == "Beng"],
+        faces={400: bangla_uri(), 700: bangla_uri("Bold")}, theme=write_theme_css(),
+    )  # fmt: skip
 
 
 def fragment(report: Report, command: str, lang: str) -> str:
-    """What the page says in one language, to stand in another page; ``style`` goes with it."""
-    page = _layouts().get_template("measured.html.j2")
-    said = page.make_module({"report": report, "command": command})
-    return in_prose(str(said.body(lang, words(lang))), lang)  # type: ignore[attr-defined]
+    """What is said in one language, for the frame of a page."""
+    text = words(lang)
+    return _layouts().get_template("measured.html.j2").render(
+        text=text, lang=lang, start=START, lines=LINES, command=command, report=report,
+        formulas=describe_formulas(report, lang), questions=describe_questions(report, lang),
+        plot=draw_digits(report, text["plot"]["alt"], lang).inline_svg.decode(),
+        digits_said=describe_digits(report, lang), arrays=describe_arrays(report, lang),
+        measured=text["page"]["measured"].format(machine=report.machine, date=report.date),
+    )  # fmt: skip
 
 
 @cache
 def _layouts() -> jinja2.Environment:
-    layouts = environment("quizgen.tradeoff")
-    layouts.filters.update(
-        time=time_text,
-        count=count,
-        short=short,
-        grouped=_grouped,
-        spread=spread_text,
-        in_prose=_in_prose,
-    )
-    layouts.globals.update(
-        faces={weight: bangla_uri(name) for name, weight in (("Regular", 400), ("Bold", 700))},
-        words=words,
-        front=lambda rungs: _front(rungs, "hard"),
-        alone=lambda panel, title, *height: document([panel], title, *height),
-        lanes_height=overview.lanes_height,
-        overview_panels=overview_panels,
-        sentence=sentence,
-        steps_text=steps_text,
-        verdict_text=verdict_text,
-        digits=digits_said,
-        slower=slower,
-        family_panels=family_panels,
-        faults=FAULTS,
-        input_panel=input_panel,
-        places=lambda family, lang: in_places(
-            places(family.sweep, words(lang)["sweep"], words(lang)["page"]["failed"]), lang
-        ),
-        start=start,
-        order=ORDER,
-        lost=lost,
-        counted=counted,
-        product_sentence=product_sentence,
-        knob_panels=knob_panels,
-        each_panel=each_panel,
-    )
-    return layouts
+    return environment("quizgen.tradeoff")
 
 
-def _grouped(number: int) -> str:
-    return people.number(str(number))
+# The slider
 
 
-def _in_prose(page: Markup, lang: str) -> Markup:
-    return Markup(in_prose(str(page), lang))  # noqa: S704 (markup before, and no more after)
-
-
-def _front(rungs: tuple[Measured, ...], which: str) -> set[int]:
-    """Places of the rungs that no other rung beats."""
-    return set(pareto([(rung.nanoseconds, getattr(rung, which).max_bits) for rung in rungs]))
-
-
-def slower(way: Measured | Peer, family: FamilyReport) -> str:
-    """How many times the printed formula in float64 a way takes."""
-    printed = next(rung for rung in family.rungs if rung.key == "float64")
-    return f"× {overview.factor_text(way.time.median / printed.time.median)}"
-
-
-def _axes(lang: str) -> Axes:
-    page = words(lang)["page"]
-    return Axes(page["x"], page["y"], words(lang)["overview"]["every"])
-
-
-def overview_panels(report: Report, lang: str) -> list[str]:
-    """All formulas: on exam inputs, on hard inputs."""
-    text = words(lang)
+def describe_formulas(report: Report, lang: str) -> list[dict[str, Any]]:
+    """What the slider shows of each of its formulas."""
+    sweeps = {one.name: one for one in report.sweeps}
     return [
-        overview.panel(report, which, text["page"][which], _axes(lang), text["overview"])
-        for which in overview.INPUTS
-    ]
+        {"name": one.name, **words(lang)["formula"][one.name], "printed": one.shown.printed,
+         "stable": one.shown.stable,
+         "places": _places(sweeps[one.name], f"{one.shown.symbol} = {{}} {one.shown.unit}", lang)}
+        for one in FORMULAS if one.shown is not None
+    ]  # fmt: skip
 
 
-def each_panel(report: Report, lang: str) -> str:
-    """Every formula on a line of its own, hard inputs, each step with what it costs and brings."""
-    text = words(lang)
-    return overview.lanes(report, text["overview"], text["page"]["x"])
+def _places(sweep: Sweep, moved: str, lang: str) -> list[list[Any]]:
+    """Each position: where, whether an exam goes so far, in words, and the numbers in pieces."""
+    text, sign = words(lang)["slider"], language(lang).decimal
+    found = []
+    for i, left in enumerate(sweep.left):
+        at = numbers_in(lang, moved.format(short(sweep.moved[i])).strip())
+        ways = [sweep.ways[way] for way in LINES[1:]]
+        numbers = [pieces(sweep.right[i], ALL_DIGITS)]
+        numbers += [pieces(way.values[i], way.digits[i], text["failed"]) for way in ways]
+        said = text["inside" if left >= sweep.exam_left else "outside"]
+        found.append([at, said, *([part.replace(".", sign) for part in one] for one in numbers)])
+    return found
 
 
-def counted(found: Counted, system: str, fault: str) -> str:
-    """How many of ``ROUND`` questions have a fault; marked where it is extrapolated."""
-    many = people.number(str(found.of_round(system, fault)))
-    return many if found.drawn >= ROUND else f"≈ {many}"
+def pieces(value: float, right: float, failed: str = "–") -> Pieces:
+    """A number of seventeen digits: those that are right, the rest, its power of ten.
+
+    Examples
+    --------
+    >>> pieces(0.5, 17.0), pieces(-1.25, 3.0)
+    (('5.0000000000000000', '', '·10⁻¹'), ('-1.25', '00000000000000', ''))
+    """
+    if not math.isfinite(value):
+        return "", "", failed
+    if value == 0:
+        return ("0", "", "") if right >= ALL_DIGITS else ("", "0", "")
+    mantissa, power = f"{value:.16e}".split("e")
+    tail = f"·{people.power_of_ten(int(power))}" if int(power) else ""
+    if right >= ALL_DIGITS:
+        return mantissa, "", tail
+    sign = len(mantissa) - 18
+    kept = sign + int(right) + (1 if right >= 2 else 0) if right >= 1 else 0
+    return mantissa[:kept], mantissa[kept:], tail
 
 
-def product_sentence(product: Product, lang: str) -> str:
-    """Why the product computes exactly, in numbers."""
-    rows = {row.system: row for row in product.rows}
-    exact, doubles = (rows[name].phases["solving"].median for name in ("exact", "float64"))
-    whole = rows["exact"].whole.median
-    said: str = words(lang)["product"]["sentence"].format(
-        exact=time_text(1e9 * exact),
-        doubles=time_text(1e9 * doubles),
-        whole=time_text(1e9 * whole),
-        share=f"{100 * (exact - doubles) / whole:.1f}",
-        rejected=counted(product.counted, "float64", "rejected"),
-        digit=counted(product.counted, "float64", "digit"),
-        accepted=counted(product.counted, "rounded", "accepted"),
-    )
-    return said
+def short(value: float) -> str:
+    """A number in three figures, as people write it.
+
+    Examples
+    --------
+    >>> short(4.2512), short(0.00321), short(470000.0), short(3.2e-7)
+    ('4.25', '0.00321', '4.7·10⁵', '3.2·10⁻⁷')
+    """
+    if 1e-3 <= abs(value) < 9999.5:
+        return people.number(f"{value:.3g}" if abs(value) < 1000 else f"{value:.0f}")
+    mantissa, power = f"{value:.1e}".split("e")
+    return f"{mantissa}·{people.power_of_ten(int(power))}"
 
 
-def family_panels(family: FamilyReport, lang: str) -> list[str]:
-    """Both panels of a family: exam inputs, hard inputs."""
-    page = words(lang)["page"]
-    rules = (
-        (-math.log10(HALF_PIXEL), page["pixel"]),
-        (-math.log10(family.tolerance / 2), page["tolerance"]),
-    )
+def time_text(seconds: float) -> str:
+    r"""A time in two figures, with its unit on the same line.
+
+    Examples
+    --------
+    >>> time_text(4.4e-6), time_text(1.86e-9), time_text(0.000123)
+    ('4.4\xa0µs', '1.9\xa0ns', '120\xa0µs')
+    """
+    size, unit = next((size, unit) for size, unit in _UNITS if seconds >= size)
+    return f"{_two(seconds / (size or 1e-9))}\N{NO-BREAK SPACE}{unit}"
+
+
+def _two(value: float) -> str:
+    """Two figures, written out."""
+    return f"{float(f'{value:.2g}'):g}"
+
+
+# Questions
+
+
+def describe_questions(report: Report, lang: str) -> dict[str, Any]:
+    """What a question costs in each arithmetic: sentences, and rows of a name, a remark, cells."""
+    found, text = report.questions, words(lang)["questions"]
+    counted, exact = found.counted, found.costs["exact"]
+    careful = counted.wrong["rounded"]
+    said = {
+        "more": time_text(exact.more), "times": _two(exact.times),
+        "exact": time_text(exact.seconds), "doubles": time_text(found.costs["float64"].seconds),
+        "wrong": counted.questions("rounded"), "drawn": people.number(str(counted.drawn)),
+        "hit": len(careful), "templates": counted.templates, "count": found.count,
+        "date": counted.date,
+    }  # fmt: skip
+    rows = [
+        (text[name], text[f"{name}_fails"], numbers_in(lang, time_text(found.costs[name].seconds)),
+         numbers_in(lang, _ratio(found.costs[name])), _wrong(report, name))
+        for name in ARITHMETICS
+    ]  # fmt: skip
+    return {
+        "rows": rows,
+        **{key: numbers_in(lang, text[key].format(**said)) for key in ("lead", "sentence", "how")},
+    }
+
+
+def _ratio(cost: Cost) -> str:
+    if cost.high == cost.low:
+        return "1"
+    return f"{_two(cost.times)} ({_two(cost.low)} – {_two(cost.high)})"
+
+
+def _wrong(report: Report, name: str) -> str:
+    """Wrong keys, and of how many templates."""
+    counted = report.questions.counted
+    wrong, hit = counted.questions(name), len(counted.wrong[name])
+    return f"{wrong} ({hit})" if wrong else "0"
+
+
+# Digits and arrays
+
+
+def describe_digits(report: Report, lang: str) -> str:
+    """How many printed formulas keep how many digits in an exam."""
+    kept, digits = report.kept
+    left = next(int(one.exam_digits) for one in report.sweeps if one.name == ITERATED)
+    said: str = words(lang)["plot"]["sentence"]
+    return said.format(kept=kept, count=len(report.sweeps), digits=digits, left=left, exams=EXAMS)
+
+
+def describe_arrays(report: Report, lang: str) -> dict[str, Any]:
+    """Every formula's title with the rows of its ways, and what one value costs."""
+    text, alone = words(lang)["arrays"], [one.least for one in report.questions.alone]
+    return {
+        "groups": [(words(lang)["formula"][match.formula]["title"], _rows(match, lang))
+                   for match in report.matches],
+        "alone": numbers_in(lang, text["alone"].format(
+            least=time_text(min(alone)), most=time_text(max(alone)))),
+    }  # fmt: skip
+
+
+def _rows(match: Match, lang: str) -> list[tuple[str, ...]]:
+    """Name, no remark, time with the median, times the first's, digits in an exam, hard ones."""
+    names, first = words(lang)["way"], match.rivals[0].time.least
     return [
-        accuracy_panel(page[which], _marks(family.rungs, which), rules, _axes(lang))
-        for which in overview.INPUTS
-    ]
-
-
-def start(family: FamilyReport) -> int:
-    """The place where a slider stands first: two thirds of the way to the hard end."""
-    return 2 * len(family.sweep.places) // 3
-
-
-def input_panel(family: FamilyReport, lang: str) -> str:
-    """Digits against the input."""
-    return sweep_panel(family.sweep, _axes(lang), words(lang)["sweep"], start(family))
-
-
-def _marks(rungs: tuple[Measured, ...], which: str) -> list[Mark]:
-    front = _front(rungs, which)
-    return [
-        Mark(
-            i + 1,
-            rung.nanoseconds,
-            getattr(rung, which).digits,
-            rung.kind == "scalar",
-            i in front,
+        (
+            names.get(one.name, one.name), "",
+            numbers_in(lang, f"{_two(1e9 * one.time.least)} ({_two(1e9 * one.time.median)})"),
+            numbers_in(lang, _two(one.time.least / first)),
+            _count(one.exam), _count(one.hard),
         )
-        for i, rung in enumerate(rungs)
-    ]
+        for one in match.rivals
+    ]  # fmt: skip
 
 
-def count(steps: float) -> str | None:
-    """A number of doubles, short; None where the way fails."""
-    if math.isinf(steps):
-        return None
-    if steps < 10000:
-        return f"{steps:.3g}" if steps < 1 else f"{steps:.0f}"
-    leading, exponent = f"{steps:.0e}".split("e+")
-    return Markup("{}·10<sup>{}</sup>").format(leading, int(exponent))
-
-
-def spread_text(spent: Timing) -> str:
-    """The quartiles around a median."""
-    return f"{time_text(1e9 * spent.low)} – {time_text(1e9 * spent.high)}"
-
-
-def knob_panels(key: str, curves: tuple[Curve, ...], lang: str) -> list[str]:
-    """Work-precision plot of one setting; of the camera, one for each scene that has effects."""
-    unit, time = words(lang)["knob"][key]["error"], words(lang)["table"]["work"]
-    lines = [(c.label, [(p.label, p.time.median, p.error) for p in c.points]) for c in curves]
-    if key != "camera":
-        return [work_panel(lines, unit, time)]
-    return [
-        front_panel(_choices(curve.label, points, curve.points), unit, time)
-        for curve, (_, points) in zip(curves, lines, strict=True)
-        if any(point.time.median > 0.0 for point in curve.points)
-    ]
-
-
-def _choices(name: str, settings: Sequence[Setting], points: Sequence[Point]) -> Choices:
-    best = pareto([(spent, off) for _, spent, off in settings])
-    return Choices(name, settings, best, [point.precision for point in points])
+def _count(digits: float) -> str:
+    return str(min(int(digits), 16))

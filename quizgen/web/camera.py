@@ -1,4 +1,4 @@
-"""The camera: sliders, the photograph, and what was left out of it."""
+"""The camera: sliders, the photograph with and without what is asked, and what was left out."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from starlette.routing import Route
 
 from quizgen.errors import QuizgenError
 from quizgen.shapes import describe
-from quizgen.web.photo import BUDGETS, SCENES, Shoot, Shot, Slider, sliders
+from quizgen.web.photo import SCENES, Shoot, Shot, Slider, sliders
 from quizgen.web.site import Site
 from quizgen.web.views import lang_of, page, said
 
@@ -43,15 +43,15 @@ async def camera(request: Request) -> Response:
     site: Site = request.app.state.site
     lang, asked = lang_of(request), request.query_params
     scene = asked.get("scene", "") if asked.get("scene") in SCENES else SCENES[0]
-    budget = asked.get("budget", "") if asked.get("budget") in BUDGETS else BUDGETS[0]
     there = await run_in_threadpool(sliders, scene)
     same = asked.get("before") == scene  # another scene begins with settings of its own
     places = {one.name: chosen(request, one) if same else one.own for one in there}
     changes = tuple(
         (one.name, one.stops[places[one.name]]) for one in there if places[one.name] != one.own
     )
+    effect = asked.get("effect", "") if same else ""
     try:
-        data = await site.workers.done(Shoot(scene, changes, budget))
+        data = await site.workers.done(Shoot(scene, changes, effect))
     except QuizgenError:
         shot = None
     else:
@@ -62,22 +62,27 @@ async def camera(request: Request) -> Response:
         "camera.html.j2",
         scenes=SCENES,
         scene=scene,
-        budgets=BUDGETS,
-        budget=budget,
         sliders=there,
         places=places,
         told=lambda name, value: told(lang, name, value),
         shot=shot,
         pictures=_pictures(shot) if shot else [],
+        time=lambda seconds: _told_time(lang, seconds),
     )
 
 
 def _pictures(shot: Shot) -> list[tuple[str, str]]:
     """Name of each picture and its address."""
-    found = [("taken", shot.taken), ("whole", shot.whole)]
-    if shot.gain:
-        found.append(("difference", shot.difference))
+    found = [("taken", shot.taken)]
+    if shot.scale:
+        found += [("plain", shot.plain), ("difference", shot.difference)]
     return [(name, f"data:image/png;base64,{b64encode(data).decode()}") for name, data in found]
+
+
+def _told_time(lang: str, seconds: float) -> str:
+    """An exposure time as photographers write it."""
+    told = f"{seconds:.2g}" if seconds >= 0.5 else f"1/{1.0 / seconds:.3g}"
+    return said(lang, "camera.seconds", value=told)
 
 
 ROUTES = [Route("/camera", camera)]

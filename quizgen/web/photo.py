@@ -1,4 +1,4 @@
-"""A photograph with its plan, and everything-on beside it; made in a worker."""
+"""A photograph with and without what is asked; made in a worker."""
 
 from __future__ import annotations
 
@@ -14,12 +14,18 @@ import msgspec
 from quizgen.bank.folder import Bank
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    import numpy as np
+    from numpy.typing import NDArray
+
     from quizgen.camera.camera import Camera
-    from quizgen.camera.decision import Plan
-    from quizgen.camera.scene import Image
+    from quizgen.camera.question import QuestionPhoto
+    from quizgen.camera.scene import Image, Scene
 
 SCENES = ("portrait", "landscape", "night", "texture", "flat", "propeller", "fisheye", "pinhole")
-BUDGETS = ("same", "visible", "sketch")
+EVERYTHING = "everything"
+"""Stands among the effects for all of them."""
 
 OFF = math.nan
 """A camera that has not got the thing at all."""
@@ -50,24 +56,32 @@ class Slider(msgspec.Struct, frozen=True):
 
 
 class Shot(msgspec.Struct, frozen=True):
-    """A photograph, its plan and what everything-on makes of the scene; pictures as PNG."""
+    """A photograph with and without what is asked, and what was measured; pictures as PNG."""
 
     taken: bytes
-    whole: bytes
+    plain: bytes
+    """Without what is asked."""
     difference: bytes
-    gain: float
+    scale: int
     """What the difference was multiplied by; 0 where there is none."""
-    apart: float
-    """Largest difference, in grey levels."""
-    ran: list[tuple[str, str, float]]
-    """Effect, how it ran (``exact``, ``asked`` or ``cheaper``), and what it can change."""
-    skipped: list[tuple[str, float]]
+    asked: list[str]
+    chosen: str
+    """The effect that was chosen, or `EVERYTHING`; empty where the scene's question is asked."""
+    effects: list[str]
+    """What can be chosen."""
+    ran: list[tuple[str, str]]
+    """Effect, and why: ``asked``, ``set`` or ``needed``."""
+    left_out: list[tuple[str, float]]
+    """Effect, and grey levels that it can change at most."""
     absent: list[str]
-    budget: float
-    bound: float
-    takes: float
-    """Predicted, in ms."""
-    whole_takes: float
+    is_seen: bool
+    needs_colour: bool
+    share: float
+    """Of the pixels, where it is seen."""
+    mean: float
+    """Mean difference there, in grey levels."""
+    exposed: tuple[float, float] | None
+    """Exposure time that keeps the brightness at another f-number, and the scene's own, s."""
 
 
 @dataclass(frozen=True)
@@ -76,10 +90,10 @@ class Shoot:
 
     scene: str
     changes: tuple[tuple[str, float], ...]
-    budget: str
+    effect: str = ""
 
     def run(self, bank: Bank) -> bytes:
-        """Take it twice: as planned, and with everything on.
+        """Take it with and without what is asked.
 
         Raises
         ------
@@ -87,28 +101,60 @@ class Shoot:
             If no camera can be set like that.
         """
         del bank
-        from quizgen.camera.plan import Prepared, everything, plan
+        from quizgen.camera.compare import amplify_difference
+        from quizgen.camera.prepared import Prepared
         from quizgen.camera.reading import load
-        from quizgen.camera.simulate import difference_dn, run
 
-        scene, camera = load(_file(self.scene))
-        prepared = Prepared(scene, self._set(camera))
-        photo = run(prepared, plan(prepared, budget=self.budget))
-        whole = run(prepared, everything(prepared))
-        gain, difference = _amplified(photo.values, whole.values)
+        scene, own = load(_file(self.scene))
+        camera = self._set(own)
+        prepared = Prepared(scene, camera)
+        found = [one.name for one in prepared.present if not one.always]
+        chosen = self.effect if self.effect in (*found, EVERYTHING) else ""
+        taken = self._take(scene, camera, found, chosen)
+        scale, apart = amplify_difference(taken.photo.values, taken.without.values)
         return msgspec.msgpack.encode(
             Shot(
-                _png(photo.values), _png(whole.values), difference, gain,
-                difference_dn(photo, whole),
-                _ran(photo.plan),
-                [(one.effect, one.bound_dn) for one in photo.plan.skipped],
-                list(photo.plan.absent),
-                photo.plan.budget,
-                photo.plan.predicted_error_dn,
-                photo.plan.predicted_ms,
-                whole.plan.predicted_ms,
+                taken=_png(taken.photo.values),
+                plain=_png(taken.without.values),
+                difference=_png_of(apart),
+                scale=scale if apart.any() else 0,
+                asked=list(taken.plan.asked),
+                chosen=chosen,
+                effects=[*found, EVERYTHING] if found else [],
+                ran=list(_ran(taken)),
+                left_out=[(one.effect, one.bound_dn) for one in taken.plan.left_out],
+                absent=list(prepared.absent),
+                is_seen=any(one.is_visible for one in taken.seen),
+                needs_colour=taken.needs_colour,
+                share=max([one.share for one in taken.seen], default=0.0),
+                mean=max([one.mean for one in taken.seen], default=0.0),
+                exposed=_expose(own, camera),
             )
-        )  # fmt: skip
+        )
+
+    def _take(self, scene: Scene, camera: Camera, found: list[str], chosen: str) -> QuestionPhoto:
+        """What was set runs besides what is asked; without a question the first effect is."""
+        from quizgen.camera.planning import Selection
+        from quizgen.camera.question import take_photographs
+
+        if chosen == EVERYTHING:
+            only = tuple(found)
+        else:
+            only = (chosen,) if chosen else () if scene.question else tuple(found[:1])
+        plus = tuple(name for name in self._set_effects() if name in found)
+        return take_photographs(scene, camera, chosen=Selection(only, plus))
+
+    def _set_effects(self) -> Iterator[str]:
+        """Effects whose settings were changed."""
+        from quizgen.camera import effects
+
+        changed = dict(self.changes)
+        for name, effect in _EFFECTS.items():
+            if name in changed:
+                yield effect
+        for one in effects.EFFECTS:
+            if any(setting.name in changed for setting in one.settings):
+                yield one.name
 
     def _set(self, camera: Camera) -> Camera:
         changes: dict[str, object] = dict(self.changes)
@@ -122,30 +168,38 @@ def _file(scene: str) -> Path:
     return Path(str(files("quizgen.camera") / "scenes" / f"{scene}.toml"))
 
 
-def _ran(plan: Plan) -> list[tuple[str, str, float]]:
-    def how(rung: str, reason: str) -> str:
-        return "cheaper" if rung else "asked" if reason == "asked about" else "exact"
+_EFFECTS = {"f_number": "defocus", "focus_distance": "defocus", "full_well": "shot noise"}
+"""What shows settings that belong to the camera's body."""
 
-    return [(step.effect, how(step.rung, step.reason), step.bound_dn) for step in plan.steps]
+
+def _ran(taken: QuestionPhoto) -> Iterator[tuple[str, str]]:
+    why = {"asked": "asked", "wanted": "set"}
+    for step in taken.plan.steps:
+        yield step.effect, why.get(step.why, "needed")
+
+
+def _expose(own: Camera, camera: Camera) -> tuple[float, float] | None:
+    """Exposure time that lets in as much light as the scene's own f-number and time."""
+    from quizgen.camera.setup.body import F_NUMBER, SHUTTER
+
+    before, after, time = own[F_NUMBER], camera[F_NUMBER], own[SHUTTER]
+    if before is None or after is None or before == after or not time:
+        return None
+    return time * (after / before) ** 2, time
 
 
 def _png(values: Image) -> bytes:
     import numpy as np
 
-    from quizgen import png
     from quizgen.camera.codes import rounded
 
-    return png.compact(rounded(values * np.float32(255)))
+    return _png_of(rounded(values * np.float32(255)))
 
 
-def _amplified(one: Image, other: Image) -> tuple[float, bytes]:
-    """How far two pictures lie apart, so bright that the largest difference is white."""
-    import numpy as np
+def _png_of(codes: NDArray[np.uint8]) -> bytes:
+    from quizgen import png
 
-    apart = np.abs(one - other)
-    largest = float(apart.max())
-    gain = 2.0 ** math.floor(-math.log2(largest)) if largest > 0 else 0.0
-    return gain, _png(apart * np.float32(gain))
+    return png.compact(codes)
 
 
 @cache

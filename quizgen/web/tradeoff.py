@@ -11,30 +11,29 @@ from starlette.responses import Response
 from starlette.routing import Route
 
 from quizgen.bank.folder import Bank
-from quizgen.locale import languages, table
+from quizgen.locale import languages
 from quizgen.shapes import decoded
-from quizgen.tradeoff.plot import script, style
+from quizgen.tradeoff.texts import script, style_sheet, words
 from quizgen.web.made import Html
 from quizgen.web.site import Site
 from quizgen.web.views import lang_of, page
 
 PATIENCE = 0.3
 """Seconds in which a measurement that is kept has come."""
-COMMAND = "quizgen tradeoff --quick"
+COMMAND = "quizgen tradeoff"
 """What measures the same."""
 
 
 @dataclass(frozen=True)
 class Measurement:
-    """Every family, measured once; what is said of it in every language."""
+    """Everything measured once; what is said of it in every language."""
 
     def run(self, bank: Bank) -> bytes:
         """Measure."""
-        del bank
         from quizgen.tradeoff.page import fragment
         from quizgen.tradeoff.report import measure
 
-        report = measure(quick=True)
+        report = measure(bank)
         return msgspec.json.encode({lang: fragment(report, COMMAND, lang) for lang in languages()})
 
 
@@ -48,22 +47,22 @@ async def tradeoff(request: Request) -> Response:
     except TimeoutError:
         pass
     lang = lang_of(request)
-    title = table(lang, "tradeoff")["page"]["title"]
+    title = words(lang)["page"]["title"]
     return page(request, "tradeoff.html.j2", title=title, measured=said.get(lang, ""))
 
 
-async def style_sheet(_request: Request) -> Response:
+async def style(_request: Request) -> Response:
     """The style of what was measured."""
-    return Response(style(), media_type="text/css")
+    return Response(style_sheet(), media_type="text/css")
 
 
 async def moves(_request: Request) -> Response:
-    """What moves its sliders."""
+    """What moves its slider."""
     return Response(script(), media_type="text/javascript")
 
 
 ROUTES = [
     Route("/tradeoff", tradeoff),
-    Route("/static/tradeoff.css", style_sheet),
+    Route("/static/tradeoff.css", style),
     Route("/static/tradeoff.js", moves),
 ]

@@ -43,6 +43,8 @@ PARAMETERS = {
         3.0,
         whole=True,
     ),
+    "left": Parameter("px", "even column that the tile begins with", ABSENT, 0.0, 1e5, whole=True),
+    "top": Parameter("px", "even row that the tile begins with", ABSENT, 0.0, 1e5, whole=True),
 } | {
     f"v{y}{x}": Parameter("DN", f"raw value in row {y}, column {x}", ABSENT, 0.0, 99999.0)
     for y in range(LARGEST)
@@ -68,6 +70,8 @@ def draw(fig: Any, values: Values, *, quiz: bool) -> None:
     require("bayer", max(x, y) < size, "the marked site lies outside the tile")
     asked = f"the marked site is {own} itself; ask for another channel"
     require("bayer", channel == 0 or "RGB"[channel - 1] != own, asked)
+    column, row = _first_site(values)
+    require("bayer", not column % 2 and not row % 2, "left and top are not even")
     art = fig.sketch()
     cell = max(34.0, float(184 // size))
     for colour, (squares, strokes) in _lay_out_sites(int(values["phase"]), size, cell).items():
@@ -79,11 +83,21 @@ def draw(fig: Any, values: Values, *, quiz: bool) -> None:
     lines += [((i, 0), (i, size)) for i in range(size + 1)]
     draw_lines(art, np.array(lines) * cell, "ink", part="cells")
     _label_sites(art, values, size, cell)
+    if "left" in values or "top" in values:
+        for place in range(size):
+            at = (place + 0.5) * cell
+            art.label((at, size * cell + 4), str(column + place), "cb", 9, fill="grey")
+            art.label((-5, size * cell - at), str(row + place), "r", 9, fill="grey")
     left, low = x * cell, (size - 1 - y) * cell
     marked = [(left, low), (left + cell, low), (left + cell, low + cell), (left, low + cell)]
     art.area(marked, None, "ink", 2.4, part="marked")
     if not quiz:
         _draw_answer(art, values, cell)
+
+
+def _first_site(values: Values) -> tuple[int, int]:
+    """Column and row of the tile's upper left site, counted on the sensor."""
+    return int(values.get("left", 0)), int(values.get("top", 0))
 
 
 @cache
@@ -215,14 +229,14 @@ def _draw_answer(art: Any, values: Values, cell: float) -> None:
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words; in a quiz, leave out which sites are used and the results."""
     words, (size, x, y) = load_alt_words(__file__, lang), _marked_site(values)
-    pattern = PATTERNS[int(values["phase"])]
-    place = {"size": size, "x": x, "y": y, "letter": letter(values, x, y)}
+    pattern, (left, top) = PATTERNS[int(values["phase"])], _first_site(values)
+    place = {"size": size, "x": x + left, "y": y + top, "letter": letter(values, x, y)}
     text: str = words["figure"].format(pattern=pattern, **place)
-    text += "".join(words["row"].format(y=row, sites=sites) for row, sites in _rows(values))
+    text += "".join(words["row"].format(y=row + top, sites=sites) for row, sites in _rows(values))
     if quiz:
         return text
     for channel in _missing_channels(values):
-        sites = ", ".join(f"({a}, {b})" for a, b in neighbours(values, channel))
+        sites = ", ".join(f"({a + left}, {b + top})" for a, b in neighbours(values, channel))
         text += words["use"].format(channel=channel, sites=sites)
         if mean := _write_mean(values, channel):
             text += f" {mean}{words['stop']}"

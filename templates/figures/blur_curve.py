@@ -24,7 +24,7 @@ from quizgen.figures.kit import (
     strip_mathtext,
 )
 
-from ._marks import format_learned, mark_place
+from ._plots import format_learned, mark_place, trace_lines
 
 PARAMETERS = {
     "f": Parameter("mm", "focal length", low=1.0, high=1000.0),
@@ -89,13 +89,13 @@ def _list_ticks(end: float) -> list[float]:
 @lru_cache(64)
 def _trace_grid(far: float, high: float) -> Path:
     """Lines at every tick and halfway between two, over the whole plot."""
-    lines: list[tuple[float, float]] = []
+    lines: list[Any] = []
     for end, across in ((far, True), (high, False)):
         half = _list_ticks(end)[1] / 2
         for count in range(1, floor(end / half + 1e-9) + 1):
             at = half * count
-            lines += [(at, 0), (at, high)] if across else [(0, at), (far, at)]
-    return Path(lines, np.tile([Path.MOVETO, Path.LINETO], len(lines) // 2))
+            lines.append([(at, 0), (at, high)] if across else [(0, at), (far, at)])
+    return trace_lines(lines)
 
 
 def _draw_curves(art: Any, values: Values, *, told: bool) -> None:

@@ -21,8 +21,8 @@ from quizgen.figures.kit import (
     strip_mathtext,
 )
 
-from ._marks import format_learned
 from ._optics import clamp, draw_axis, draw_lens, draw_lines
+from ._plots import format_learned
 
 PARAMETERS = {
     "D": Parameter("mm", "diameter of the aperture", low=1e-6),

@@ -11,7 +11,6 @@ from math import ceil, floor, hypot
 from typing import Any
 
 import numpy as np
-from matplotlib.collections import LineCollection
 
 from quizgen.arrays.distortion import distort, fold_radius
 from quizgen.figures.kit import (
@@ -23,6 +22,8 @@ from quizgen.figures.kit import (
     load_alt_words,
     require,
 )
+
+from ._plots import trace_lines
 
 PARAMETERS = {
     "k1": Parameter("1", "first coefficient, from undistorted to distorted coordinates"),
@@ -61,11 +62,9 @@ def draw(ax: Any, values: Values, *, quiz: bool) -> None:
     ticks = [extent * share for share in (-1, -0.5, 0, 0.5, 1)]
     for axis in (ax.xaxis, ax.yaxis):
         axis.set_ticks(ticks, map(format_given, ticks))
-    for part, some, ink, width in (("undistorted", lines, "rule", 0.8),
-                                   ("distorted", moved, "blue", 1.1)):  # fmt: skip
-        drawn = LineCollection(some, colors=ink, linewidths=width, gid=part)
-        ax.add_collection(drawn, autolim=False)
-    art = ax.figure.sketch(ax, zorder=4)
+    art = ax.figure.sketch(ax)
+    art.shape(trace_lines(lines[:, [0, -1]]), None, "rule", 0.8, part="undistorted")
+    art.shape(trace_lines(moved), None, "blue", 1.1, part="distorted")
     art.cross((values["c_x"], values["c_y"]), part="principal-point")
     if not quiz:
         _draw_answer(ax, art, values, extent)
@@ -124,13 +123,11 @@ def _fold_radius(k1: float, k2: float) -> float:
 
 def _list_lines(values: Values, extent: float) -> Any:
     """Grid lines, shape (lines, samples, 2): multiples of the step from the principal point."""
-    along = np.linspace(-extent, extent, _SAMPLES)
-    step = _step(values)
-    upright = [np.stack([np.full_like(along, x), along], axis=-1)
-               for x in _list_levels(values["c_x"], step, extent)]  # fmt: skip
-    level = [np.stack([along, np.full_like(along, y)], axis=-1)
-             for y in _list_levels(values["c_y"], step, extent)]  # fmt: skip
-    return np.array([*upright, *level])
+    step, along = _step(values), np.linspace(-extent, extent, _SAMPLES)
+    grids = [np.meshgrid(_list_levels(values[name], step, extent), along, indexing="ij")
+             for name in ("c_x", "c_y")]  # fmt: skip
+    (x, along_x), (y, along_y) = grids
+    return np.concatenate([np.stack([x, along_x], axis=-1), np.stack([along_y, y], axis=-1)])
 
 
 def _step(values: Values) -> float:

@@ -27,7 +27,7 @@ from quizgen.figures.kit import (
 )
 from quizgen.figures.photographs import place_photo
 
-from ._marks import format_learned, mark_point
+from ._plots import format_learned, mark_point, trace_lines
 
 PARAMETERS = {
     "f": Parameter("mm", "focal length", low=1.0, high=1000.0),
@@ -75,12 +75,12 @@ def draw(ax: Any, values: Values, *, quiz: bool) -> None:
     require("fall_off", values["r"] <= values["extent"], "r must lie inside the picture")
     fig = ax.figure
     place_photo(fig, _take_photo(values["f"], values["extent"], values["rim"]), _PHOTO)
-    left, low, wide, high = _PHOTO
-    way, art = [(left + wide / 2, low + high / 2), (left + wide, low + high / 2)], fig.sketch()
-    for ink, width, size in ((_AROUND, 3.2, 9.0), (_ARROW, 1.3, 6.5)):
-        art.arrow(*way, ink, width, size=size, part="path")
     _draw_axes(ax, values["extent"])
     art, r = fig.sketch(ax), values["r"]
+    left, low, wide, high = _PHOTO
+    way = [(left + wide / 2, low + high / 2), (left + wide, low + high / 2)]
+    for ink, width, size in ((_AROUND, 3.2, 9.0), (_ARROW, 1.3, 6.5)):
+        art.in_points().arrow(*way, ink, width, size=size, part="path")
     art.shape(_trace_grid(values["extent"]), None, "rule", 0.4, part="grid")
     places = [values["extent"] * step / _STEPS for step in range(_STEPS + 1)]
     *lights, light = find_shares(values, [*places, r])
@@ -110,8 +110,7 @@ def _draw_axes(ax: Any, extent: float) -> None:
 @lru_cache(16)
 def _trace_grid(extent: float) -> Path:
     """Level lines at every tenth."""
-    lines = [(x, tenth / 10) for tenth in range(1, 11) for x in (0.0, extent)]
-    return Path(lines, [Path.MOVETO, Path.LINETO] * 10)
+    return trace_lines([[(0, tenth / 10), (extent, tenth / 10)] for tenth in range(1, 11)])
 
 
 def mark(ax: Any, values: Values, marks: Values) -> None:

@@ -29,6 +29,7 @@ PARAMETERS = {
 
 _AXIS, _HOLE, _FRONT = 86.0, 158.0, 36.0
 _DASHES = (4, 2)
+_NARROW = 130.0  # points in which the labels of f and Z do not fit side by side
 
 
 def angle_of(side: float, f: float) -> float:
@@ -73,21 +74,23 @@ def draw(fig: Any, values: Values, *, quiz: bool) -> None:
     art.arc((_HOLE, _AXIS), radius, -half, half, "red", 0.9, part="angle")
     spot = (_HOLE + radius + 5, _AXIS + (6 if wide else radius * slope + 7))
     art.label(spot, r"$\alpha$", "l" if wide else "r", fill="red", shift=(0, 0 if wide else 1))
-    art.axis_break((_HOLE + 0.75 * before, _AXIS))
+    art.axis_break((_HOLE + (0.86 if wide else 0.75) * before, _AXIS))
     _measure(art, values, quiz, sensor, wall)
     _front(art, values, found, quiz)
 
 
 def _measure(art: Any, values: Values, quiz: bool, sensor: float, wall: float) -> None:
     row, slope = _AXIS - 74, values["W"] / (2 * values["f"])
+    lower = row - (16 if wall - sensor < _NARROW else 0)
     for x, half in (
         (sensor, (_HOLE - sensor) * slope),
         (_HOLE, 42),
         (wall, (wall - _HOLE) * slope),
     ):
-        art.line([(x, _AXIS - half - 3), (x, row - 3)], "rule", 0.6, part="helpers")
+        end = row if x == sensor else lower
+        art.line([(x, _AXIS - half - 3), (x, end - 3)], "rule", 0.6, part="helpers")
     art.measure((sensor, row), (_HOLE, row), f"$f$ = {format_given(values['f'])} mm", side="b")
-    art.measure((_HOLE, row), (wall, row), f"$Z$ = {format_given(values['Z'])} m", side="b")
+    art.measure((_HOLE, lower), (wall, lower), f"$Z$ = {format_given(values['Z'])} m", side="b")
     text = format_equation("$w$", values["Z"] * values["W"] / values["f"], "m", hide=quiz)
     half = (wall - _HOLE) * slope
     strip = [(wall + 9, _AXIS + side * half) for side in (-1, 1)]

@@ -22,7 +22,7 @@ from quizgen.figures.kit import (
 )
 from quizgen.figures.sketch import measure_label
 
-from ._marks import format_learned, mark_place, mark_point
+from ._plots import format_learned, mark_place, mark_point
 
 PARAMETERS = {
     "sigma": Parameter("any", "standard deviation", low=1e-6),

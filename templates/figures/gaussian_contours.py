@@ -73,7 +73,7 @@ def draw(fig: Any, values: Values, *, quiz: bool) -> None:
         _draw_one(fig, values, rows[0], quiz)
         return
     reach = 2.5 * max(max(row[0], row[2]) for row in rows) ** 0.5
-    side = min(92.0, 480 / len(rows) - 10)
+    side = min(92.0, 440 / len(rows) - 10)
     for number, row in enumerate(rows):
         art, at = fig.sketch(), (number * (side + 10) + side / 2, 90.0)
         scale = side / 2 / reach

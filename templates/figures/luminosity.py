@@ -21,7 +21,7 @@ from quizgen.figures.kit import (
     strip_mathtext,
 )
 
-from ._marks import format_learned, mark_point
+from ._plots import format_learned, mark_point
 
 PARAMETERS = {
     "m_1": Parameter("nm", "first marked wavelength", ABSENT, 380.0, 780.0),

@@ -18,7 +18,7 @@ from quizgen.figures.kit import (
     require,
 )
 
-from ._marks import format_learned, mark_place
+from ._plots import format_learned, mark_place
 
 PARAMETERS = {
     "a": Parameter("", "smallest grey level of the picture", 60.0, 0.0, 255.0),

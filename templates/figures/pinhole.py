@@ -25,8 +25,8 @@ from quizgen.figures.kit import (
 )
 from quizgen.figures.sketch import measure_label
 
-from ._marks import format_learned
 from ._optics import clamp, draw_lines
+from ._plots import format_learned
 
 PARAMETERS = {
     "f": Parameter("1 or mm", "focal length: distance of the image plane from O", low=1e-6),

@@ -15,6 +15,8 @@ from quizgen.figures.kit import (
 )
 from quizgen.figures.sketch import measure_label
 
+from ._plots import format_learned, mark_point
+
 SIZE = (270.0, 170.0)
 
 _FAR = 1e6
@@ -117,6 +119,13 @@ class PictureFrame:
             align = ("l" if right > 0 else "r") + ("b" if up > 0 else "t")
             self.art.label((x, y + 13 * row * up), text, align, fill=fill, halo=True)
 
+    def mark(self, fig: Any, marks: Values, right: tuple[float, float]) -> None:
+        """Ring the pixel that a learner gives; what is not asked of it is as it should be."""
+        u, v = marks.get("u", right[0]), marks.get("v", right[1])
+        (left, top), (end, low) = (self.at(*corner) for corner in self.box)
+        text = f"({format_learned(u)}; {format_learned(v)})"
+        mark_point(fig, (left, low, end, top), self.at(u, v), text)
+
 
 def _overlap(one: tuple[float, ...], other: tuple[float, ...]) -> bool:
     """Whether two boxes (left, low, right, high) come closer than two points."""
@@ -149,6 +158,12 @@ def _draw_point(frame: PictureFrame, values: Values, side: tuple[int, int], quiz
     for name, value, row in (("u - o_x", u - o_x, 36), ("v - o_y", v - o_y, 50)):
         text = format_equation(f"${name}$", value, "px")
         art.label((_LEFT + 60, low - row), text, "l", part="offsets")
+
+
+def mark(fig: Any, values: Values, marks: dict[str, float]) -> None:
+    """Ring the pixel (``u``; ``v``) that a learner gives."""
+    seen = [(values["o_x"], values["o_y"]), (values["u"], values["v"])]
+    PictureFrame(fig.sketch(), values["W"], values["H"], seen).mark(fig, marks, seen[1])
 
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:

@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from math import ceil, floor
 from typing import Any
-
-from matplotlib.collections import LineCollection
 
 from quizgen.figures.kit import (
     Parameter,
@@ -18,6 +15,8 @@ from quizgen.figures.kit import (
     strip_mathtext,
 )
 
+from ._plots import trace_lines
+
 PARAMETERS = {
     "n": Parameter("", "number of levels", low=2.0, high=16.0, whole=True),
     "rule": Parameter(
@@ -26,18 +25,7 @@ PARAMETERS = {
 }
 SIZE = (262.0, 116.0)
 
-_RULES = (
-    lambda value, n: floor(value * (n - 1) + 0.5),
-    lambda value, n: floor(value * (n - 1)),
-    lambda value, n: min(floor(value * n), n - 1),
-    lambda value, n: ceil(value * (n - 1)),
-)
 _MOST = 64  # levels of a learner that can still be drawn
-
-
-def find_code(value: float, values: Values) -> int:
-    """Code of an intensity in [0, 1]."""
-    return _RULES[int(values["rule"])](value, int(values["n"]))
 
 
 def list_jumps(values: Values) -> list[float]:
@@ -64,10 +52,8 @@ def draw(ax: Any, values: Values, *, quiz: bool) -> None:
         art.label((0, 1.12 * (n - 1)), text, "l", 10, "red", shift=(28, 11.5), part="answer")
     rises = [[(jump, level), (jump, level + 1)] for level, jump in enumerate(jumps)]
     treads = _list_treads(jumps, 1.0)
-    for part, lines, width, dashes in (("rises", rises, 0.6, (0, (1.2, 1.6))),
-                                       ("staircase", treads, 1.8, "-")):  # fmt: skip
-        drawn = LineCollection(lines, colors="blue", linewidths=width, linestyles=dashes, gid=part)
-        ax.add_collection(drawn, autolim=False)
+    art.shape(trace_lines(rises), None, "blue", 0.4, part="rises")
+    art.shape(trace_lines(treads), None, "blue", 1.8, part="staircase")
     for at, level in ((0, 0), (1, n - 1)):
         if at in jumps:  # a tread of a single point
             art.dot((at, level), 2.2, "blue", part="staircase")

@@ -24,8 +24,8 @@ from quizgen.figures.kit import (
 )
 from quizgen.figures.sketch import measure_label
 
-from ._marks import format_learned
 from ._optics import clamp, draw_axis, draw_lens, draw_lines
+from ._plots import format_learned
 
 PARAMETERS = {
     "f": Parameter("mm", "focal length", low=1e-6),

@@ -64,6 +64,12 @@ def _shorten(start: tuple[float, float], goal: tuple[float, float], box: Any) ->
     return tuple(s + share * (g - s) for s, g in zip(start, goal, strict=True))
 
 
+def mark(fig: Any, values: Values, marks: dict[str, float]) -> None:
+    """Ring the pixel (``u``; ``v``) that a learner gives."""
+    seen = [(values["o_x"], values["o_y"]), image_of(values, "d")]
+    PictureFrame(fig.sketch(), values["W"], values["H"], seen).mark(fig, marks, seen[1])
+
+
 def alt(values: Values, lang: str, *, quiz: bool) -> str:
     """Describe the figure in words; in a quiz, without the vanishing point."""
     words = load_alt_words(__file__, lang)

@@ -6,12 +6,10 @@ within a factor of 2 (Sterbenz), and ``two_sum`` and ``two_product`` together wi
 
 from __future__ import annotations
 
-import numpy as np
 from enclosures import UNIT, Box
 from flint import arb, fmpq
 
-from quizgen.arrays import distortion, gamma, logarithm
-from quizgen.arrays.polynomial import horner
+from quizgen.arrays import distortion, gamma
 
 SECOND = 64 * UNIT * UNIT
 """More than products of the few roundings of a formula."""
@@ -75,27 +73,6 @@ def dim_bound(_):
     return abs(arb(gamma._SLOPE) / arb("12.92") - 1) + relative(one() / one()) + SECOND
 
 
-def short_limit_bound(share):
-    """Bound for the far limit up to 0.3 of the hyperfocal distance: s/(1 - q).
-
-    In q are five roundings, and it is at most 0.3 and what they change.
-    """
-    q = one() * one() / (one() * one()) * (one() - arb(0))
-    quotient = Box(share, share * relative(q))
-    rest = 1 - quotient
-    return rest.error / abs(rest.value) + UNIT + SECOND
-
-
-def long_limit_bound(exponent):
-    """Bound for the far limit from there on, for a rest of about 2**exponent.
-
-    Square and blur and what they lost are exact, but for eight roundings of what was lost, at most
-    six units: 48 * 2**-106 by the rest, which is at least 2**-40 (closer ones go by exact fractions,
-    and are told from 0 so). Two sums, a quotient, the correction and the quotient of s remain.
-    """
-    return 5 * UNIT + (48 * UNIT * UNIT) / arb(2) ** exponent + SECOND
-
-
 def distort_bound(_):
     """Bound for distorted positions: what is off is allowed three units of the result.
 
@@ -126,26 +103,6 @@ def curve_bound(_):
 def term_bound(_):
     """Bound for f x/(pitch z), the part of a pixel's place that is not its offset."""
     return relative(one() * one() / (one() * one())) + SECOND
-
-
-def log_bound(s):
-    """Relative error of the logarithm as a pair, for (m - 1)/(m + 1) in a box.
-
-    Lost are the error of the polynomial in doubles, the terms it leaves out, what three constants
-    miss, and a few units of 2**-106 by each of ten operations on pairs. With a power of two, the
-    logarithm is at least half of the power's own.
-    """
-    square = s * s
-    rest = logarithm._TAIL
-    kept = horner(rest, np.array([Box(square, (UNIT * square).upper())], dtype=object))[0]
-    left_out = square ** (3 + len(rest)) / (2 * len(rest) + 7) / (1 - square)
-    third, fifth = (
-        abs(arb(pair.high) + arb(pair.low) - exact)
-        for pair, exact in ((logarithm._THIRD, arb(1) / 3), (logarithm._FIFTH, arb(1) / 5))
-    )
-    ln2 = abs((arb(logarithm.LN2.high) + arb(logarithm.LN2.low)) / arb(2).log() - 1)
-    missed = square * third + square**2 * fifth + square**3 * kept.error + left_out
-    return missed + 2 * ln2 + SECOND
 
 
 def pincushion_bound(_):
@@ -180,84 +137,14 @@ def barrel_inverse_bound(exponent):
     return (steep if slope > arb(2) ** -12 else flat) + UNIT + SECOND
 
 
-def pmf_short_bound(_):
-    """Bound for Poisson probabilities by the definition, while they are normal.
-
-    Power and exponential are right to two of 2**-53 each; a factorial, a product and a quotient.
-    """
-    return 7 * UNIT + SECOND
-
-
-def excess_error():
-    """How far an excess of at most 800 is off; beyond, nothing is left of a probability.
-
-    It is a pair. For close arguments its series is off by less than what the logarithm's is, of
-    which at most 2 v/3 stands beside 1 in the excess. For others the excess is at least 0.0528 of
-    the count, which so is below 15152, and two logarithms below 10 are off by their own bound.
-    """
-    v = arb("0.1716")
-    series = log_bound(v)
-    close = 800 * (3 * series / v + 64 * UNIT * UNIT)
-    return max(close, arb(800) / arb("0.0528") * 20 * series)
-
-
-def pmf_long_bound(_):
-    """Bound for Poisson probabilities by the saddle point.
-
-    Behind the exponential (2) stand the root, its constant, their product and the quotient (4).
-    What Stirling's formula leaves is at most 1/11 and off by 4 units of that; its factor takes 2
-    more, a product of that size and a sum.
-    """
-    return 6 * UNIT + 7 * UNIT / 11 + UNIT + excess_error() + SECOND
-
-
-def summed_bound(count):
-    """Bound for the lower Poisson tail by sums, for a count up to 60 and for all beyond.
-
-    The ratio of neighbours is largest where the mean is the count; a step back to the first term
-    adds a product, a quotient and a sum. Beyond 60 a ratio is at most 2/3 and a count may round.
-    What is left out is below 2**-56. Then follow the probability, a product and the complement of
-    what is at most a half.
-    """
-    k = max(round(float(count.upper())), 1)
-    errors = [(4 * UNIT * arb(2) / 3 + UNIT) * 3]
-    for ratios in ([arb(k) / (k + 1 + j) for j in range(1, 400)],
-                   [arb(k - j + 1) / k for j in range(1, k + 1)]):  # fmt: skip
-        total, error = arb(1), arb(0)
-        for ratio in reversed(ratios):
-            before = ratio * total
-            total = 1 + before
-            error = before * (error + 2 * UNIT) / total + UNIT
-        errors.append(error)
-    return max(errors) + pmf_long_bound(None) + 2 * UNIT + arb(2) ** -56 + SECOND
-
-
-def most_terms():
-    """Terms of a sum until one is below what is left out, by whole numbers.
-
-    To 60 the ratio of neighbours is largest where the mean is the count; beyond it is 2/3.
-    """
-    least = fmpq(1, 2**60)
-
-    def terms(ratios):
-        product = fmpq(1)
-        for count, ratio in enumerate(ratios, 1):
-            product *= ratio
-            if product <= least:
-                return count
-        return count
-
-    up = max(terms(fmpq(k, k + 1 + j) for j in range(1, 1000)) for k in range(1, 61))
-    return max(up, terms(fmpq(2, 3) for _ in range(1000)))
-
-
 def fold_bound(_):
     """Bound for the fold of two coefficients, from what stands in the root.
 
     That is a difference of two numbers with two roundings each: next to one another they are
     taken in pairs or by fractions, else the difference is an eighth of their sum at least. Half
     of its error remains in its root, which stands beside numbers of its own sign, once rounded;
-    two roundings more, and half of all that in the last root. Powers of two are exact.
+    two roundings more, and half of all that in the last root. Powers of two are exact, and what
+    they bring below all doubles is nothing beside the other two terms: the one that decides nothing.
     """
     inside = 8 * 2 * UNIT + UNIT
     falling = (inside / 2 + UNIT) + UNIT + UNIT

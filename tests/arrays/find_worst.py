@@ -4,7 +4,7 @@ Run: ``python tests/arrays/find_worst.py [seed]``. Writes ``worst_inputs.tsv``; 
 under test only choose the inputs, the expected values come from ``oracle``.
 """
 
-# ruff: noqa: N806, PLC3002, PLW2901 - mathematics and tables of inputs
+# ruff: noqa: PLW2901 - what is found replaces what it was found from
 
 from __future__ import annotations
 
@@ -28,23 +28,13 @@ def positive(rng):
     return 10 ** rng.uniform(-3, 3)
 
 
-def field(rng):
-    f, N = positive(rng), 10 ** rng.uniform(0, 1.5)
-    c = f * 10 ** rng.uniform(-5, -3)
-    H = f + f * f / (N * c)
-    return f, N, c, max(f, min(near(H, rng), H * 0.999999999999))
-
-
 def barrel(rng):
     k1 = -positive(rng)
     return 2 / 3 / np.sqrt(-3 * k1) * (1 - 10 ** rng.uniform(-14, -0.1)), k1, 0.0
 
 
 SPACES = {
-    "gaussian.upper_tail": lambda rng: (rng.uniform(-5, 38),),
-    "gaussian.two_sided_tail": lambda rng: (rng.uniform(0, 38),),
     "gaussian.inverse_tail": lambda rng: (10 ** rng.uniform(-300, -0.001),),
-    "depth_of_field.far_limit": field,
     "distortion.inverse_radius": barrel,
     "distortion.distort_x": lambda rng: (
         *rng.uniform(0, 1, 2).tolist(),
@@ -56,16 +46,13 @@ SPACES = {
         1 - 10 ** rng.uniform(-9, 0),
         rng.uniform(0, 1),
     ),
-    "poisson.pmf": lambda rng: (lambda m: (float(rng.poisson(m)), m))(10 ** rng.uniform(0, 6)),
     "gamma.srgb_decode": lambda rng: (10 ** rng.uniform(-2, 0),),
-    "gamma.gap": lambda rng: (rng.uniform(0, 1), 10 ** rng.uniform(-3, 0)),
     "luminosity.efficiency": lambda rng: (rng.uniform(355, 835),),
     "projection.pixel": lambda rng: (
         *(positive(rng) / 1000, 1e-6 * positive(rng)),
         *(round(rng.uniform(-2, 2), 6), positive(rng), rng.uniform(0, 4000)),
     ),
 }
-WHOLE = {"poisson.pmf"}
 
 
 def error(name, args):
@@ -88,8 +75,6 @@ def search(name, rng):
     for value, args in best:
         for _ in range(MOVES):
             moved = [a * (1 + rng.normal() * 10 ** rng.uniform(-15, -3)) for a in args]
-            if name in WHOLE:
-                moved[0] = round(moved[0])
             trial = tuple(map(float, moved))
             score = error(name, trial)
             if score > value:
@@ -99,17 +84,15 @@ def search(name, rng):
 
 
 def main(seed):
-    rng = np.random.default_rng(seed)
-    lines = []
+    """Search, and keep what was found for functions that are no more: formulas must hold there too."""
+    rng, file = np.random.default_rng(seed), Path(__file__).parent / "worst_inputs.tsv"
+    lines = [line for line in file.read_text().splitlines() if line.split("\t")[0] not in SPACES]
     for name in SPACES:
         for value, args in search(name, rng):
             print(name, round(value, 2), args)
-            lines.append(
-                "\t".join(
-                    (name, " ".join(float(a).hex() for a in args), f"local search, seed {seed}")
-                )
-            )
-    (Path(__file__).parent / "worst_inputs.tsv").write_text("\n".join(lines) + "\n")
+            found = " ".join(float(a).hex() for a in args)
+            lines.append(f"{name}\t{found}\tlocal search, seed {seed}")
+    file.write_text("\n".join(lines) + "\n")
 
 
 if __name__ == "__main__":

@@ -2,29 +2,14 @@
 
 from __future__ import annotations
 
-from quizgen.arrays import (
-    depth_of_field,
-    distortion,
-    gamma,
-    gaussian,
-    hsv,
-    luminosity,
-    poisson,
-    projection,
-)
+from quizgen.arrays import distortion, gamma, gaussian, hsv, luminosity, projection
 
 FUNCTIONS = {
-    "gaussian.upper_tail": gaussian.upper_tail,
-    "gaussian.two_sided_tail": gaussian.two_sided_tail,
     "gaussian.inverse_tail": gaussian.inverse_tail,
-    "poisson.pmf": poisson.pmf,
-    "poisson.lower": poisson.lower,
     "distortion.distort_x": lambda *args: distortion.distort(*args)[0],
     "distortion.fold_radius": distortion.fold_radius,
     "distortion.inverse_radius": distortion.inverse_radius,
-    "depth_of_field.far_limit": depth_of_field.far_limit,
     "projection.pixel": projection.pixel,
-    "gamma.gap": gamma.gap,
     "gamma.srgb_decode": gamma.srgb_decode,
     "hsv.red": lambda *args: hsv.to_rgb(*args)[0],
     "hsv.green": lambda *args: hsv.to_rgb(*args)[1],
@@ -34,9 +19,8 @@ FUNCTIONS = {
 """By the name of the formula's family."""
 
 COUNTS = {
-    "depth_of_field.far_limit": 4, "projection.pixel": 5, "distortion.distort_x": 4,
-    "distortion.fold_radius": 2, "distortion.inverse_radius": 3, "gamma.gap": 2,
-    "poisson.pmf": 2, "poisson.lower": 2, "hsv.red": 3, "hsv.green": 3, "hsv.blue": 3,
+    "projection.pixel": 5, "distortion.distort_x": 4, "distortion.fold_radius": 2,
+    "distortion.inverse_radius": 3, "hsv.red": 3, "hsv.green": 3, "hsv.blue": 3,
 }  # fmt: skip
 """Arguments of the functions that take more than one."""
 

@@ -110,9 +110,8 @@ def channel(n):
 
 
 def as_decimal(value):
-    """The decimal of at most 15 digits whose nearest double this is, or else the double."""
-    text = f"{value:.15g}"
-    return Fraction(text) if float(text) == value else Fraction(value)
+    """The decimal that a double prints as."""
+    return Fraction(repr(float(value)))
 
 
 def pixel(*args):

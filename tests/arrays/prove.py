@@ -6,11 +6,11 @@ place, boxes looked at, rounds of a loop that an element takes at most, and the 
 The code itself runs, on boxes instead of numbers: each holds what exact arithmetic would give for
 every input of the box, and how far rounding may have moved that. How far the polynomials are from
 the functions is enclosed by Taylor series on the same boxes. Premises: additions, multiplications
-and divisions round correctly, and NumPy's exponential is right to one unit in the last place.
+and divisions round correctly, NumPy's logarithm and power are right to one unit in the last place.
 
-``two_product`` and ``two_sum`` are exact (Dekker; Knuth). With k**2 = s + l, |l| <= u s, the far
-tail is exp(-s/2) R (1 - l/2 - d), d the relative rounding of k + 3/4: the true exp(-l/2) and
-1/(1 + d) differ from these factors by l**2/8 + d**2 + |l d| < 2**-80. Up to 37.5 sigma no result is subnormal.
+``two_product`` and ``two_sum`` are exact (Dekker; Knuth). With k**2 = s + l, |l| <= u s, and d the
+relative rounding of k + 3/4, the true exp(-l/2) and 1/(1 + d) differ from the factors taken for them
+by l**2/8 + d**2 + |l d| < 2**-80.
 """
 
 from __future__ import annotations
@@ -22,23 +22,17 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import counted
-import gaps
-import uniform
 from enclosures import ORDER, UNIT, boxes, farthest, on_one
 from flint import arb, arb_series, ctx
 from mills import mills_error
 
 from quizgen.arrays import (
-    depth_of_field,
     distortion,
     double_double,
     gamma,
-    gamma_gap,
     gaussian,
     hsv,
-    logarithm,
     luminosity,
-    poisson,
     polynomial,
     power,
     projection,
@@ -51,25 +45,6 @@ DOCS = Path(__file__).parents[2] / "docs/accuracy.md"
 NUMBERS = Path(tables.__file__).with_name("tables.json")
 HEAD = "  | kernel | relative error, in 2^-53 | boxes | rounds |\n  |---|---|---|---|\n"
 COMPENSATED = arb(2) ** -80
-
-
-def near_difference(k):
-    """Exact polynomial less the probability beyond k."""
-    square, total = k * k, arb_series([0])
-    for c in reversed(tables.CENTRAL):
-        total = total * square + c
-    return arb("0.5") - k * total - (k / arb(2).sqrt()).erfc() / 2
-
-
-def far_bound(box):
-    """Relative error of the far tail: Mills' ratio, exponential, product, correction."""
-    return mills_error(box)[1] + 4 * UNIT + COMPENSATED
-
-
-def near_bound(box):
-    """Relative error of the near tail."""
-    tail = on_one(gaussian.near_tail, box)
-    return (tail.error + abs(farthest(near_difference, box))) / abs(tail.value)
 
 
 def exact_fraction(parts, x):
@@ -176,55 +151,30 @@ class Piece(NamedTuple):
         return hashlib.sha256("".join(sources).encode()).hexdigest()[:16]
 
 
-TAIL = (gaussian.mills, gaussian.far_tail, gaussian.near_tail, polynomial.horner, tables)
 QUANTILE = (gaussian, polynomial.horner, tables)
 EXACT_SUMS = (double_double.two_sum, double_double.two_product)
 DECODE = (gamma, power, *EXACT_SUMS)
-LIMIT = (depth_of_field, *EXACT_SUMS)
 PIXEL = (projection,)
 HSV = (hsv._to_rgb, hsv._less, double_double)
-LOGARITHM = (logarithm, double_double, polynomial.horner)
 CUBIC = (quintic.cubic, quintic.Quintic.refined, quintic.Quintic.residual, double_double)
 ROOT = (quintic, distortion._equation, distortion._inverse, double_double)
 BARREL = (quintic, double_double)
-PROBABILITY = (poisson._density, poisson._stirling_error, poisson._pmf_short, *LOGARITHM, tables)
-SUMS = (poisson._by_sum, poisson._sum_up, poisson._sum_down, *PROBABILITY)
-UNIFORM = (
-    poisson._uniform_lower, poisson._uniform_rest, gaussian.mills, *LOGARITHM, tables,
-)  # fmt: skip
-GAP = (gamma_gap, power, *LOGARITHM)
 DISTORT = (distortion._change, distortion._distort, distortion._distort_all)
 FOLD = (quintic.Quintic.inside, quintic.Quintic.fold, distortion._fold, double_double)
 PIECES = {
-    "gaussian.far_tail": Piece(far_bound, 0.6999, 37.5, 4000, TAIL),
-    "gaussian.near_tail": Piece(near_bound, 0.0, 0.7, 200, TAIL),
     "gaussian.quantile next to 1/2": Piece(middle_bound, 0.0, 0.42501, 400, QUANTILE),
     "gaussian.quantile to exp(-25)": Piece(tail_bound, 1.609, 5.0001, 2000, QUANTILE),
     "gaussian.quantile below exp(-25)": Piece(newton_bound, 4.9999, 27.285, 4000, QUANTILE),
-    "gamma.gap, relative difference to 0.85": Piece(
-        gaps.narrow_bound, 0.0, 2 * gamma_gap._CENTRE, 60, GAP
-    ),
-    "gamma.gap, to 1 (by exponent)": Piece(gaps.wide_bound, 0.0, 1.0, 100, GAP),
-    "gamma.gap, a ratio below 2^-900": Piece(gaps.far_bound, 0.0, 1.0, 1, GAP),
     "power.raised": Piece(counted.raised_bound, 0.0, 1.0, 1, (power,)),
     "hsv.to_rgb": Piece(counted.hsv_bound, 0.0, 1.0, 1, HSV),
     "gamma.srgb_decode, dim": Piece(counted.dim_bound, 0.0, 0.0405, 1, DECODE),
     "gamma.srgb_decode, bright (log2)": Piece(counted.decode_bound, -3.4, 427.0, 100, DECODE),
-    "far_limit to 0.3 of hyperfocal": Piece(counted.short_limit_bound, 0.0, 0.30001, 300, LIMIT),
-    "far_limit beyond (log2 of rest)": Piece(counted.long_limit_bound, -40.1, -0.5, 100, LIMIT),
     "distortion.distort": Piece(counted.distort_bound, 0.0, 1.0, 1, DISTORT),
     "fold_radius, k2 = 0": Piece(counted.barrel_bound, 0.0, 1.0, 1, (distortion._fold_of_barrel,)),
     "fold_radius, both coefficients": Piece(counted.fold_bound, 0.0, 1.0, 1, FOLD),
-    "logarithm.log_pair": Piece(counted.log_bound, 0.0, 0.1716, 200, LOGARITHM),
     "inverse_radius, k1 >= 0, k2 = 0": Piece(counted.pincushion_bound, 0.0, 1.0, 1, CUBIC),
     "inverse_radius, k1 < 0, k2 = 0 (log2 of slope)": Piece(
         counted.barrel_inverse_bound, -60.0, 0.0, 60, BARREL, quintic._STEPS
-    ),
-    "poisson.pmf by factorials": Piece(counted.pmf_short_bound, 0.0, 1.0, 1, PROBABILITY),
-    "poisson.pmf by the saddle point": Piece(counted.pmf_long_bound, 0.0, 1.0, 1, PROBABILITY),
-    "poisson.lower by sums": Piece(counted.summed_bound, 0.0, 60.0, 60, SUMS, counted.most_terms()),
-    "poisson.lower by Temme's expansion (root of twice the excess)": Piece(
-        uniform.lower_bound, 0.0, 37.6, 4000, UNIFORM
     ),
     "inverse_radius, k2 (log2 of slope)": Piece(
         counted.quintic_inverse_bound, -40.0, 0.0, 40, ROOT, 2 * quintic._STEPS

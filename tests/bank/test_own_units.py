@@ -121,9 +121,9 @@ def test_a_bank_that_is_not_trusted_draws_nothing(tmp_path):
 
 
 def test_python_of_a_figure_that_fails_is_located(tmp_path):
-    figure = FILES["templates/figures/block.py"].replace("pen.onto(canvas)", "pen.unto(canvas)")
+    figure = FILES["templates/figures/block.py"].replace("sketch.arrow", "sketch.narrow")
     bank = Bank(write(tmp_path, {"templates/figures/block.py": figure}), trusted=True)
-    with pytest.raises(BankError, match=r"block\.py:16: AttributeError: .*unto"):
+    with pytest.raises(BankError, match=r"block\.py:11: AttributeError: .*narrow"):
         compose(bank.template("push"))
 
 

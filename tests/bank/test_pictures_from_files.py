@@ -194,7 +194,7 @@ def test_a_changed_picture_is_another_template(folder):
         ("![words](/etc/passwd.png)", "picture '/etc/passwd.png': not the name of a file beside"),
         ("![words](https://a.b/c.png)", "picture 'https://a.b/c.png': not the name of a file"),
         ("![words](box.gif)", "picture 'box.gif': not the name of a file beside the words that"),
-        ("![words](my box.png)", "a picture is written ![words](file.png), without blanks"),
+        ("![words](my box.png)", "a picture is not like ![words](file.png), without blanks"),
     ],
 )
 def test_a_picture_that_cannot_be_shown_is_named(folder, line, what):

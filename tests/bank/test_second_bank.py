@@ -108,8 +108,8 @@ def test_the_topics_of_the_built_in_bank_are_those_of_its_templates():
 
 SUBJECT = {"arrays", "camera", "tradeoff"}
 """What pictures are made with: an effect or a formula may be called as a topic or a figure is."""
-OTHERWISE = {"code", "camera", "colour"}
-"""An answer kind, a command's word, and a spelling."""
+OTHERWISE = {"code", "camera", "colour", "image", "projection"}
+"""An answer kind, a command's word, a spelling, an element of SVG, and a parameter of matplotlib."""
 
 
 def test_the_engine_names_no_topic_and_no_title():

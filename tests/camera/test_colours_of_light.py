@@ -9,12 +9,10 @@ import numpy as np
 import pytest
 from scipy import constants, ndimage
 
-from quizgen.camera import Camera, Scene, SceneError, View
-from quizgen.camera.decision import Plan, Step
-from quizgen.camera.draw import Layer
+from quizgen.camera import Camera, Prepared, Scene, SceneError, View
 from quizgen.camera.effects import axial_colour, colour_filters
-from quizgen.camera.kernels import change, change_between, disc
-from quizgen.camera.plan import Prepared, everything, plan
+from quizgen.camera.kernels import disc, moved_share
+from quizgen.camera.raster.draw import Layer
 from quizgen.camera.reading import load
 from quizgen.camera.simulate import run
 
@@ -28,7 +26,7 @@ def scene(depth, size=(60, 70), seed=1):
 
 def photo(what, **settings):
     prepared = Prepared(what, Camera(**settings))
-    return run(prepared, everything(prepared)).values
+    return run(prepared).values
 
 
 # Axial colour
@@ -80,10 +78,7 @@ def test_without_it_or_left_out_all_colours_are_blurred_as_green_is():
     what = scene(5.0)
     plain = photo(what, **LENS)
     prepared = Prepared(what, Camera(**LENS, axial_colour=1e-4))
-    steps = (Step("defocus", "", "", 0, 0),)
-    assert np.array_equal(run(prepared, Plan(steps, (), (), 0, 0, 0)).values, plain)
-    small = Prepared(what, Camera(**LENS, axial_colour=1e-8))
-    assert [item.effect for item in plan(small).skipped] == ["axial colour"]
+    assert np.array_equal(run(prepared, ["defocus"]).values, plain)
 
 
 def test_a_map_of_one_depth_is_as_that_depth():
@@ -107,19 +102,13 @@ def test_covers_part_with_the_colours():
     assert not np.array_equal(made.cover[..., 0], made.cover[..., 2])
 
 
-def test_the_bound_of_two_discs_is_that_of_one_beside_a_point():
-    steps = (0.2, 0.3), (0.1, 0.5)
-    assert change_between(disc(7.3), disc(0.0), *steps, 1.0) == pytest.approx(
-        change(disc(7.3), *steps, 1.0), rel=1e-9
-    )
-    assert change_between(disc(7.3), disc(7.3), *steps, 1.0) == 0.0
-
-
-def test_an_edge_comes_near_the_bound_of_two_discs():
+def test_an_edge_is_moved_by_no_more_than_the_light_is():
+    assert moved_share(disc(7.3), disc(7.3)) == 0.0
     edge = np.where(np.arange(80)[None, :] < 40, 0.0, 1.0) * np.ones((40, 1))
-    one, other = (ndimage.convolve(edge, disc(size), mode="nearest") for size in (9.0, 12.0))
-    bound = change_between(disc(9.0), disc(12.0), (1.0, 0.0), (1.0, 0.0), 1.0)
-    assert 0.1 * bound < np.abs(one - other).max() <= bound
+    for sizes in ((9.0, 12.0), (0.0, 3.0)):
+        one, other = (ndimage.convolve(edge, disc(size), mode="nearest") for size in sizes)
+        bound = moved_share(*map(disc, sizes))
+        assert 0.1 * bound < np.abs(one - other).max() <= bound <= 1.0
 
 
 def test_a_point_has_no_focus(tmp_path):
@@ -200,13 +189,6 @@ def test_every_pixel_is_mixed_by_the_table():
     what = scene(math.inf)
     made = photo(what, light=3200.0, infrared_filter=False)
     assert made == pytest.approx(what.image @ reference(3200.0, filtered=False).T, rel=4e-3)
-
-
-def test_the_rung_keeps_white_and_its_bound():
-    what = scene(math.inf)
-    prepared = Prepared(what, Camera(light=5500.0))
-    rough = run(prepared, Plan((Step("colour filters", "gains", "", 0, 0),), (), (), 0, 0, 0))
-    assert rough.values == pytest.approx(what.image, abs=1e-6)  # rows sum to 1
 
 
 def test_a_filter_without_a_light_is_told():

@@ -1,4 +1,4 @@
-"""The shipped scenes give stored pictures, plans and messages, whatever is rebuilt below them.
+"""The shipped scenes give stored pictures and messages, whatever is rebuilt below them.
 
 ``python tests/camera/test_digests.py`` writes the digests anew.
 """
@@ -11,17 +11,15 @@ from pathlib import Path
 
 import pytest
 
-from quizgen.camera import SceneError
+from quizgen.camera import Prepared, SceneError, plan_budget
 from quizgen.camera.effects import EFFECTS
 from quizgen.camera.filters import everywhere_alike
-from quizgen.camera.plan import Prepared, everything, plan
 from quizgen.camera.reading import load
 from quizgen.camera.simulate import run
 
 STORED = Path(__file__).with_name("digests.txt")
 SCENES = Path(__file__).parents[2] / "quizgen" / "camera" / "scenes"
 NAMES = sorted(path.stem for path in SCENES.glob("*.toml"))
-WAYS = {"same": 0.5, "visible": 2.0, "sketch": 8.0}
 
 BAD = (
     '[camera]\nfocal_lenght = "50 mm"',
@@ -70,35 +68,19 @@ BAD = (
     "[camra]\nk1 = 0",
     "[scene]\nwidth = 0",
     '[scene]\nquestion = ["colour"]',
+    '[question]\nasks = "colour"',
+    "[question]\nreads = { corner = 3 }",
+    '[question]\nasks = "gamma"\nreads = { corner = -3 }',
+    '[question]\nasks = "gamma"\nreads = { edge = 3 }',
     '[[thing]]\nshape = "disc"',
 )
 
 
-def plan_table(prepared: Prepared, budget: float) -> list[str]:
-    made = plan(prepared, budget=budget)
-    ran = [
-        f"{s.effect}|{s.rung}|{s.reason}|{s.bound_dn:.6g}|{s.predicted_ms:.4g}" for s in made.steps
-    ]
-    left = [f"{s.effect}|skip|{s.reason}|{s.bound_dn:.6g}|{s.saved_ms:.4g}" for s in made.skipped]
-    return [f"{made.predicted_error_dn:.6g}", *ran, *left]
-
-
-def picture_digest(prepared: Prepared, budget: float | None) -> str:
-    what = everything(prepared) if budget is None else plan(prepared, budget=budget)
-    return hashlib.sha256(run(prepared, what).pixels().tobytes()).hexdigest()
-
-
-def scene_digests(name: str) -> list[str]:
-    """One line per plan and picture of a scene, computed without OpenCV."""
+def picture_digest(name: str) -> str:
+    """One line per scene: its picture with every effect, computed without OpenCV."""
     with everywhere_alike():
-        prepared = Prepared(*load(SCENES / f"{name}.toml"))
-        tables = [
-            f"{name} {way} {line}" for way in WAYS for line in plan_table(prepared, WAYS[way])
-        ]
-        drawn = [
-            f"{name} {way} {picture_digest(prepared, WAYS[way])}" for way in ("same", "sketch")
-        ]
-        return [*tables, *drawn, f"{name} everything {picture_digest(prepared, None)}"]
+        photo = run(Prepared(*load(SCENES / f"{name}.toml")))
+    return f"{name} everything {hashlib.sha256(photo.pixels().tobytes()).hexdigest()}"
 
 
 def bad_file_messages() -> list[str]:
@@ -118,14 +100,14 @@ def stored(kind: str) -> list[str]:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_pictures_and_plans_are_the_stored_ones(name):
-    assert scene_digests(name) == stored(name)
+def test_pictures_are_the_stored_ones(name):
+    assert [picture_digest(name)] == stored(name)
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_every_effect_runs_is_left_out_or_is_absent(name):
-    made = plan(Prepared(*load(SCENES / f"{name}.toml")))
-    told = [*(step.effect for step in (*made.steps, *made.skipped)), *made.absent]
+    made = plan_budget(Prepared(*load(SCENES / f"{name}.toml")))
+    told = [*(choice.effect for choice in (*made.steps, *made.left_out)), *made.absent]
     assert sorted(told) == sorted(effect.name for effect in EFFECTS)
 
 
@@ -134,5 +116,5 @@ def test_messages_are_the_stored_ones():
 
 
 if __name__ == "__main__":
-    lines = [line for name in NAMES for line in scene_digests(name)] + bad_file_messages()
+    lines = [picture_digest(name) for name in NAMES] + bad_file_messages()
     STORED.write_text("".join(f"{line}\n" for line in lines), "utf-8")

@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
-from quizgen.camera import Camera, Length, Scene, Thing, View, cells
-from quizgen.camera import draw as drawing
-from quizgen.camera.draw import draw
+from quizgen.camera import Camera, Length, Scene, Thing, View
+from quizgen.camera.raster import cells
+from quizgen.camera.raster import draw as drawing
+from quizgen.camera.raster.draw import draw
 
 CORNERS = ((-9.0, -6.0), (8.0, -3.0), (3.0, 7.0))
 

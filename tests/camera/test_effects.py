@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 from quizgen.camera import Camera, Scene, View, effects
-from quizgen.camera.body import BODY
-from quizgen.camera.draw import Layer, Motion
 from quizgen.camera.effects import EFFECTS, distortion, motion_blur
-from quizgen.camera.facts import Facts, LayerFacts
+from quizgen.camera.raster.draw import Layer, Motion
+from quizgen.camera.setup.body import BODY
 
 NAMES = [effect.name for effect in EFFECTS]
 
@@ -23,7 +22,10 @@ def test_an_effect_is_called_as_its_module(effect):
 
 
 def test_every_module_stands_in_the_table_once():
-    modules = {path.stem for path in Path(effects.__file__).parent.glob("*.py")} - {"__init__"}
+    modules = {path.stem for path in Path(effects.__file__).parent.glob("*.py")} - {
+        "__init__",
+        "effect",
+    }
     assert sorted(modules) == sorted(name.replace(" ", "_") for name in NAMES)
 
 
@@ -51,26 +53,12 @@ def test_a_camera_is_its_values():
     assert plain[distortion.K1] == 0.0
 
 
-@pytest.mark.parametrize("place", range(5))
-def test_the_nearest_pixel_is_up_to_half_a_pixel_off_and_no_more(place):
-    """On a ramp of one grey level per pixel along both axes, found by sampling every 1/100 px."""
-    bound = distortion.nearest(
-        Facts(0.0, 99.0, (LayerFacts((1.0, 1.0), (0.0, 0.0)),)), View(Scene(), Camera())
-    ).sure
-    offsets = np.linspace(-0.5, 0.4999, 101)
-    rows, columns = np.meshgrid(offsets + 3 + place, offsets + 5 + place)
-    away = np.abs((rows + columns) - (np.floor(rows + 0.5) + np.floor(columns + 0.5)))
-    assert away.max() == pytest.approx(1.0, abs=1e-9)
-    assert away.max() <= bound <= 1.0 + 2e-4
-
-
 def test_a_turning_layer_is_sampled_once_per_pixel_at_its_rim():
     """2 rad in the exposure at a rim of 30 px: 60 px, 60 positions; longer paths stop at 64."""
     shutter = 0.1
     assert motion_blur.turns(Motion(spin=20.0, reach=30.0), shutter) == 60
     assert motion_blur.turns(Motion(spin=-200.0, reach=30.0), shutter) == 64
-    assert motion_blur.turns(Motion(spin=20.0, reach=30.0), shutter, "half") == 30
-    assert motion_blur.turns(Motion(spin=1e-6, reach=30.0), shutter, "half") == 1
+    assert motion_blur.turns(Motion(spin=1e-6, reach=30.0), shutter) == 1
 
 
 def test_a_turning_spot_becomes_an_arc_without_gaps():
@@ -82,7 +70,7 @@ def test_a_turning_spot_becomes_an_arc_without_gaps():
         image, image[..., :1], motion=Motion(spin=angle / 0.1, pivot=(40.0, 40.0), reach=27.0)
     )
     view = View(Scene(size, size), Camera(shutter=0.1))
-    (blurred,) = motion_blur.EFFECT.run((layer,), view, "")
+    (blurred,) = motion_blur.EFFECT.run((layer,), view)
     along = np.linspace(-angle / 2 + 0.1, angle / 2 - 0.1, 200)
     near = [
         blurred.colour[
@@ -95,10 +83,28 @@ def test_a_turning_spot_becomes_an_arc_without_gaps():
     assert min(near) > 0.4 * float(np.mean(near))
 
 
-def test_the_time_of_every_effect_can_be_measured(monkeypatch):
-    """What ``benchmarks/camera.py --calibrate`` prints for the table of costs."""
-    monkeypatch.syspath_prepend(str(Path(__file__).parents[2] / "benchmarks"))
-    times = import_module("camera").primitives((48, 32), 1)
-    drawn = {effect.name for effect in EFFECTS if effect.stage in ("scene", "optics")}
-    assert set(NAMES) - drawn <= set(times) | {"vignetting"}
-    assert min(times.values()) > 0
+@pytest.mark.parametrize("effect", EFFECTS, ids=NAMES)
+def test_an_effect_says_what_it_does_with_the_verb_first(effect):
+    if effect.size is not None:
+        assert effect.size.says.split()[0] in VERBS
+        assert "{" in effect.size.says
+
+
+VERBS = {
+    "add",
+    "amplify",
+    "blur",
+    "brighten",
+    "darken",
+    "leave",
+    "make",
+    "move",
+    "smear",
+    "spread",
+    "turn",
+}
+
+
+def test_what_an_effect_needs_is_an_effect():
+    for effect in EFFECTS:
+        assert set(effect.needs_effects) <= set(NAMES)

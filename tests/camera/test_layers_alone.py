@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from quizgen.camera import Camera, Length, Scene, Thing, View, layers
-from quizgen.camera.draw import Layer, composite, draw
+from quizgen.camera import Camera, Length, Prepared, Scene, Thing, View
 from quizgen.camera.kernels import disc
-from quizgen.camera.margins import cropped
-from quizgen.camera.plan import Prepared, everything
+from quizgen.camera.raster import layers
+from quizgen.camera.raster.draw import Layer, composite, draw
+from quizgen.camera.raster.layers import cropped
 from quizgen.camera.simulate import run
 
 CAMERA = Camera(
@@ -34,17 +34,17 @@ def one_after_another(prepared):
     """Every effect on the whole stack."""
     stack = prepared.stack
     for effect, view in zip(prepared.present, prepared.views, strict=True):
-        stack = effect.run(tuple(cropped(layer, view) for layer in stack), view, "")
+        stack = effect.run(tuple(cropped(layer, view) for layer in stack), view)
     return composite(tuple(cropped(layer, prepared.view) for layer in stack))
 
 
 def test_a_layer_at_a_time_is_the_whole_stack_at_once():
     prepared = Prepared(scene(), CAMERA)
-    expected, what = one_after_another(prepared), everything(prepared)
+    expected = one_after_another(prepared)
     drawn = [layer.colour.copy() for layer in prepared.stack]
-    assert np.array_equal(run(prepared, what).values, expected)
+    assert np.array_equal(run(prepared).values, expected)
     assert all(map(np.array_equal, drawn, (layer.colour for layer in prepared.stack)))
-    assert np.array_equal(run(prepared, what, last=True).values, expected)
+    assert np.array_equal(run(prepared, last=True).values, expected)
     assert "stack" not in vars(prepared)
 
 
@@ -52,9 +52,7 @@ def test_what_stands_behind_a_wall_is_not_drawn():
     behind = Thing("disc", radius=px(50), depth=13.0)
     hidden, seen = (Prepared(scene(*more), CAMERA) for more in ((behind,), ()))
     assert len(hidden.stack) == len(seen.stack) == 3
-    assert np.array_equal(
-        run(hidden, everything(hidden)).values, run(seen, everything(seen)).values
-    )
+    assert np.array_equal(run(hidden).values, run(seen).values)
 
 
 def test_a_wall_that_moves_does_not_hide_what_comes_after():

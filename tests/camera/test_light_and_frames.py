@@ -7,10 +7,9 @@ import pytest
 from scipy import special
 from skimage.measure import block_reduce
 
-from quizgen.camera import Camera, Length, Scene, SceneError, Thing, View
+from quizgen.camera import Camera, Length, Prepared, Scene, SceneError, Thing, View
 from quizgen.camera.effects import binning, diffraction, exposure
 from quizgen.camera.kernels import airy
-from quizgen.camera.plan import Prepared, everything
 from quizgen.camera.simulate import run
 
 LENS = {"focal_length": 0.05, "pixel_pitch": 5e-6}
@@ -21,7 +20,7 @@ def photo(image, **camera):
     height, width = image.shape[:2]
     scene = Scene(width, height, image=image.astype(np.float32), seed=3)
     prepared = Prepared(scene, Camera(**camera))
-    return run(prepared, everything(prepared)).values
+    return run(prepared).values
 
 
 def even(level, side=64):

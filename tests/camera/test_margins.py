@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from quizgen.camera import Camera, Length, Scene, Thing, View
-from quizgen.camera.margins import moved_together
-from quizgen.camera.plan import Prepared, everything
+from quizgen.camera import Camera, Length, Prepared, Scene, Thing, View
+from quizgen.camera.raster.layers import moved_together
 from quizgen.camera.simulate import run, simulate_everything
 
 WIDTH, HEIGHT, BESIDE = 120, 90, 60
@@ -127,8 +126,8 @@ def test_an_image_has_no_outside():
 def test_what_is_left_out_leaves_the_frame():
     """However many effects a plan skips, the picture is as large as it should be."""
     prepared = Prepared(Scene(WIDTH, HEIGHT, (wall(),)), CAMERAS["barrel"])
-    whole = run(prepared, everything(prepared))
-    bare = run(prepared, everything(Prepared(prepared.given.scene, CAMERA)))
+    whole = run(prepared)
+    bare = run(prepared, [one.name for one in Prepared(prepared.given.scene, CAMERA).present])
     assert whole.values.shape == bare.values.shape == (HEIGHT, WIDTH, 3)
     assert np.array_equal(bare.values, taken(CAMERA, wall()))
 
@@ -147,5 +146,5 @@ def test_rows_moved_together_are_the_middle():
 def test_what_was_drawn_is_not_written_over():
     """Layers that are photographed twice keep what they show."""
     prepared = Prepared(Scene(WIDTH, HEIGHT, (wall(depth=5.0),)), CAMERAS["shear"])
-    first, again = (run(prepared, everything(prepared)).values for _ in range(2))
+    first, again = (run(prepared).values for _ in range(2))
     assert np.array_equal(first, again)

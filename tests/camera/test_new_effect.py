@@ -6,38 +6,34 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from quizgen.camera import Camera, Scene, SceneError, effects
-from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, Rung, on_picture
-from quizgen.camera.facts import Error
-from quizgen.camera.plan import Prepared, everything, plan
-from quizgen.camera.settings import SHARE, Setting
+from quizgen.camera import Camera, Prepared, Scene, SceneError, effects
+from quizgen.camera.effects.effect import Effect, Size, on_picture
+from quizgen.camera.question import InvisibleEffectError
+from quizgen.camera.setup.settings import SHARE, Setting
+from quizgen.camera.setup.values import quantity
 from quizgen.camera.simulate import run
-from quizgen.camera.values import quantity
+from quizgen.camera.view import Signal
 from quizgen.cli.simulate import simulate
 
 HAZE = Setting("haze", quantity("%"), 0.0, (SHARE,))
 
 
-def hazy(image, view, rung=""):
+def hazy(image, view):
     share = np.float32(view.camera[HAZE])
-    light = np.float32(0.9 if rung == "dim" else 1.0)
-    return image * (1 - share) + share * light
+    return image * (1 - share) + share
 
 
 EFFECT = Effect(
     name="haze",
     stage="sensor",
-    decides=("haze",),
+    answers=("haze",),
     settings=(HAZE,),
-    present=lambda view: view.camera[HAZE] > 0.0,
+    is_present=lambda view: view.camera[HAZE] > 0.0,
     run=on_picture(hazy),
-    cost=measured((1.0, 40), dim=(0.5, 20)),
-    skipped=lambda facts, view: Error(
-        view.camera[HAZE] * max(abs(1 - facts.low), abs(1 - facts.high))
-    ),
-    carried=lambda error, _, view: error.times(1 - view.camera[HAZE]),
-    rungs=(Rung("dim", lambda _, view: Error(0.1 * view.camera[HAZE])),),
+    omission_bound=lambda signal, view: view.camera[HAZE] * signal.outside(1.0, 1.0),
+    carry_error=lambda error, _, view: error * (1 - view.camera[HAZE]),
+    range_after=lambda signal, _: Signal(min(signal.low, 1.0), max(signal.high, 1.0)),
+    size=Size(lambda view: 100.0 * view.camera[HAZE], "lay {:.3g} % of white over everything", 1.0),
 )
 
 
@@ -68,37 +64,35 @@ def report(path, *options):
 
 
 def test_it_is_read_planned_run_and_reported(tmp_path):
-    made = report(scene_file(tmp_path, "20 %"), "--all")
+    made = report(scene_file(tmp_path, "20 %"), "--everything")
     assert made["ran"] == ["haze", "exposure"]
-    assert made["difference_dn"] == 0.0
+    assert made["everything"]["difference_dn"] == 0.0
     assert "haze" in report(scene_file(tmp_path, "0 %"))["absent"]
 
 
-def test_it_is_skipped_with_its_bound(tmp_path):
+def test_it_is_left_out_with_its_bound(tmp_path):
     """0.1 % of the way from 0.25 to 1, doubled by the exposure: 0.3825 grey levels."""
-    made = report(scene_file(tmp_path, "0.1 %"), "--all")
-    (left,) = made["skipped"]
+    made = report(scene_file(tmp_path, "0.1 %"), "--everything")
+    (left,) = made["left_out"]
     assert left["effect"] == "haze"
+    assert left["does"] == "lay 0.1 % of white over everything"
     assert left["bound_dn"] == pytest.approx(0.3825, abs=2e-3)
-    assert made["difference_dn"] == pytest.approx(0.3825, abs=1e-3)
-    assert made["difference_dn"] <= made["predicted_error_dn"]
+    assert made["everything"]["difference_dn"] == pytest.approx(0.3825, abs=1e-3)
+    assert made["everything"]["difference_dn"] <= made["bound_dn"]
 
 
-def test_it_runs_on_its_rung_and_is_kept_when_asked_about(tmp_path):
-    assert report(scene_file(tmp_path, "4 %"), "--budget", "visible", "--all")["rungs"] == {}
-    made = report(scene_file(tmp_path, "1 %"), "--budget", "visible", "--all")
-    assert made["rungs"] == {"haze": "dim"}
-    assert made["difference_dn"] <= made["predicted_error_dn"] <= 2.0
-    asked = report(scene_file(tmp_path, "0.1 %", 'question = ["haze"]'))
-    assert "haze" in asked["ran"]
-    assert asked["rungs"] == {}
+def test_it_runs_when_it_is_asked_and_is_measured_to_be_seen(tmp_path):
+    asked = scene_file(tmp_path, "10 %", '[question]\nasks = "haze"')
+    made = report(asked)
+    assert made["asked"] == ["haze"]
+    assert made["seen"][0]["explanation"].startswith("lays 10 % of white over everything; changes")
+    with pytest.raises(InvisibleEffectError, match=r"haze cannot be seen: lays 0\.1 % of white"):
+        report(scene_file(tmp_path, "0.1 %", '[question]\nasks = "haze"'))
 
 
 def test_its_picture_is_its_own():
     prepared = Prepared(Scene(8, 6, background=(0.25, 0.5, 1.0)), Camera(haze=0.2))
-    photo = run(prepared, everything(prepared))
-    assert photo.values[0, 0] == pytest.approx([0.4, 0.6, 1.0])
-    assert [step.effect for step in plan(prepared, budget=60.0).steps] == []
+    assert run(prepared).values[0, 0] == pytest.approx([0.4, 0.6, 1.0])
 
 
 def test_its_values_are_checked(tmp_path):
@@ -116,11 +110,11 @@ def test_its_values_are_checked(tmp_path):
         Camera(hase=0.1)
 
 
-@pytest.mark.parametrize("name", ["name", "stage", "present", "run", "cost"])
+@pytest.mark.parametrize("name", ["name", "stage", "answers", "is_present", "run"])
 def test_what_an_effect_must_have(name):
     fields = {
         key: getattr(EFFECT, key)
-        for key in ("name", "stage", "decides", "present", "run", "cost")
+        for key in ("name", "stage", "answers", "is_present", "run")
         if key != name
     }
     with pytest.raises(TypeError, match=name):

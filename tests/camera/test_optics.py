@@ -9,12 +9,12 @@ import pytest
 from scipy import ndimage
 from scipy.integrate import quad
 
-from quizgen.camera import Camera, Length, Scene, SceneError, Thing, View, focus, simulate
-from quizgen.camera.draw import Layer, Motion, composite
+from quizgen.camera import Camera, Length, Prepared, Scene, SceneError, Thing, View, simulate
 from quizgen.camera.effects import defocus, distortion, lateral_colour, rolling_shutter, vignetting
-from quizgen.camera.filters import convolve
+from quizgen.camera.filters import convolve, sample_nearest
 from quizgen.camera.kernels import disc, line
-from quizgen.camera.plan import Prepared, everything
+from quizgen.camera.raster import focus
+from quizgen.camera.raster.draw import Layer, Motion, composite
 from quizgen.camera.simulate import run
 
 
@@ -105,7 +105,7 @@ def test_the_front_does_not_leak_into_a_blurred_background():
     depth = np.where(edge()[..., 0] > 0, 2.0, 40.0).astype(np.float32)
     scene = Scene(80, 8, image=image, depth=depth)
     prepared = Prepared(scene, Camera(0.05, 2e-5, 4.0, 2.0))
-    picture = run(prepared, everything(prepared)).values
+    picture = run(prepared).values
     assert picture[:, :40].min() > 0.999
     assert picture[:, 40:].max() < 1e-6
 
@@ -118,7 +118,8 @@ def test_slices_of_a_depth_map_leave_no_seams():
     depth[200:320, 20:35] = 1.2
     camera = Camera(0.05, 1e-5, 4.0, 2.0)
     view = View(Scene(60, 500, image=image, depth=depth, precision="float64"), camera)
-    middles = focus.map_slices(view)
+    blur = view.blur_diameter(depth)
+    middles = focus.slices((float(blur.min()), float(blur.max())))
     slices = np.rint((view.blur_diameter(depth) - middles[0]) / (middles[1] - middles[0]))
     expected = image.copy()
     for number in range(len(middles) - 1, -1, -1):
@@ -139,9 +140,9 @@ def test_a_depth_map_is_bent_with_its_picture():
     depth = np.random.default_rng(2).random((150, 201)).astype(np.float32) + 1.0
     image = np.repeat(depth[..., None], 3, axis=2)
     view = View(Scene(201, 150, image=image, depth=depth), Camera(0.05, 0.05 / 220, k1=-0.2))
-    bent = distortion.work(Layer(image, depth=depth), view, "nearest")
+    bent = distortion.work(Layer(image, depth=depth), view)
     assert np.abs(bent.depth - depth).max() > 0.5
-    assert np.array_equal(bent.depth, bent.colour[..., 0])
+    assert np.array_equal(bent.depth, sample_nearest(depth, *distortion.source(view)))
 
 
 @pytest.mark.parametrize(("k1", "k2"), [(-0.2, 0.0), (0.3, 0.0), (-0.25, 0.1), (0.1, 0.4)])
@@ -210,7 +211,7 @@ def test_rolling_shutter_tilts_an_upright_edge():
         "box", width=Length(10.0), height=Length(80.0), velocity=(Length(500.0), Length(0.0))
     )
     prepared = Prepared(Scene(120, 60, (thing,)), Camera(row_time=1e-3))
-    picture = run(prepared, everything(prepared)).values[..., 0]
+    picture = run(prepared).values[..., 0]
     centres = (picture * np.arange(120)).sum(axis=1) / picture.sum(axis=1)
     assert np.diff(centres) == pytest.approx(0.5, abs=1e-3)
 

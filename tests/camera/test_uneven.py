@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
-from quizgen.camera import Camera, Length, Scene, Thing, layers, uneven
-from quizgen.camera.draw import Layer, composite
+from quizgen.camera import Camera, Length, Prepared, Scene, Thing
 from quizgen.camera.effects import by_name
 from quizgen.camera.kernels import disc, line
-from quizgen.camera.plan import Prepared, everything
+from quizgen.camera.raster import layers, uneven
+from quizgen.camera.raster.draw import Layer, composite
+from quizgen.camera.raster.uneven import blurred_places, places
 from quizgen.camera.simulate import run
-from quizgen.camera.uneven import blurred_places, places
 
 EFFECTS = (
     "distortion",
@@ -100,9 +100,9 @@ def test_what_is_left_alone_would_not_have_changed(effect, square, monkeypatch):
     view = dict(zip((one.name for one in prepared.present), prepared.views, strict=True))[effect]
     view = replace(view, margin=prepared.views[0].margin)
     monkeypatch.setattr(uneven, "SQUARE", 4096)
-    whole = by_name(effect).run(prepared.stack, view, "")
+    whole = by_name(effect).run(prepared.stack, view)
     monkeypatch.setattr(uneven, "SQUARE", square)
-    parts = by_name(effect).run(prepared.stack, view, "")
+    parts = by_name(effect).run(prepared.stack, view)
     for one, other in zip(parts, whole, strict=True):
         assert np.abs(one.colour - other.colour).max() < 1e-5
         if one.cover is not None:
@@ -116,7 +116,7 @@ def test_what_nobody_else_needs_is_written_over(effect, monkeypatch):
     prepared = Prepared(scene(), CAMERA)
     view = prepared.views[0]
     kept = [layer.colour.copy() for layer in prepared.stack]
-    expected = by_name(effect).run(prepared.stack, view, "")
+    expected = by_name(effect).run(prepared.stack, view)
     assert all(map(np.array_equal, kept, (layer.colour for layer in prepared.stack)))
     copies = tuple(
         replace(
@@ -127,7 +127,7 @@ def test_what_nobody_else_needs_is_written_over(effect, monkeypatch):
         )
         for one in prepared.stack
     )
-    for one, other in zip(by_name(effect).run(copies, view, ""), expected, strict=True):
+    for one, other in zip(by_name(effect).run(copies, view), expected, strict=True):
         assert np.array_equal(one.colour, other.colour)
         assert one.cover is None or np.array_equal(one.cover, other.cover)
 
@@ -158,30 +158,12 @@ def test_a_sky_of_stars_is_looked_at_as_a_whole():
     assert len(blurred_places(Layer(colour), disc(9.0)).boxes) == 6
 
 
-def test_a_photograph_says_on_how_much_of_its_layers_an_effect_has_worked():
-    """Nowhere on an even wall, everywhere on stripes, and on a lamp and 2 px beside it."""
-    camera = Camera(0.05, 1e-4, shutter=0.01, velocity=(300.0, 0.0))
-    even = Thing("full", depth=5.0, velocity=(px(1), px(0)))
-    striped = Thing("full", texture="stripes", cell=px(9), depth=6.0, velocity=(px(0), px(1)))
-    lamp = Thing("disc", radius=px(50), depth=4.0)
-    for things, share in (((even,), 0.0), ((striped,), 1.0)):
-        assert taken(camera, *things).share("motion blur") == share
-    moved = taken(camera, even, lamp)
-    assert moved.share("motion blur") == pytest.approx(104 * 101 / (2 * 400 * 300), rel=0.03)
-    assert taken(camera.but(gamma="srgb"), even).share("gamma") == 1.0
-
-
-def taken(camera, *things):
-    prepared = Prepared(Scene(400, 300, things), camera)
-    return run(prepared, everything(prepared))
-
-
 def test_a_run_leaves_the_drawn_layers_alone():
     prepared = Prepared(scene(), CAMERA)
-    kept, what = [layer.colour.copy() for layer in prepared.stack], everything(prepared)
-    first = run(prepared, what).values
+    kept = [layer.colour.copy() for layer in prepared.stack]
+    first = run(prepared).values
     assert all(map(np.array_equal, kept, (layer.colour for layer in prepared.stack)))
-    assert np.array_equal(run(prepared, what, last=True).values, first)
+    assert np.array_equal(run(prepared, last=True).values, first)
 
 
 def test_a_turning_thing_at_the_border_comes_in_from_outside():

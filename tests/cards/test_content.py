@@ -309,6 +309,8 @@ def test_every_figure_card_draws_and_hides_its_answer():
 
     for entry in entries("figures"):
         figure = BANK.figure(entry.figure)
-        quiz, full = (draw_figure(figure, entry.values, quiz=quiz, lang="en") for quiz in (True, False))
+        quiz, full = (
+            draw_figure(figure, entry.values, quiz=quiz, lang="en") for quiz in (True, False)
+        )
         assert quiz.inline_svg
         assert quiz.alt != full.alt

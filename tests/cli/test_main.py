@@ -35,7 +35,7 @@ PLACES = [
     ("quizgen.audit.lint", "module.lint_template", ["lint", "--only", "rgb-to-hsv"]),
     ("quizgen.bank.folder", "module.Bank.template", ["preview", "rgb-to-hsv"]),
     ("quizgen.audit.doctor", "module.checks", ["doctor"]),
-    ("quizgen.tradeoff.report", "module.measure", ["tradeoff", "thin-lens"]),
+    ("quizgen.tradeoff.report", "module.measure", ["tradeoff"]),
     ("quizgen.camera.reading", "module.load", ["simulate", "flat"]),
     ("quizgen.paper.key", "module.read_key", ["check", "key.json", "answers.toml"]),
     ("quizgen.cards", "module.build", ["cards"]),

@@ -36,7 +36,8 @@ def loaded(place, command, typed=""):
 
 def test_no_command_from_making_a_paper_to_marking_it_loads_sympy(place):
     made = loaded(place, "exam --blueprint trial --seed 3 --out paper")
-    assert not {"sympy", "matplotlib", "markdown_it", "importlib.metadata"} & made
+    assert not {"sympy", "markdown_it", "matplotlib.pyplot"} & made
+    assert "matplotlib" in made  # it draws the figures
     assert not {"quizgen.question.levels.guided", "quizgen.question.levels.transfer"} & made
     checked = loaded(place, "check paper/key.json paper/answers.toml")
     assert not ({"sympy", "typst", "markdown_it"} | DRAWING) & checked
@@ -47,7 +48,6 @@ def test_no_command_from_making_a_paper_to_marking_it_loads_sympy(place):
 @pytest.mark.parametrize("command", [
     "practice --topic code --seed 3 --database sqlite:///learnt.sqlite3",
     "templates",
-    "sheet --topic eye --format html --out sheet",
 ])  # fmt: skip
 def test_who_draws_no_figure_loads_nothing_to_draw_with(place, command):
     assert not ({"sympy"} | DRAWING) & loaded(place, command, typed="5\n")
@@ -59,8 +59,16 @@ def test_who_draws_no_figure_loads_nothing_to_draw_with(place, command):
     "export gift --topic eye --variants 1 --out export",
     "lint --only point-to-image-plane --seeds 3",
 ])  # fmt: skip
-def test_no_command_loads_sympy_or_matplotlib(place, command):
-    assert not {"sympy", "matplotlib"} & loaded(place, command)
+def test_who_draws_figures_loads_matplotlib_and_nothing_of_its_windows(place, command):
+    found = loaded(place, command)
+    assert "matplotlib" in found
+    assert not {"sympy", "matplotlib.pyplot", "tkinter"} & found
+
+
+def test_a_formula_sheet_loads_what_its_sketches_are_drawn_with_but_no_sympy(place):
+    made = loaded(place, "sheet --topic eye --format html --out sheet")
+    assert "matplotlib" in made
+    assert not {"sympy", "matplotlib.pyplot", "typst"} & made
 
 
 def test_a_photograph_loads_what_its_effects_need(place):

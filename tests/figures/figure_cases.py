@@ -95,7 +95,7 @@ HIDDEN = {
     "reflectance_spectra": ["0.72", "0.15"],
     "gaussian_contours": ["0.6944", "0.01874"],
     "imaging_pipeline": ["demosaicing", "gamma"],
-    "bayer_counts": ["13", "9"],
+    "bayer_counts": ["12", "9"],
     "formula_sketch": [],
 }
 
@@ -203,12 +203,20 @@ def textbook_draws(rng: random.Random):
         yield "formula_sketch", {"formula": numbers[0]}
 
 
+def hue_draws():
+    """Edits of a picture's hues, in other orders and scenes."""
+    for order in range(0, 24, 2):
+        edits = {"a": 0.3 + 0.02 * order, "b": 0.1 + 0.03 * order, "delta": 30 + 12 * order}
+        yield "hsv_edits", {**edits, "order": order, "scene": order % 8}
+
+
 def draws():  # noqa: C901 - one loop a figure
     """Figure names and values all over the ranges of the curriculum (A3, C11-C14, D17a, S11, S14)."""
     rng = random.Random(20)
     yield from camera_draws()
     yield from curve_draws()
     yield from textbook_draws(rng)
+    yield from hue_draws()
     for _ in range(25):
         yield from (("pinhole", values) for values in _pinhole(rng))
     for _ in range(12):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import os
 import re
 import subprocess
 import sys
@@ -758,3 +759,32 @@ def test_the_list_of_fonts_is_the_one_that_matplotlib_reads():
     assert mpl.__version__.startswith("3.11."), changed("its version", "style.py")
     own = Path(mpl.get_data_path()).resolve()
     assert Path(font_manager.findfont("STIXGeneral")).resolve().is_relative_to(own)
+
+
+FONTS = """
+import sys
+if "plots" in sys.argv:  # the author has a STIX of the system
+    from matplotlib import font_manager as fonts
+    fonts.fontManager.ttflist.insert(0, fonts.FontEntry("/usr/share/fonts/other.ttf", "STIXGeneral"))
+from quizgen.figures import engine
+from matplotlib import font_manager
+print(font_manager.findfont("STIXGeneral"))
+"""
+
+
+@pytest.mark.parametrize("way", ["alone", "plots"])
+def test_letters_are_those_that_matplotlib_brings(tmp_path, way):
+    done = subprocess.run([sys.executable, "-c", FONTS, way], cwd=HERE.parents[1], check=True,
+                          env=os.environ | {"XDG_CACHE_HOME": str(tmp_path)},
+                          capture_output=True, text=True)  # fmt: skip
+    own = Path(mpl.get_data_path()).resolve()
+    assert Path(done.stdout.strip()).resolve().is_relative_to(own)
+    scanned = [*tmp_path.rglob("fontlist-*.json")]
+    assert bool(scanned) == (way == "plots")  # else a first process waits for the machine's fonts
+
+
+def test_pixels_stay_sharp_on_paper(tmp_path):
+    two = np.array([[0.0, 1.0]])
+    figure = plot(lambda ax: ax.imshow(two, aspect="auto", vmin=0, vmax=1), SQUARE)
+    left, right = (seen(figure, tmp_path, (at, 0.3)) for at in (0.4, 0.7))
+    assert (left, right) == ((0, 0, 0), (255, 255, 255))

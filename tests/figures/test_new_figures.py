@@ -136,6 +136,18 @@ def test_images_of_parallel_lines_meet_in_the_vanishing_point():
     assert np.allclose(ends, goal, atol=0.05)
 
 
+@pytest.mark.parametrize("name", ["pixel_grid", "vanishing_point"])
+def test_a_pixel_of_a_learner_is_ringed_where_it_lies(name):
+    drawn = read_parts(draw(name, REFERENCE[name], marks={"u": 200, "v": 100}))
+    assert place_in_frame(drawn, centre(drawn["learned"])) == pytest.approx((200, 100), abs=1)
+
+
+def test_a_pixel_far_outside_is_an_arrow_at_the_edge():
+    drawn = read_parts(draw("pixel_grid", REFERENCE["pixel_grid"], marks={"u": 99999}))
+    u, v = place_in_frame(drawn, drawn["learned"][0][0])
+    assert (u, v) == pytest.approx((640, 170), abs=1)
+
+
 # CCD ---------------------------------------------------------------------------------------
 
 
@@ -252,6 +264,16 @@ def test_the_counts_are_those_of_the_sites_that_are_drawn(phase, columns, rows):
         assert len(drawn[f"site-{letter}"]) == sites.count(letter)
         (line,) = [text for text in shown if text.startswith(f"{letter} =")]
         assert line.endswith(f" = {sites.count(letter)}")
+
+
+def test_a_tile_from_the_middle_of_a_sensor_counts_as_the_sensor_does():
+    values = {"size": 6, "left": 14, "top": 6, "x": 3, "y": 2, "channel": 1}
+    figure = draw("bayer", values)  # column 17 and row 8 of RGGB: green, in a row with red
+    assert "column 17, row 8 (G)" in figure.alt
+    assert "(16, 8), (18, 8)" in figure.alt
+    assert {"14", "19", "6", "11"} <= set(read_labels(figure))
+    with pytest.raises(BankError, match="left and top are not even"):
+        draw("bayer", {**values, "left": 13})
 
 
 # Formula sketches --------------------------------------------------------------------------

@@ -17,7 +17,8 @@ from quizgen.bank import plan as planning
 from quizgen.bank.entries import load as load_cards
 from quizgen.bank.entries import passages
 from quizgen.bank.folder import Bank, builtin
-from quizgen.camera.plan import Prepared, plan
+from quizgen.camera import Prepared, plan_budget
+from quizgen.camera.question import take_photographs
 from quizgen.camera.reading import load as load_scene
 from quizgen.camera.simulate import run as photograph
 from quizgen.cards.content import KINDS as CARDS
@@ -125,7 +126,9 @@ def scene(folder: Path, chance: Chance) -> None:
     given, camera = load_scene(file)
     if given.width * given.height <= SMALL:
         prepared = Prepared(given, camera)
-        photograph(prepared, plan(prepared))
+        photograph(prepared, plan_budget(prepared).names)
+        if given.question:
+            take_photographs(given, camera)
 
 
 @cache

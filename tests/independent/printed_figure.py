@@ -12,13 +12,12 @@ from numpy.typing import NDArray
 from PIL import Image
 
 Line = list[tuple[float, float]]
-HREF = "{http://www.w3.org/1999/xlink}href"
+HREF = "href"
 
 
 def lines(figure: Element, name: str) -> list[Line]:
     """The straight lines of a part of the drawing, with y upward."""
-    group = next(one for one in figure.iter() if one.get("data-part") == name)
-    paths = [one.get("d") or "" for one in group.iter() if one.get("d")]
+    paths = [one.get("d") or "" for one in figure.iter() if one.get("data-part") == name]
     strokes = [stroke for path in paths for stroke in path.split("M")[1:]]
     return [
         [(float(x), -float(y)) for x, y in re.findall(r"(-?[\d.]+) (-?[\d.]+)", stroke)]

@@ -13,6 +13,7 @@ import sys
 import tomllib
 import zipfile
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from pseudo import LANG, accented, write_bank, write_language
@@ -149,14 +150,13 @@ def test_cards_have_fields_of_the_language(place):
 
 
 def test_the_tradeoff_page_has_the_language(known):
-    from quizgen.tradeoff.measure import QUICK, Timing
-    from quizgen.tradeoff.page import html
-    from quizgen.tradeoff.report import Report
+    from quizgen.tradeoff.page import whole_page
+    from quizgen.tradeoff.report import measure
 
-    figure = Timing(0.1, 0.1, 0.1)
-    report = Report((), (), None, QUICK, figure, "a machine", "2026-01-01", 1.0)
-    page = html(report, "quizgen tradeoff")
-    assert accented("What accuracy costs in time") in page
+    few = SimpleNamespace(paths=["photon-energy-and-band", "dynamic-range-of-sensor"],
+                          template=builtin().template)  # fmt: skip
+    page = whole_page(measure(few), "quizgen tradeoff")
+    assert accented("What accuracy costs") in page
     assert f'<label for="{LANG}" lang="{LANG}">Áccénts</label>' in page
 
 

@@ -198,7 +198,7 @@ def test_shipped_blueprints_load(name):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("title = {en = 'x'}\n[[slots]]\ncount = 1", "allowed: aids, figure_kinds, figures"),
+        ("title = {en = 'x'}\n[[slots]]\ncount = 1", "allowed: aids, colour, figure_kinds"),
         ("topic = 'optics'\ntitle = {en = 'x'}\n[[slot]]\ntier = 'A'", "unknown field `topic`"),
         (
             "title = {en = 'x'}\n[[slot]]\nkount = 1",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from quizgen.audit.decks import card_problems
 from quizgen.bank.folder import Bank
 from quizgen.bank.prose import Words
 from quizgen.errors import BankError
@@ -51,3 +52,39 @@ def test_nothing_to_show_is_said_with_the_place(bank, tmp_path):
         sheet(Bank(tmp_path), "en")
     with pytest.raises(BankError, match="no formulas of the topic camera here"):
         sheet(bank, "en", ["camera"])
+
+
+def test_a_formula_has_a_sketch_described_in_each_language(bank):
+    (lens,) = (line for line in lines(sheet(bank, "both", ["optics"])) if line.id == "F42")
+    english, bangla = lens.figures
+    assert english.alt == "A thin lens with an object at z and its upside-down image at z′."
+    assert bangla.alt.startswith("পাতলা লেন্স")
+    (scaled,) = (line for line in lines(sheet(bank, "en", ["projection"])) if line.id == "F07")
+    assert scaled.figures == ()
+
+
+WITHOUT = """
+[[entry]]
+id = "G1"
+topic = "waves"
+tier = "A"
+section = "1"
+title.en = "Speed"
+figure = { name = "ripples" }
+lines = ["v = s/t"]
+about.en = "$s$: way; $t$: time."
+beware.en = "Units."
+"""
+
+
+def test_a_sketch_that_there_is_not_is_named_with_its_formula_by_sheet_and_lint(tmp_path):
+    cards = tmp_path / "templates" / "cards"
+    cards.mkdir(parents=True)
+    (cards / "formulas.toml").write_text(WITHOUT)
+    (tmp_path / "templates" / "bank.toml").write_text(
+        'name = "waves"\nlanguages = ["en"]\n[title]\nen = "Waves"\n[topics]\nwaves = { en = "Waves" }\n'
+    )
+    waves = Bank(tmp_path)
+    with pytest.raises(BankError, match=r"formulas\.toml: entry 'G1': unknown figure 'ripples'"):
+        sheet(waves, "en")
+    assert [said for said in card_problems(waves) if "entry 'G1': unknown figure 'ripples'" in said]

@@ -12,8 +12,6 @@ from collections.abc import Mapping
 from functools import cache
 from types import MappingProxyType
 
-from quizgen.camera.body import BODY, VELOCITY
-from quizgen.camera.effect import Effect
 from quizgen.camera.effects import (
     axial_colour,
     binning,
@@ -48,7 +46,9 @@ from quizgen.camera.effects import (
     vignetting,
     white_balance,
 )
-from quizgen.camera.settings import AnySetting
+from quizgen.camera.effects.effect import Effect
+from quizgen.camera.setup.body import BODY, VELOCITY
+from quizgen.camera.setup.settings import AnySetting
 from quizgen.camera.view import View
 
 EFFECTS: tuple[Effect, ...] = (
@@ -90,14 +90,14 @@ EFFECTS: tuple[Effect, ...] = (
 
 def present(view: View) -> tuple[Effect, ...]:
     """The effects that a camera has, in order."""
-    return tuple(effect for effect in EFFECTS if effect.present(view))
+    return tuple(effect for effect in EFFECTS if effect.is_present(view))
 
 
 def idle(view: View) -> dict[str, str]:
     """Settings that are given and do nothing, and what they need."""
-    absent = [effect for effect in EFFECTS if effect.needs and not effect.present(view)]
+    absent = [effect for effect in EFFECTS if effect.needs and not effect.is_present(view)]
     found = {setting.name: effect.needs for effect in absent for setting in effect.settings}
-    if not (motion_blur.EFFECT.present(view) or rolling_shutter.EFFECT.present(view)):
+    if not (motion_blur.EFFECT.is_present(view) or rolling_shutter.EFFECT.is_present(view)):
         found[VELOCITY.name] = "shutter or row_time"
     return {name: found[name] for name in view.camera.given if name in found}
 
@@ -109,7 +109,7 @@ def by_name(name: str) -> Effect:
 
 def questions() -> tuple[str, ...]:
     """Kinds of question that effects decide."""
-    return tuple(sorted({kind for effect in EFFECTS for kind in effect.decides}))
+    return tuple(sorted({kind for effect in EFFECTS for kind in effect.answers}))
 
 
 @cache

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 from msgspec.structs import replace
 
-from quizgen.camera import focus
-from quizgen.camera.body import F_NUMBER, FOCAL_LENGTH, PIXEL_PITCH
-from quizgen.camera.costs import at_least_a_call
-from quizgen.camera.draw import Layer
-from quizgen.camera.effect import Effect, LayerByLayer, Rung
-from quizgen.camera.facts import Error, Facts
-from quizgen.camera.kernels import change_between
-from quizgen.camera.layers import each, within
-from quizgen.camera.settings import Rule, Setting, Settings
-from quizgen.camera.values import quantity
-from quizgen.camera.view import View
+from quizgen.camera.effects.effect import Effect, LayerByLayer, Size
+from quizgen.camera.kernels import moved_share
+from quizgen.camera.raster import focus
+from quizgen.camera.raster.draw import Layer, Sheet
+from quizgen.camera.raster.layers import bound_layers
+from quizgen.camera.setup.body import F_NUMBER, FOCAL_LENGTH, PIXEL_PITCH
+from quizgen.camera.setup.settings import Rule, Setting, Settings
+from quizgen.camera.setup.values import quantity
+from quizgen.camera.view import Signal, View
 
 
 def _has_f_number(_: object, camera: Settings) -> bool:
@@ -53,61 +51,38 @@ def shifts(view: View) -> dict[int, float]:
     return {channel: scale * (1.0 / focal - 1.0 / length) for channel, focal in own.items()}
 
 
-def work(layer: Layer, view: View, rung: str = "") -> Layer:
+def work(layer: Layer, view: View) -> Layer:
     """Blur red and blue each by its own disc; what is left for `defocus` is green."""
-    return replace(focus.in_channels(layer, view, shifts(view), rung), sharp=(GREEN,))
+    return replace(focus.in_channels(layer, view, shifts(view)), sharp=(GREEN,))
 
 
-def skipped(facts: Facts, view: View) -> Error:
+def omission_bound(signal: Signal, view: View) -> float:
     """Red and blue are then blurred as green is: how far two discs can be apart."""
-    return max((_as_green(facts, view, shift) for shift in shifts(view).values()), key=_total)
+    return max(_apart(signal, view, shift) for shift in shifts(view).values())
 
 
-def _total(error: Error) -> float:
-    return error.total
+def _apart(signal: Signal, view: View, shift: float) -> float:
+    def share(sheet: Sheet) -> float:
+        if focus.is_by_depth(sheet, view):
+            return focus.share_by_depth(view, 0.0) + focus.share_by_depth(view, shift)
+        return moved_share(focus.disc_of(sheet, view), focus.disc_of(sheet, view, shift))
 
-
-def _as_green(facts: Facts, view: View, shift: float) -> Error:
-    total = 0.0
-    for layer, sheet, most in each(facts, view):
-        if focus.by_depth(sheet, view):
-            total += focus.map_error(layer, view) + focus.map_error(layer, view, shift)
-        else:
-            discs = focus.disc_of(sheet, view), focus.disc_of(sheet, view, shift)
-            total += change_between(*discs, layer.jump, layer.bend, most)
-    return within(total, facts)
-
-
-def _fewer_slices(rung: str) -> Rung:
-    def error(facts: Facts, view: View) -> Error:
-        return focus.fewer_slices(facts, view, rung, tuple(shifts(view).values()))
-
-    return Rung(rung, error)
-
-
-def after(facts: Facts, view: View) -> Facts:
-    """Red and blue do not get steeper, but at borders of slices; green is left as it is."""
-    if not view.has_depth_map:
-        return facts
-    return focus.after(facts, view, tuple(shifts(view).values()))
-
-
-def cost(view: View, rung: str, opencv_used: bool) -> float:
-    """A third of a convolution of three channels for each of two."""
-    whole = (focus.cost(view, rung, opencv_used, shift) for shift in shifts(view).values())
-    return sum(whole) / 3.0
+    return bound_layers(signal, view, share)
 
 
 EFFECT = Effect(
     name="axial colour",
     stage="optics",
-    decides=("axial colour", "artefacts"),
+    answers=("axial colour", "artefacts"),
     settings=(AXIAL_COLOUR,),
-    present=lambda view: view.camera[AXIAL_COLOUR] != 0.0,
+    is_present=lambda view: view.camera[AXIAL_COLOUR] != 0.0,
     run=LayerByLayer(work),
-    cost=at_least_a_call(cost),
-    skipped=skipped,
+    omission_bound=omission_bound,
     outside=lambda view: focus.outside(view, tuple(shifts(view).values())),
-    after=after,
-    rungs=(_fewer_slices("half"), _fewer_slices("quarter")),
+    size=Size(
+        lambda view: max(abs(shift) for shift in shifts(view).values()),
+        "make the discs of red and blue {:.3g} px wider or narrower",
+        1.0,
+    ),
+    needs_effects=("defocus",),
 )

@@ -5,36 +5,35 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from msgspec.structs import replace
 
-from quizgen.camera.body import NEEDS_FULL_WELL
-from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, on_picture
-from quizgen.camera.facts import Error, Facts, mean_size
+from quizgen.camera.effects.effect import Effect, on_picture
 from quizgen.camera.scene import Image
-from quizgen.camera.settings import Setting
-from quizgen.camera.values import truth
-from quizgen.camera.view import View
+from quizgen.camera.setup.body import NEEDS_FULL_WELL
+from quizgen.camera.setup.settings import Setting
+from quizgen.camera.setup.values import truth
+from quizgen.camera.view import Signal, View
 
 BLOOMING = Setting("blooming", truth, False, (NEEDS_FULL_WELL,))
 
 
-def run(image: Image, view: View, rung: str = "") -> Image:
+def run(image: Image, view: View) -> Image:
     """Charge above the full well spills along the column, half up and half down.
 
-    Each photosite keeps what it can; what reaches the border is drained.
+    Of one sensor with colour filters: the sites for red, green and blue of a pixel lie behind each
+    other in its column and fill whatever the colour of what spills, so that a streak is white. Each
+    keeps what it can; what reaches the border is drained.
     """
     result = image.copy()
-    columns = result.reshape(len(image), -1)
-    full = np.flatnonzero(columns.max(axis=0) > 1.0)
+    full = np.flatnonzero(image.max(axis=(0, 2)) > 1.0)
     for start in range(0, full.size, _COLUMNS):
         some = full[start : start + _COLUMNS]
-        columns[:, some] = _drained(columns[:, some])
+        sites = image[:, some].swapaxes(1, 2).reshape(-1, some.size)
+        result[:, some] = _drained(sites).reshape(len(image), -1, some.size).swapaxes(1, 2)
     return result
 
 
-_COLUMNS = 3072
-"""Columns of one colour worked on at once: others have nothing to spill."""
+_COLUMNS = 1024
+"""Columns worked on at once: others have nothing to spill."""
 
 
 def _drained(columns: Image) -> Image:
@@ -56,44 +55,27 @@ def _spill(kept: Image, excess: Image) -> Image:
     return filled
 
 
-def _overflows(facts: Facts, error: float = 0.0) -> bool:
-    return facts.top + error > 1.0
+def omission_bound(signal: Signal, view: View) -> float:
+    """Nothing below the full well; else a filled column."""
+    return 0.0 if signal.high <= 1.0 else max(signal.high - 1.0, 1.0 - signal.low)
 
 
-def skipped(facts: Facts, view: View) -> Error:
-    """Nothing below the full well but what rounding carries over it; else a filled column."""
-    if not _overflows(facts):
-        return Error(min(view.height * facts.just_above(1.0), 1.0 - facts.bottom))
-    return Error(max(facts.top - 1.0, 1.0 - facts.bottom))
-
-
-def carried(error: Error, facts: Facts, view: View) -> Error:
-    """Spilt charge adds up along a column: whatever any of its rows may be off by."""
-    if not _overflows(facts, error.certain):
+def carry_error(error: float, signal: Signal, view: View) -> float:
+    """Spilt charge adds up along a column: whatever any of its sites may be off by."""
+    if signal.high + error <= 1.0:
         return error
-    added = error.sure + mean_size(error.sigma, view.height)
-    filled = 1.0 - min(facts.bottom - error.certain, 0.0)
-    spilt = math.inf if error.odd else view.height * added + error.certain
-    return Error(min(spilt, filled))
-
-
-def after(facts: Facts, view: View) -> Facts:
-    """A filled column is a step of the whole range."""
-    if not _overflows(facts):
-        return facts
-    full = replace(facts, low=min(facts.low, 1.0), high=1.0).between(-math.inf, 1.0)
-    return full.with_jump((full.span + full.reach, full.span + full.reach))
+    filled = max(1.0 - (signal.low - error), error)
+    return min((3.0 * view.height + 1.0) * error, filled)
 
 
 EFFECT = Effect(
     name="blooming",
     stage="sensor",
-    decides=("blooming", "saturation", "artefacts"),
+    answers=("blooming", "saturation", "artefacts"),
     settings=(BLOOMING,),
-    present=lambda view: view.camera[BLOOMING],
+    is_present=lambda view: view.camera[BLOOMING],
     run=on_picture(run),
-    cost=measured((9.37, 215)),
-    skipped=skipped,
-    carried=carried,
-    after=after,
+    omission_bound=omission_bound,
+    carry_error=carry_error,
+    range_after=lambda signal, _: signal.clipped(-math.inf, 1.0),
 )

@@ -11,18 +11,15 @@ import re
 from functools import lru_cache
 
 import numpy as np
-from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from quizgen.arrays.luminosity import efficiency
 from quizgen.camera.blocks import Tile, Work
-from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, PointByPoint, Rung
-from quizgen.camera.facts import Error, Facts
+from quizgen.camera.effects.effect import Effect, PointByPoint
 from quizgen.camera.scene import Image
-from quizgen.camera.settings import Setting, between
-from quizgen.camera.values import number, truth
-from quizgen.camera.view import View
+from quizgen.camera.setup.settings import Setting, between
+from quizgen.camera.setup.values import number, truth
+from quizgen.camera.view import Signal, View
 
 Curve = NDArray[np.float64]
 
@@ -101,12 +98,9 @@ def _mixture(view: View) -> Curve:
     return mixture(camera[LIGHT] or DAYLIGHT, infrared_filter=camera[INFRARED_FILTER])
 
 
-def work(view: View, rung: str = "") -> Work:
-    """Mix the colours of every pixel; ``gains`` leaves out what a site takes of other colours."""
-    matrix = _mixture(view)
-    if rung == "gains":
-        matrix = np.diag(matrix.sum(axis=1))
-    weights = matrix.astype(view.precision)
+def work(view: View) -> Work:
+    """Mix the colours of every pixel."""
+    weights = _mixture(view).astype(view.precision)
 
     def mixed(part: Image, _: Tile) -> None:
         scene = [part[channel::3].copy() for channel in range(3)]
@@ -117,45 +111,29 @@ def work(view: View, rung: str = "") -> Work:
     return mixed
 
 
-def skipped(facts: Facts, view: View) -> Error:
+def omission_bound(signal: Signal, view: View) -> float:
     """Largest value of a row's difference from the identity over all colours in the range."""
     apart = _mixture(view) - np.eye(3)
     up, down = np.maximum(apart, 0.0).sum(axis=1), np.minimum(apart, 0.0).sum(axis=1)
-    ends = up * facts.high + down * facts.low, up * facts.low + down * facts.high
-    most = float((up - down).max())
-    return Error(float(np.abs(ends).max()) + most * facts.tail, most * facts.noise)
+    ends = up * signal.high + down * signal.low, up * signal.low + down * signal.high
+    return float(np.abs(ends).max())
 
 
-def carried(error: Error, facts: Facts, view: View) -> Error:
-    """Amplified by the largest row; one odd value shows in three."""
-    factor = float(_mixture(view).sum(axis=1).max())
-    return replace(error.times(factor), odd=3.0 * error.odd)
-
-
-def after(facts: Facts, view: View) -> Facts:
+def range_after(signal: Signal, view: View) -> Signal:
     """Between the smallest and the largest sum of a row."""
     rows = _mixture(view).sum(axis=1)
-    return facts.gained(float(rows.min()), float(rows.max()))
-
-
-def _gains(facts: Facts, view: View) -> Error:
-    """What a site takes of other colours, times how far they are from its own."""
-    matrix = _mixture(view)
-    others = float((matrix.sum(axis=1) - matrix.diagonal()).max())
-    return Error(others * (facts.span + 2.0 * facts.tail), 2.0 * others * facts.noise)
+    return signal.scaled(float(rows.min()), float(rows.max()))
 
 
 EFFECT = Effect(
     name="colour filters",
     stage="sensor",
-    decides=("colour filters", "infrared"),
+    answers=("colour filters", "infrared"),
     settings=(LIGHT, INFRARED_FILTER),
-    present=lambda view: view.camera[LIGHT] is not None,
+    is_present=lambda view: view.camera[LIGHT] is not None,
     run=PointByPoint(work),
-    cost=measured((1.66, 82), gains=(1.13, 61.1)),
-    skipped=skipped,
-    carried=carried,
-    after=after,
-    rungs=(Rung("gains", _gains),),
+    omission_bound=omission_bound,
+    carry_error=lambda error, _, view: error * float(_mixture(view).sum(axis=1).max()),
+    range_after=range_after,
     needs="light",
 )

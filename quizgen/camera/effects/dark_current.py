@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 import math
-from functools import lru_cache
 
 import numpy as np
-from msgspec.structs import replace
 
 from quizgen.camera.blocks import Tile, Work
-from quizgen.camera.body import NEEDS_FULL_WELL, SHUTTER
-from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, PointByPoint
-from quizgen.camera.facts import Error, Facts
-from quizgen.camera.noise import WORDS, electrons_at_white, luck, noisier, poisson_gap
+from quizgen.camera.effects.effect import Effect, PointByPoint, Size
+from quizgen.camera.noise import WORDS, electrons_at_white, farthest_count, luck
 from quizgen.camera.scene import Image, Precision
-from quizgen.camera.settings import NOT_NEGATIVE, SHARE, Rule, Setting, Settings
-from quizgen.camera.values import quantity
-from quizgen.camera.view import View
+from quizgen.camera.setup.body import NEEDS_FULL_WELL, SHUTTER
+from quizgen.camera.setup.settings import NOT_NEGATIVE, SHARE, Rule, Setting, Settings
+from quizgen.camera.setup.values import quantity
+from quizgen.camera.view import Signal, View
 
 MOST_CHARGE = 1e8
 """Electrons whose counts are still told apart one by one."""
@@ -58,7 +54,7 @@ _MOSTLY_NONE = WORDS * 15 // 16
 """Luck without an electron from which on it is faster to look for the places with one."""
 
 
-def work(view: View, rung: str = "") -> Work:
+def work(view: View) -> Work:
     """Add the dark charge and its own shot noise; hot pixels are stuck at full well."""
     charge, stuck = luck(view, "dark current"), luck(view, "hot pixels")
     share, counts = view.camera[HOT_PIXELS], _poisson(dark_electrons(view), view.precision)
@@ -77,74 +73,35 @@ def work(view: View, rung: str = "") -> Work:
     return darkened
 
 
-def _noise(view: View) -> Error:
-    """The dark charge's own shot noise."""
-    electrons, well = dark_electrons(view), electrons_at_white(view)
-    gap = poisson_gap(electrons) if electrons else 0.0
-    return Error(gap / well, math.sqrt(electrons) / well)
+def _most(view: View) -> float:
+    """The largest dark charge of a pixel, 1 = white."""
+    electrons = dark_electrons(view)
+    return (electrons + farthest_count(electrons)) / electrons_at_white(view) if electrons else 0.0
 
 
-def _mean(view: View) -> Error:
-    return Error(dark_electrons(view) / electrons_at_white(view))
+def omission_bound(signal: Signal, view: View) -> float:
+    """The largest dark charge; a hot pixel may be anywhere."""
+    return max(_most(view), signal.outside(1.0, 1.0) if view.camera[HOT_PIXELS] else 0.0)
 
 
-def skipped(facts: Facts, view: View) -> Error:
-    """Mean charge and its noise, or few electrons at few places; a hot pixel may be anywhere."""
-    if view.camera[HOT_PIXELS]:
-        return Error(math.inf)
-    electrons, charge = dark_electrons(view), _mean(view).plus(_noise(view))
-    if electrons > _FEW:
-        return charge
-    largest, share = counted(electrons)
-    counts = Error(rare=largest / electrons_at_white(view), share=share)
-    return min(charge, counts, key=lambda error: error.certain)
-
-
-_FEW = 16.0
-
-
-@lru_cache(maxsize=64)
-def counted(mean: float) -> tuple[int, float]:
-    """Largest count in a table of `_poisson`, and the share that is not 0, of a mean up to 16.
-
-    Its last place is half a step below probability 1.
-    """
-    chance, count = math.exp(-mean), 0
-    reached, last = chance, 1.0 - 0.5 / WORDS + _SLACK
-    while reached <= last:
-        count += 1
-        chance *= mean / count
-        reached += chance
-    return count, min(1.0, 0.5 / WORDS - math.expm1(-mean))
-
-
-_SLACK = 1e-12
-"""Rounding of sums of chances."""
-
-
-def after(facts: Facts, view: View) -> Facts:
-    """Brighter and noisier; hot pixels are steps of the whole range."""
-    mean, (low, high) = _mean(view).sure, facts.limits
-    lifted = replace(facts, high=facts.high + mean, limits=(low, high + mean))
-    lifted = noisier(lifted, _noise(view), (0.0, 0.0))  # no charge makes anything darker
+def range_after(signal: Signal, view: View) -> Signal:
+    """Brighter: no charge makes anything darker, but a hot pixel what is beyond the full well."""
+    bright = signal.widened(0.0, _most(view))
     if not view.camera[HOT_PIXELS]:
-        return lifted
-    low, high = lifted.limits
-    lifted = replace(lifted, high=max(lifted.high, 1.0), limits=(low, max(high, 1.0)))
-    return lifted.with_jump((lifted.span, lifted.span))
+        return bright
+    return Signal(min(bright.low, 1.0), max(bright.high, 1.0))
 
 
 EFFECT = Effect(
     name="dark current",
     stage="sensor",
-    decides=("dark current", "hot pixels", "noise", "snr", "histogram"),
+    answers=("dark current", "hot pixels", "noise", "snr", "histogram"),
     settings=(DARK_CURRENT, HOT_PIXELS),
-    present=lambda view: dark_electrons(view) > 0.0 or view.camera[HOT_PIXELS] > 0.0,
+    is_present=lambda view: dark_electrons(view) > 0.0 or view.camera[HOT_PIXELS] > 0.0,
     run=PointByPoint(work),
-    cost=measured((3.45, 119)),
-    skipped=skipped,
-    knows_where=True,
-    after=after,
-    random=True,
+    omission_bound=omission_bound,
+    range_after=range_after,
+    size=Size(dark_electrons, "add {:.3g} electrons to a pixel"),
+    speckles=True,
     needs="shutter",
 )

@@ -5,22 +5,19 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from msgspec.structs import replace
 
 from quizgen.camera.blocks import in_turn, times
-from quizgen.camera.body import NEEDS_FULL_WELL
-from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, on_picture
 from quizgen.camera.effects import fixed_pattern, mosaic
 from quizgen.camera.effects.dark_current import dark_electrons
+from quizgen.camera.effects.effect import Effect, on_picture
 from quizgen.camera.effects.gain import gain
 from quizgen.camera.effects.read_noise import READ_NOISE
-from quizgen.camera.facts import Error, Facts
-from quizgen.camera.noise import electrons_at_white, luck, noisier, normal_noise
+from quizgen.camera.noise import FARTHEST, electrons_at_white, luck, normal_noise
 from quizgen.camera.scene import Image
-from quizgen.camera.settings import Setting, between
-from quizgen.camera.values import whole
-from quizgen.camera.view import View
+from quizgen.camera.setup.body import NEEDS_FULL_WELL
+from quizgen.camera.setup.settings import Setting, between
+from quizgen.camera.setup.values import whole
+from quizgen.camera.view import Signal, View
 
 DARK_FRAMES = Setting("dark_frames", whole, 0, (NEEDS_FULL_WELL, between(0, 10**6)))
 """Pictures with the lens covered, whose mean is subtracted; 0 subtracts nothing."""
@@ -51,33 +48,31 @@ def master(shape: tuple[int, ...], view: View) -> Image:
     return in_turn(even, works, into=even)[0]
 
 
-def run(image: Image, view: View, rung: str = "") -> Image:
+def run(image: Image, view: View) -> Image:
     """Subtract the mean of the dark frames."""
     dark = master(image.shape, view)
     return image - (mosaic.run(dark, view) if image.shape[2] == 1 else dark)
 
 
-def skipped(facts: Facts, view: View) -> Error:
-    """All that would be subtracted, the spread of the offsets included."""
-    pattern = fixed_pattern.skipped(facts, view).sigma * gain(view)
-    return Error(_mean(view), math.hypot(pattern, _left(view)))
+def _farthest(view: View) -> float:
+    """How far the mean of the frames is from its own mean, 1 = white."""
+    return fixed_pattern.farthest(view) * gain(view) + FARTHEST * _left(view)
 
 
-def after(facts: Facts, view: View) -> Facts:
-    """Darker; what noise the frames have left is added."""
-    left = replace(skipped(facts, view), sure=0.0)
-    return noisier(facts.lifted(-_mean(view)), left)
+def range_after(signal: Signal, view: View) -> Signal:
+    """Darker; pattern and what noise the frames have left are spread."""
+    far, mean = _farthest(view), _mean(view)
+    return signal.widened(far + mean, far - mean)
 
 
 EFFECT = Effect(
     name="dark frame",
     stage="processing",
-    decides=("dark frame", "fixed pattern", "dark current", "noise"),
+    answers=("dark frame",),
     settings=(DARK_FRAMES,),
-    present=lambda view: view.camera[DARK_FRAMES] > 0,
+    is_present=lambda view: view.camera[DARK_FRAMES] > 0,
     run=on_picture(run),
-    looks=0,
-    cost=measured((5.67, 245)),
-    skipped=skipped,
-    after=after,
+    omission_bound=lambda _, view: _mean(view) + _farthest(view),
+    range_after=range_after,
+    needs_effects=("fixed pattern", "dark current"),
 )

@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
-from msgspec.structs import replace
 
 from quizgen.camera.blocks import pieces
-from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, on_picture
+from quizgen.camera.effects.effect import (
+    Effect,
+    on_picture,
+)
 from quizgen.camera.effects.mosaic import CHANNELS, MOSAIC, colour_at
-from quizgen.camera.facts import Error, Facts
 from quizgen.camera.scene import Image
 from quizgen.camera.view import View
 
 
-def run(raw: Image, view: View, rung: str = "") -> Image:
+def run(raw: Image, view: View) -> Image:
     """Bilinear interpolation of a mosaic.
 
     Parameters
@@ -83,42 +81,12 @@ def _same_colour(tile: tuple[tuple[int, int], ...], row: int, column: int, chann
     return "level" if beside == channel else "upright"
 
 
-def skipped(facts: Facts, view: View) -> Error:
-    """Means of two or four neighbours miss by half the bends; noise is averaged differently."""
-    bend, jump = facts.bend, facts.jump
-    missed = min((bend[0] + bend[1]) / 2.0, jump[0] + jump[1], facts.span)
-    return Error(missed + 2.0 * facts.tail, math.sqrt(1.5) * facts.noise)
-
-
-def carried(error: Error, facts: Facts, view: View) -> Error:
-    """Means do not grow; one photosite shows in up to four of them, a quarter of each at least."""
-    error = error.within()
-    level = error.level / 4.0 + 0.75 * min(facts.bottom, 0.0)
-    return replace(error, odd=4.0 * error.odd, share=_SHOWN * error.share, level=level)
-
-
-_SHOWN = 7.0 / 3.0
-"""Values that a photosite shows in, on average over all of them: of three in a place red and blue
-take 9 photosites for every 4, green takes 10. Mirrored borders have fewer, not more."""
-
-
-def after(facts: Facts, view: View) -> Facts:
-    """Green sites stand beside means of four."""
-    x, y = facts.jump
-    return facts.with_jump((x + y / 2, y + x / 2))
-
-
 EFFECT = Effect(
     name="demosaicing",
     stage="processing",
-    decides=("bayer", "demosaicing", "moire"),
-    present=lambda view: view.camera[MOSAIC] != "",
+    answers=("bayer", "demosaicing", "moire"),
+    is_present=lambda view: view.camera[MOSAIC] != "",
     run=on_picture(run),
-    looks=1,
-    cost=measured((1.78, 76)),
-    skipped=skipped,
-    carried=carried,
-    knows_where=True,
-    after=after,
+    omission_bound=lambda signal, _: signal.span,
     pair="bayer",
 )

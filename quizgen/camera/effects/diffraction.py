@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from quizgen.camera.body import NEEDS_LENS, aperture
-from quizgen.camera.costs import at_least_a_call, convolution
-from quizgen.camera.draw import Layer, sheets
-from quizgen.camera.effect import Effect, LayerByLayer
-from quizgen.camera.facts import Error, Facts
-from quizgen.camera.kernels import Kernel, airy, airy_radius, change
-from quizgen.camera.layers import blurred, each, farthest, within
-from quizgen.camera.settings import Rule, Setting, Settings, between
-from quizgen.camera.values import quantity
+from quizgen.camera.effects.effect import (
+    Effect,
+    LayerByLayer,
+    Size,
+)
+from quizgen.camera.kernels import Kernel, airy, airy_radius, moved_share
+from quizgen.camera.raster.draw import Layer
+from quizgen.camera.raster.layers import blurred, bound_layers, farthest
+from quizgen.camera.setup.body import NEEDS_LENS, aperture
+from quizgen.camera.setup.settings import Rule, Setting, Settings, between
+from quizgen.camera.setup.values import quantity
 from quizgen.camera.view import View
 
 
@@ -43,16 +45,9 @@ def _kernel(view: View) -> Kernel:
     return airy(scale(view))
 
 
-def work(layer: Layer, view: View, rung: str = "") -> Layer:
+def work(layer: Layer, view: View) -> Layer:
     """Blur every layer alike: all light comes through the same aperture."""
     return blurred(layer, _kernel(view))
-
-
-def skipped(facts: Facts, view: View) -> Error:
-    """What the Airy disc can change in each layer."""
-    kernel = _kernel(view)
-    parts = (change(kernel, part.jump, part.bend, most) for part, _, most in each(facts, view))
-    return within(sum(parts), facts)
 
 
 def outside(view: View) -> tuple[float, float]:
@@ -61,25 +56,16 @@ def outside(view: View) -> tuple[float, float]:
     return farthest(view, lambda _: (radius, radius))
 
 
-def after(facts: Facts, view: View) -> Facts:
-    """Averages do not steepen."""
-    return facts.stepped(1.0, 1.0)
-
-
-def cost(view: View, rung: str, opencv_used: bool) -> float:
-    """A convolution per layer."""
-    return convolution(_kernel(view), view, opencv_used) * len(sheets(view))
-
-
 EFFECT = Effect(
     name="diffraction",
     stage="optics",
-    decides=("diffraction", "sharpness"),
+    answers=("diffraction", "sharpness"),
     settings=(WAVELENGTH,),
-    present=lambda view: view.camera[WAVELENGTH] is not None,
+    is_present=lambda view: view.camera[WAVELENGTH] is not None,
     run=LayerByLayer(work),
-    cost=at_least_a_call(cost),
-    skipped=skipped,
+    omission_bound=lambda signal, view: bound_layers(
+        signal, view, lambda _: moved_share(_kernel(view))
+    ),
     outside=outside,
-    after=after,
+    size=Size(lambda view: 2.44 * scale(view), "blur by an Airy disc {:.3g} px wide", 1.5),
 )

@@ -12,26 +12,21 @@ from msgspec.structs import replace
 
 from quizgen.arrays.distortion import fold_radius, inverse_radius
 from quizgen.camera.blocks import pieces
-from quizgen.camera.body import NEEDS_LENS, aperture
-from quizgen.camera.costs import at_least_a_call, at_size, sampling
-from quizgen.camera.draw import Box, Layer, sheets
-from quizgen.camera.effect import Effect, LayerByLayer, Rung
-from quizgen.camera.facts import Error, Facts
+from quizgen.camera.effects.effect import Effect, LayerByLayer, Size
 from quizgen.camera.filters import sample, sample_nearest
-from quizgen.camera.layers import (
+from quizgen.camera.raster.draw import Box, Layer
+from quizgen.camera.raster.layers import (
     Field,
+    bound_shift,
     farthest,
-    mixed_axes,
-    rounding,
-    shifted,
-    within,
     worked_on,
 )
+from quizgen.camera.raster.uneven import places
 from quizgen.camera.scene import Image, Precision, SceneError
-from quizgen.camera.settings import Setting
-from quizgen.camera.uneven import places
-from quizgen.camera.values import number
-from quizgen.camera.view import View
+from quizgen.camera.setup.body import NEEDS_LENS, aperture
+from quizgen.camera.setup.settings import Setting
+from quizgen.camera.setup.values import number
+from quizgen.camera.view import Signal, View
 
 K1 = Setting("k1", number, 0.0, (NEEDS_LENS,))
 """k1 < 0 is barrel."""
@@ -176,13 +171,12 @@ def _map(lens: _Lens, rows: range, columns: range) -> tuple[Image, Image]:
     return x, y
 
 
-def work(layer: Layer, view: View, rung: str = "") -> Layer:
-    """Read every pixel where it comes from; the rung ``nearest`` does not interpolate."""
-    pick = sample_nearest if rung == "nearest" else sample
+def work(layer: Layer, view: View) -> Layer:
+    """Read every pixel where it comes from."""
 
     def warp(images: list[Image], box: Box) -> list[Image]:
         x, y = source(view, box)
-        return [pick(image, x, y) for image in images]
+        return [sample(image, x, y) for image in images]
 
     far = largest_displacement(view)
     where = places(layer, (far, far))
@@ -234,50 +228,23 @@ def _turning(view: View) -> list[float]:
     return [0.0, top, *(math.sqrt(q) for q in turning if 0 < q < top * top)]
 
 
-def magnification(view: View) -> float:
-    """Largest distance on the source per pixel of output (extremes of two quadratics in r^2)."""
-    k1, k2 = view.camera[K1], view.camera[K2]
-    return 1.0 / min(min(slope(r, k1, k2), stretch(r, k1, k2)) for r in _turning(view))
-
-
-def skipped(facts: Facts, view: View) -> Error:
-    """Largest displacement times the steepest slope; anything where a depth map moves along."""
+def omission_bound(signal: Signal, view: View) -> float:
+    """As far as points move, times the largest step; anything where a depth map moves along."""
     distance = largest_displacement(view)
     if aperture(view.camera) is not None and view.has_depth_map and distance >= 0.5:
-        return Error(facts.span)
-    return shifted(facts, distance, view)
-
-
-def nearest(facts: Facts, view: View) -> Error:
-    """At most half a pixel along each axis."""
-    most = 0.5 + rounding(view)
-    return within(most * sum(sum(layer.jump) for layer in facts.layers), facts)
-
-
-def after(facts: Facts, view: View) -> Facts:
-    """Steps grow by the local magnification."""
-    return mixed_axes(facts, magnification(view) + rounding(view))
-
-
-def cost(view: View, rung: str, opencv_used: bool) -> float:
-    """The map, and reading every layer through it."""
-    nearest = at_size((4.15, 238), view.megapixels)
-    one = nearest if rung == "nearest" else sampling(view, opencv_used)
-    layers = sheets(view)
-    return at_size((1.25, 234), view.megapixels) + one * (1.0 + 1.3 * (len(layers) - 1))
+        return signal.span
+    return bound_shift(signal, view, distance)
 
 
 EFFECT = Effect(
     name="distortion",
     stage="optics",
-    decides=("distortion", "geometry", "artefacts"),
+    answers=("distortion", "geometry", "artefacts"),
     settings=(K1, K2),
-    present=lambda view: view.camera[K1] != 0.0 or view.camera[K2] != 0.0,
+    is_present=lambda view: view.camera[K1] != 0.0 or view.camera[K2] != 0.0,
     outside=outside,
     check=check,
     run=LayerByLayer(work),
-    cost=at_least_a_call(cost),
-    skipped=skipped,
-    after=after,
-    rungs=(Rung("nearest", nearest),),
+    omission_bound=omission_bound,
+    size=Size(largest_displacement, "move points by up to {:.3g} px", 1.0),
 )

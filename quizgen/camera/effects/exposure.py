@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
-from quizgen.camera.amplifier import amplifier
-from quizgen.camera.body import SHUTTER, aperture
-from quizgen.camera.settings import Rule, Setting, Settings, between
-from quizgen.camera.values import number, quantity
+from quizgen.camera.effects.gain import amplifier
+from quizgen.camera.setup.body import SHUTTER, aperture
+from quizgen.camera.setup.settings import Rule, Setting, Settings, between
+from quizgen.camera.setup.values import number, quantity
 from quizgen.camera.view import View
 
 EXPOSURE = Setting("exposure", quantity("stop"), 0.0, (between(-40.0, 40.0, "stop"),))
@@ -47,5 +47,5 @@ EFFECT = amplifier(
     "exposure",
     factor,
     settings=(EXPOSURE, LIGHT_VALUE),
-    decides=("exposure", "aperture", "shutter"),
+    answers=("exposure", "aperture", "shutter", "clipping"),
 )

@@ -7,15 +7,13 @@ from dataclasses import replace
 import msgspec
 
 from quizgen.camera.blocks import Tile, Work
-from quizgen.camera.body import NEEDS_FULL_WELL
-from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, PointByPoint
-from quizgen.camera.facts import Error, Facts
-from quizgen.camera.noise import electrons_at_white, luck, noisier, normal_noise
+from quizgen.camera.effects.effect import Effect, PointByPoint, Size
+from quizgen.camera.noise import FARTHEST, electrons_at_white, luck, normal_noise
 from quizgen.camera.scene import Image
-from quizgen.camera.settings import NOT_NEGATIVE, Setting
-from quizgen.camera.values import quantity
-from quizgen.camera.view import View
+from quizgen.camera.setup.body import NEEDS_FULL_WELL
+from quizgen.camera.setup.settings import NOT_NEGATIVE, Setting
+from quizgen.camera.setup.values import quantity
+from quizgen.camera.view import Signal, View
 
 FIXED_PATTERN = Setting("fixed_pattern", quantity("e-"), 0.0, (NEEDS_FULL_WELL, NOT_NEGATIVE))
 """Standard deviation of the offsets of the photosites, e- (DSNU of EMVA 1288)."""
@@ -28,7 +26,7 @@ def level(view: View) -> float:
     return view.camera[BIAS] / electrons_at_white(view)
 
 
-def work(view: View, rung: str = "") -> Work:
+def work(view: View) -> Work:
     """Add pedestal and offsets: they do not depend on the scene's seed."""
     camera = msgspec.structs.replace(view, scene=replace(view.scene, seed=0))
     sigma = view.camera[FIXED_PATTERN] / electrons_at_white(view)
@@ -42,33 +40,25 @@ def work(view: View, rung: str = "") -> Work:
     return lifted
 
 
-def skipped(facts: Facts, view: View) -> Error:
-    """The pedestal, and the spread of the offsets."""
-    return Error(level(view), view.camera[FIXED_PATTERN] / electrons_at_white(view))
+def farthest(view: View) -> float:
+    """The largest offset, 1 = white."""
+    return FARTHEST * view.camera[FIXED_PATTERN] / electrons_at_white(view)
 
 
-def carried(error: Error, facts: Facts, view: View) -> Error:
-    """The same is added to both pictures: what stood beyond 0 or 1 may now stand anywhere."""
-    return error.everywhere() if error.bright else error.within()
-
-
-def after(facts: Facts, view: View) -> Facts:
-    """Brighter by the pedestal; the offsets count as noise."""
-    spread = msgspec.structs.replace(skipped(facts, view), sure=0.0)
-    return noisier(facts.lifted(level(view)), spread)
+def range_after(signal: Signal, view: View) -> Signal:
+    """Brighter by the pedestal, and spread."""
+    return signal.widened(farthest(view) - level(view), farthest(view) + level(view))
 
 
 EFFECT = Effect(
     name="fixed pattern",
     stage="sensor",
-    decides=("fixed pattern", "dark frame", "noise"),
+    answers=("fixed pattern", "noise"),
     settings=(FIXED_PATTERN, BIAS),
-    present=lambda view: view.camera[FIXED_PATTERN] > 0.0 or view.camera[BIAS] > 0.0,
+    is_present=lambda view: view.camera[FIXED_PATTERN] > 0.0 or view.camera[BIAS] > 0.0,
     run=PointByPoint(work),
-    cost=measured((2.85, 126)),
-    skipped=skipped,
-    carried=carried,
-    knows_where=True,
-    after=after,
-    random=True,
+    omission_bound=lambda _, view: level(view) + farthest(view),
+    range_after=range_after,
+    size=Size(lambda view: view.camera[FIXED_PATTERN], "spread the offsets by {:.3g} electrons"),
+    speckles=True,
 )

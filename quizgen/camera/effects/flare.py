@@ -4,37 +4,37 @@ from __future__ import annotations
 
 import numpy as np
 
-from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, on_picture
-from quizgen.camera.facts import Error, Facts
+from quizgen.camera.effects.effect import (
+    Effect,
+    Size,
+    on_picture,
+)
 from quizgen.camera.scene import Image
-from quizgen.camera.settings import SHARE, Setting
-from quizgen.camera.values import quantity
+from quizgen.camera.setup.settings import SHARE, Setting
+from quizgen.camera.setup.values import quantity
 from quizgen.camera.view import View
 
 FLARE = Setting("flare", quantity("%"), 0.0, (SHARE,))
 """Share of the light that is spread evenly (the veiling glare index of ISO 9358)."""
 
 
-def run(image: Image, view: View, rung: str = "") -> Image:
+def run(image: Image, view: View) -> Image:
     """Take a share of every pixel's light and spread it evenly: the mean brightness is kept."""
     share = view.camera[FLARE]
     veil = share * image.mean(axis=(0, 1), dtype=np.float64)
     return np.asarray(image * (1.0 - share) + veil.astype(image.dtype))
 
 
-def skipped(facts: Facts, view: View) -> Error:
-    """The mean lies inside the range, so that a pixel is at most the whole range away from it."""
-    return Error(view.camera[FLARE] * facts.span)
-
-
 EFFECT = Effect(
     name="flare",
     stage="sensor",
-    decides=("flare", "contrast", "artefacts"),
+    answers=("flare", "contrast", "artefacts"),
     settings=(FLARE,),
-    present=lambda view: view.camera[FLARE] > 0.0,
+    is_present=lambda view: view.camera[FLARE] > 0.0,
     run=on_picture(run),
-    cost=measured((6.2, 282)),
-    skipped=skipped,
+    # the mean lies inside the range, so that a pixel is at most the whole range away from it
+    omission_bound=lambda signal, view: view.camera[FLARE] * signal.span,
+    size=Size(
+        lambda view: 100.0 * view.camera[FLARE], "spread {:.3g} % of the light over the picture"
+    ),
 )

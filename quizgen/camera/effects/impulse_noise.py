@@ -2,19 +2,13 @@
 
 from __future__ import annotations
 
-import math
-
-from msgspec.structs import replace
-
 from quizgen.camera.blocks import Tile, Work
-from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, PointByPoint
-from quizgen.camera.facts import Error, Facts
+from quizgen.camera.effects.effect import Effect, PointByPoint, Size
 from quizgen.camera.noise import Luck, luck
 from quizgen.camera.scene import Image
-from quizgen.camera.settings import SHARE, Setting
-from quizgen.camera.values import quantity
-from quizgen.camera.view import View
+from quizgen.camera.setup.settings import SHARE, Setting
+from quizgen.camera.setup.values import quantity
+from quizgen.camera.view import Signal, View
 
 IMPULSE_NOISE = Setting("impulse_noise", quantity("%"), 0.0, (SHARE,))
 """Share of pixels turned black or white (half each)."""
@@ -41,33 +35,23 @@ def impulses(share: float, source: Luck) -> Work:
     return work
 
 
-def work(view: View, rung: str = "") -> Work:
+def work(view: View) -> Work:
     """`impulses` of the camera's share."""
     return impulses(view.camera[IMPULSE_NOISE], luck(view, "impulse noise"))
-
-
-def skipped(facts: Facts, view: View) -> Error:
-    """Any pixel may turn black or white."""
-    return Error(math.inf)
-
-
-def after(facts: Facts, view: View) -> Facts:
-    """Steps of the whole range."""
-    low, high = facts.limits
-    wide = replace(facts, low=min(facts.low, 0.0), high=max(facts.high, 1.0))
-    wide = replace(wide, limits=(min(low, 0.0), max(high, 1.0)))
-    return wide.with_jump((wide.span, wide.span))
 
 
 EFFECT = Effect(
     name="impulse noise",
     stage="edit",
-    decides=("impulse noise", "noise", "snr", "histogram"),
+    answers=("impulse noise", "noise", "snr", "histogram"),
     settings=(IMPULSE_NOISE,),
-    present=lambda view: view.camera[IMPULSE_NOISE] > 0.0,
+    is_present=lambda view: view.camera[IMPULSE_NOISE] > 0.0,
     run=PointByPoint(work),
-    cost=measured((2.71, 120)),
-    skipped=skipped,
-    after=after,
-    random=True,
+    omission_bound=lambda signal, _: max(1.0 - signal.low, signal.high, signal.size),
+    range_after=lambda signal, _: Signal(min(signal.low, 0.0), max(signal.high, 1.0)),
+    size=Size(
+        lambda view: 100.0 * view.camera[IMPULSE_NOISE],
+        "turn {:.3g} % of the pixels black or white",
+    ),
+    speckles=True,
 )

@@ -5,16 +5,18 @@ from __future__ import annotations
 import numpy as np
 from msgspec.structs import replace
 
-from quizgen.camera.costs import at_least_a_call, at_size
-from quizgen.camera.draw import Box, Layer, sheets
-from quizgen.camera.effect import Effect, LayerByLayer
-from quizgen.camera.facts import Error, Facts
+from quizgen.camera.effects.effect import (
+    Effect,
+    LayerByLayer,
+    Size,
+)
 from quizgen.camera.filters import sample_grid
-from quizgen.camera.layers import farthest, rounding, shifted, worked_on
+from quizgen.camera.raster.draw import Box, Layer
+from quizgen.camera.raster.layers import bound_shift, farthest, worked_on
+from quizgen.camera.raster.uneven import places
 from quizgen.camera.scene import Image, SceneError
-from quizgen.camera.settings import Setting
-from quizgen.camera.uneven import places
-from quizgen.camera.values import quantity
+from quizgen.camera.setup.settings import Setting
+from quizgen.camera.setup.values import quantity
 from quizgen.camera.view import View
 
 LATERAL_COLOUR = Setting("lateral_colour", quantity("px"), 0.0)
@@ -40,7 +42,7 @@ def _scales(view: View) -> tuple[float, float, float]:
     return 1.0 + share, 1.0, 1.0 - share
 
 
-def work(layer: Layer, view: View, rung: str = "") -> Layer:
+def work(layer: Layer, view: View) -> Layer:
     """Magnify a layer's colours differently."""
     far = _farthest(view)
     where = places(layer, (far, far))
@@ -95,32 +97,15 @@ def outside(view: View) -> tuple[float, float]:
     return farthest(view, lambda _: (x * beside, y * beside))
 
 
-def skipped(facts: Facts, view: View) -> Error:
-    """Shift at the corner times the steepest slope."""
-    return shifted(facts, _farthest(view), view)
-
-
-def after(facts: Facts, view: View) -> Facts:
-    """Steps grow by the reduced colour's scale."""
-    factor = 1.0 / (1.0 - _share(view)) + rounding(view)
-    return facts.stepped(factor, factor)
-
-
-def cost(view: View, rung: str, opencv_used: bool) -> float:
-    """Colour and, but for the opaque layer, cover."""
-    return at_size((2.46, 306), view.megapixels) * (2 * len(sheets(view)) - 1)
-
-
 EFFECT = Effect(
     name="lateral colour",
     stage="optics",
-    decides=("lateral colour", "artefacts"),
+    answers=("lateral colour", "artefacts"),
     settings=(LATERAL_COLOUR,),
-    present=lambda view: view.camera[LATERAL_COLOUR] != 0.0,
+    is_present=lambda view: view.camera[LATERAL_COLOUR] != 0.0,
     outside=outside,
     check=check,
     run=LayerByLayer(work),
-    cost=at_least_a_call(cost),
-    skipped=skipped,
-    after=after,
+    omission_bound=lambda signal, view: bound_shift(signal, view, _farthest(view)),
+    size=Size(_farthest, "move red and blue by up to {:.3g} px", 1.0),
 )

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, no_bound, on_picture
+from quizgen.camera.effects.effect import (
+    Effect,
+    on_picture,
+)
 from quizgen.camera.scene import Image
-from quizgen.camera.settings import Rule, Setting, Settings
-from quizgen.camera.values import one_of
+from quizgen.camera.setup.settings import Rule, Setting, Settings
+from quizgen.camera.setup.values import one_of
 from quizgen.camera.view import View
 
 TILES = ("RGGB", "BGGR", "GRBG", "GBRG")
@@ -30,7 +32,7 @@ def colour_at(view: View) -> tuple[tuple[int, int], ...]:
     return (tile[0], tile[1]), (tile[2], tile[3])
 
 
-def run(image: Image, view: View, rung: str = "") -> Image:
+def run(image: Image, view: View) -> Image:
     """Keep one colour per photosite, shape (H, W, 1)."""
     raw = np.empty((*image.shape[:2], 1), image.dtype)
     for row, channels in enumerate(colour_at(view)):
@@ -42,13 +44,10 @@ def run(image: Image, view: View, rung: str = "") -> Image:
 EFFECT = Effect(
     name="mosaic",
     stage="sensor",
-    decides=("bayer", "demosaicing", "moire"),
+    answers=("bayer", "demosaicing", "moire"),
     settings=(MOSAIC,),
-    present=lambda view: view.camera[MOSAIC] != "",
+    is_present=lambda view: view.camera[MOSAIC] != "",
     run=on_picture(run),
-    looks=0,
-    cost=measured((0.137, 22)),
-    skipped=no_bound,  # what it loses shows after demosaicing
-    knows_where=True,
+    omission_bound=lambda *_: 0.0,  # what it loses shows after demosaicing
     pair="bayer",
 )

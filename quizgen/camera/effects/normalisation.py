@@ -5,13 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from quizgen.camera.blocks import Tile, Work
-from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, PointByPoint
-from quizgen.camera.facts import Error, Facts
+from quizgen.camera.effects.effect import Effect, PointByPoint
 from quizgen.camera.scene import Image
-from quizgen.camera.settings import Rule, Setting, Settings
-from quizgen.camera.values import number, several
-from quizgen.camera.view import View
+from quizgen.camera.setup.settings import Rule, Setting, Settings
+from quizgen.camera.setup.values import number, several
+from quizgen.camera.view import Signal, View
 
 Ends = tuple[float, float, float, float]
 
@@ -51,7 +49,7 @@ def stretch_range(
     return share
 
 
-def work(view: View, rung: str = "") -> Work:
+def work(view: View) -> Work:
     """`stretch_range` with the camera's limits."""
     ends = _ends(view)
 
@@ -67,43 +65,33 @@ def _normalised(value: float, view: View) -> float:
     return new_low + (new_high - new_low) * min(max((value - low) / (high - low), 0.0), 1.0)
 
 
-def skipped(facts: Facts, view: View) -> Error:
+def omission_bound(signal: Signal, view: View) -> float:
     """Largest at an end of the range or where clipping starts."""
-    ends = (facts.bottom, facts.top, _ends(view)[0], _ends(view)[1])
-    inside = [value for value in ends if facts.bottom <= value <= facts.top]
-    return Error(max(abs(_normalised(value, view) - value) for value in inside))
+    ends = (signal.low, signal.high, _ends(view)[0], _ends(view)[1])
+    inside = [value for value in ends if signal.low <= value <= signal.high]
+    return max(abs(_normalised(value, view) - value) for value in inside)
 
 
-def _slope(view: View) -> float:
-    """Stretch factor."""
-    low, high, new_low, new_high = _ends(view)
-    return abs(new_high - new_low) / (high - low)
-
-
-def carried(error: Error, facts: Facts, view: View) -> Error:
+def carry_error(error: float, signal: Signal, view: View) -> float:
     """Stretched."""
-    return error.times(_slope(view))
+    low, high, new_low, new_high = _ends(view)
+    return error * abs(new_high - new_low) / (high - low)
 
 
-def after(facts: Facts, view: View) -> Facts:
+def range_after(signal: Signal, view: View) -> Signal:
     """Stretched and clipped."""
-    ends = _normalised(facts.low, view), _normalised(facts.high, view)
-    factor = _slope(view)
-    jump = facts.jump[0] * factor, facts.jump[1] * factor
-    noise = facts.noise * factor, facts.tail * factor
-    far = _normalised(facts.limits[0], view), _normalised(facts.limits[1], view)
-    return Facts(min(ends), max(ends), facts.layers, *noise, (min(far), max(far))).with_jump(jump)
+    ends = _normalised(signal.low, view), _normalised(signal.high, view)
+    return Signal(min(ends), max(ends))
 
 
 EFFECT = Effect(
     name="normalisation",
     stage="edit",
-    decides=("normalisation", "contrast"),
+    answers=("normalisation", "contrast"),
     settings=(NORMALISE,),
-    present=lambda view: view.camera[NORMALISE] is not None,
+    is_present=lambda view: view.camera[NORMALISE] is not None,
     run=PointByPoint(work),
-    cost=measured((0.792, 47.5)),
-    skipped=skipped,
-    carried=carried,
-    after=after,
+    omission_bound=omission_bound,
+    carry_error=carry_error,
+    range_after=range_after,
 )

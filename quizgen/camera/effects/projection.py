@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, same_stack
+from quizgen.camera.effects.effect import (
+    Effect,
+    keep_stack,
+)
 from quizgen.camera.scene import Length, Scene, SceneError, Thing
 from quizgen.camera.view import View
 
@@ -42,10 +44,9 @@ def _project(thing: Thing, distance: float) -> Thing:
 EFFECT = Effect(
     name="projection",
     stage="scene",
-    decides=("projection", "geometry", "artefacts"),
-    present=lambda view: view.scene.metric,
+    answers=("projection", "geometry", "artefacts"),
+    is_present=lambda view: view.scene.metric,
     prepare=project,
-    run=same_stack,
-    cost=measured((0.05, 0.05)),
-    reason="lengths in metres",
+    run=keep_stack,
+    always="lengths in metres",
 )

@@ -5,32 +5,26 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from msgspec.structs import replace
 
-from quizgen.camera.body import VELOCITY
-from quizgen.camera.costs import at_least_a_call, sampling
-from quizgen.camera.draw import Box, Layer, Sheet, sheets
-from quizgen.camera.effect import Effect, LayerByLayer
-from quizgen.camera.facts import Error, Facts, LayerFacts
+from quizgen.camera.effects.effect import Effect, LayerByLayer, Size
 from quizgen.camera.filters import sample
-from quizgen.camera.layers import (
+from quizgen.camera.raster.draw import Box, Layer, Sheet, sheets
+from quizgen.camera.raster.layers import (
     Field,
     anything_moves,
+    bound_layers,
     chord,
-    each,
     farthest,
     path,
-    rim,
     rounding,
     turned,
-    within,
     worked_on,
 )
+from quizgen.camera.raster.uneven import places
 from quizgen.camera.scene import Image
-from quizgen.camera.settings import NOT_NEGATIVE, Setting
-from quizgen.camera.uneven import places
-from quizgen.camera.values import quantity
-from quizgen.camera.view import View
+from quizgen.camera.setup.settings import NOT_NEGATIVE, Setting
+from quizgen.camera.setup.values import quantity
+from quizgen.camera.view import Signal, View
 
 ROW_TIME = Setting("row_time", quantity("s"), 0.0, (NOT_NEGATIVE,))
 """Delay from row to row, s."""
@@ -42,7 +36,7 @@ def row_times(view: View) -> Field:
     return rows * view.camera[ROW_TIME]
 
 
-def work(layer: Layer, view: View, rung: str = "") -> Layer:
+def work(layer: Layer, view: View) -> Layer:
     """What moves is sheared, what turns is bent."""
     times, motion = row_times(view)[:, None], layer.motion
     if motion.spin:
@@ -72,18 +66,6 @@ def _near(positions: Field, length: int, view: View) -> Image:
     return np.clip(positions, -1.0, length).astype(view.precision)
 
 
-def skipped(facts: Facts, view: View) -> Error:
-    """How far things move until the first or last row is read, times the steepest slope."""
-    time, total = (view.height - 1) / 2 * view.camera[ROW_TIME], 0.0
-    for layer, sheet, _ in each(facts, view):
-        across, down = (abs(part) for part in path(sheet.motion, view, time))
-        if across or down:
-            across, down = across + rounding(view), down + rounding(view)
-        total += across * layer.jump[0] + down * layer.jump[1]
-        total += chord(sheet.motion, view, time) * math.hypot(*layer.jump)
-    return within(total, facts)
-
-
 def outside(view: View) -> tuple[float, float]:
     """As far as things move until the first or last row is read."""
     time = float(row_times(view)[-1])
@@ -96,35 +78,38 @@ def outside(view: View) -> tuple[float, float]:
     return farthest(view, reach)
 
 
-def after(facts: Facts, view: View) -> Facts:
-    """A shear: one row down also means a row time's movement."""
-    layers, time = [], view.camera[ROW_TIME]
-    for layer, sheet, _ in each(facts, view):
+def omission_bound(signal: Signal, view: View) -> float:
+    """How far things move until the first or last row is read, times the largest step."""
+    time = float(row_times(view)[-1])
+
+    def share(sheet: Sheet) -> float:
         across, down = (abs(part) for part in path(sheet.motion, view, time))
-        turn = abs(sheet.motion.spin) * time * rim(sheet.motion, view)
-        x, y = layer.jump if not turn else (math.hypot(*layer.jump) * (1 + turn),) * 2
-        step = x, y * (1 + down) + x * across
-        layers.append(LayerFacts(step, (2 * step[0], 2 * step[1])))
-    return replace(facts, layers=tuple(layers))
+        near = 2.0 * rounding(view) * bool(across or down)
+        return across + down + near + math.sqrt(2.0) * chord(sheet.motion, view, time)
+
+    return bound_layers(signal, view, share)
 
 
-def cost(view: View, rung: str, opencv_used: bool) -> float:
-    """A sample per layer that moves."""
-    pan = view.camera[VELOCITY]
-    layers = sum(1 for sheet in sheets(view) if any(pan) or not sheet.motion.still)
-    return layers * 1.8 * sampling(view, opencv_used)
+def _farthest_apart(view: View) -> float:
+    """How far anything moves from the first row to the last, px."""
+    time, paths = 2.0 * float(row_times(view)[-1]), [0.0]
+    for sheet in sheets(view):
+        paths.append(math.hypot(*path(sheet.motion, view, time)))
+        paths.append(
+            2.0 * sheet.motion.reach * math.sin(min(abs(sheet.motion.spin) * time, math.pi) / 2.0)
+        )
+    return max(paths)
 
 
 EFFECT = Effect(
     name="rolling shutter",
     stage="optics",
-    decides=("rolling shutter", "motion", "artefacts"),
+    answers=("rolling shutter", "motion", "artefacts"),
     settings=(ROW_TIME,),
-    present=lambda view: view.camera[ROW_TIME] > 0.0 and anything_moves(view),
+    is_present=lambda view: view.camera[ROW_TIME] > 0.0 and anything_moves(view),
     run=LayerByLayer(work),
-    cost=at_least_a_call(cost),
-    skipped=skipped,
+    omission_bound=omission_bound,
     outside=outside,
-    after=after,
+    size=Size(_farthest_apart, "move the last row by up to {:.3g} px against the first", 2.0),
     needs="something that moves",
 )

@@ -10,17 +10,18 @@ import math
 from functools import lru_cache
 
 import numpy as np
-from msgspec.structs import replace
 
 from quizgen.camera.blocks import Work, at_pixels
-from quizgen.camera.body import NEEDS_LENS
-from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, PointByPoint
-from quizgen.camera.facts import Error, Facts
-from quizgen.camera.layers import Field
+from quizgen.camera.effects.effect import (
+    Effect,
+    PointByPoint,
+    Size,
+)
+from quizgen.camera.raster.layers import Field
 from quizgen.camera.scene import Image, Precision
-from quizgen.camera.settings import Rule, Setting, Settings
-from quizgen.camera.values import number, truth
+from quizgen.camera.setup.body import NEEDS_LENS
+from quizgen.camera.setup.settings import Rule, Setting, Settings
+from quizgen.camera.setup.values import number, truth
 from quizgen.camera.view import View
 
 
@@ -37,11 +38,6 @@ MECHANICAL = Setting(
     (Rule(_below_one, "must be in [0, 1)"),),
 )
 """Shift of the lens rim at the corner in aperture diameters."""
-
-
-def present(view: View) -> bool:
-    """Whether the lens loses light toward the corners."""
-    return view.camera[NATURAL] or view.camera[MECHANICAL] > 0.0
 
 
 def rim_overlap(shift: Field) -> Field:
@@ -94,54 +90,32 @@ def _fall_off_map(
     return kept.astype(precision)[..., None]
 
 
-def work(view: View, rung: str = "") -> Work:
+def work(view: View) -> Work:
     """Multiply by the fall-off map."""
     return at_pixels(fall_off_map(view))
 
 
 def corner_light(view: View) -> float:
     """Share of light kept at the picture's corner."""
-    return _sunk(*_lens(view))[0]
+    focal, mechanical, corner = _lens(view)
+    return float(_kept(np.array([corner]), focal, mechanical, corner)[0])
 
 
-def steepest_fall_off(view: View) -> float:
-    """Largest change of the fall-off over one pixel."""
-    return _sunk(*_lens(view))[1]
-
-
-@lru_cache(maxsize=8)
-def _sunk(focal: float, mechanical: float, corner: float) -> tuple[float, float]:
-    """What is kept at the corner, and the largest change over one pixel.
-
-    The fall-off only sinks with the radius, so differences over 1.25 px at steps of 0.25 px bound
-    every difference over 1 px.
-    """
-    radii = np.minimum(np.arange(0.0, corner + 2.0, 0.25), corner)
-    kept = _kept(radii, focal, mechanical, corner)
-    return float(kept[-1]), float((kept[:-5] - kept[5:]).max())
-
-
-def skipped(facts: Facts, view: View) -> Error:
-    """The corner loses most: largest value times (1 - V)."""
-    return facts.amplified(1.0 - corner_light(view))
-
-
-def after(facts: Facts, view: View) -> Facts:
-    """Darker, and steeper by the fall-off itself."""
-    step = facts.size * steepest_fall_off(view)
-    low = min(facts.low, facts.low * corner_light(view))
-    jump = facts.jump[0] + step, facts.jump[1] + step
-    return replace(facts.with_jump(jump), low=low)
+def is_present(view: View) -> bool:
+    """Whether the lens loses light toward the corners."""
+    return view.camera[NATURAL] or view.camera[MECHANICAL] > 0.0
 
 
 EFFECT = Effect(
     name="vignetting",
     stage="sensor",
-    decides=("vignetting", "artefacts"),
+    answers=("vignetting", "artefacts"),
     settings=(NATURAL, MECHANICAL),
-    present=present,
+    is_present=is_present,
     run=PointByPoint(work),
-    cost=measured((0.88, 88.4)),
-    skipped=skipped,
-    after=after,
+    omission_bound=lambda signal, view: (1.0 - corner_light(view) + 1e-6) * signal.size,
+    range_after=lambda signal, view: signal.scaled(corner_light(view) * (1.0 - 1e-6), 1.0),
+    size=Size(
+        lambda view: 100.0 * (1.0 - corner_light(view)), "darken the corners by {:.3g} %", 5.0
+    ),
 )

@@ -5,13 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from quizgen.camera.blocks import BLOCK, Tile, Work
-from quizgen.camera.costs import measured
-from quizgen.camera.effect import Effect, PointByPoint
-from quizgen.camera.facts import Error, Facts
+from quizgen.camera.effects.effect import Effect, PointByPoint
 from quizgen.camera.scene import Colour, Image
-from quizgen.camera.settings import NOT_NEGATIVE, Rule, Setting, Settings
-from quizgen.camera.values import triple
-from quizgen.camera.view import View
+from quizgen.camera.setup.settings import NOT_NEGATIVE, Rule, Setting, Settings
+from quizgen.camera.setup.values import triple
+from quizgen.camera.view import Signal, View
 
 
 def _no_gain_negative(gains: Colour, _: Settings) -> bool:
@@ -24,7 +22,7 @@ WHITE_BALANCE = Setting(
 """Gains of red, green and blue."""
 
 
-def work(view: View, rung: str = "") -> Work:
+def work(view: View) -> Work:
     """Multiply the channels by their gains."""
     gains = np.tile(np.asarray(view.camera[WHITE_BALANCE], view.precision), BLOCK // 3)
 
@@ -34,34 +32,32 @@ def work(view: View, rung: str = "") -> Work:
     return balanced
 
 
-def skipped(facts: Facts, view: View) -> Error:
+def omission_bound(signal: Signal, view: View) -> float:
     """Largest value times the gain farthest from 1."""
-    factor = max(abs(gain - 1.0) for gain in view.camera[WHITE_BALANCE])
-    return facts.amplified(factor)
+    return max(abs(gain - 1.0) for gain in view.camera[WHITE_BALANCE]) * signal.size
 
 
-def carried(error: Error, facts: Facts, view: View) -> Error:
+def carry_error(error: float, signal: Signal, view: View) -> float:
     """Amplified by the largest gain."""
     gains = view.camera[WHITE_BALANCE]
-    return error.amplified(min(gains), max(gains))
+    return error * max(gains)
 
 
-def after(facts: Facts, view: View) -> Facts:
+def range_after(signal: Signal, view: View) -> Signal:
     """Scaled by gains between the smallest and the largest."""
     gains = view.camera[WHITE_BALANCE]
-    return facts.gained(min(gains), max(gains))
+    return signal.scaled(min(gains), max(gains))
 
 
 EFFECT = Effect(
     name="white balance",
     stage="processing",
-    decides=("white balance",),
+    answers=("white balance",),
     settings=(WHITE_BALANCE,),
-    present=lambda view: view.camera[WHITE_BALANCE] != (1.0, 1.0, 1.0),
+    is_present=lambda view: view.camera[WHITE_BALANCE] != (1.0, 1.0, 1.0),
     run=PointByPoint(work),
-    cost=measured((0.283, 27.4)),
-    skipped=skipped,
-    carried=carried,
-    knows_where=True,
-    after=after,
+    omission_bound=omission_bound,
+    carry_error=carry_error,
+    range_after=range_after,
+    needs_effects=("colour filters",),
 )

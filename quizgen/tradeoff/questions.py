@@ -1,0 +1,131 @@
+"""What an exact answer costs a question, and in how many another arithmetic would be wrong.
+
+Like for like: one Python call that solves one question's whole chain, in each arithmetic in turn.
+"""
+
+from __future__ import annotations
+
+import statistics
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from importlib.resources import files
+from itertools import repeat
+
+import msgspec
+
+from quizgen.arrays.distortion import inverse_radius
+from quizgen.arrays.gamma import srgb_decode
+from quizgen.arrays.hsv import to_rgb
+from quizgen.bank.draw import Draw, draw
+from quizgen.bank.folder import Bank
+from quizgen.maths.chain import Chain
+from quizgen.maths.values import AnyNumber
+from quizgen.shapes import decoded
+from quizgen.tradeoff.solving import ARITHMETICS, FAILURES, Arithmetic, solved
+from quizgen.tradeoff.timing import Timing, in_turns
+
+_RUNS = 15
+_ALONE: tuple[Callable[[], object], ...] = (
+    partial(srgb_decode, 0.5),
+    partial(inverse_radius, 0.3, -0.2),
+    partial(to_rgb, 200.0, 0.5, 0.5),
+)
+"""Array functions called for one value."""
+
+
+@dataclass(frozen=True)
+class Cost:
+    """One arithmetic over all questions: seconds, and how many times those of float64.
+
+    Parameters
+    ----------
+    seconds : float
+        The median question's, each at its least.
+    times, low, high : float
+        Median and quartiles of the ratios, question by question; 1 for float64 itself.
+    more : float
+        Seconds more than float64, the median question's.
+    """
+
+    seconds: float
+    times: float
+    low: float
+    high: float
+    more: float
+
+
+class Counted(msgspec.Struct, frozen=True):
+    """Wrong keys of each arithmetic, as they were last counted.
+
+    Parameters
+    ----------
+    date : str
+    templates : int
+        Over how many the questions are spread.
+    drawn : int
+    wrong : dict of str to dict of str to int
+        Arithmetic to template to the number of its questions with a wrong key.
+    """
+
+    date: str
+    templates: int
+    drawn: int
+    wrong: dict[str, dict[str, int]]
+
+    def questions(self, system: str) -> int:
+        """How many questions an arithmetic gets wrong."""
+        return sum(self.wrong.get(system, {}).values())
+
+
+@dataclass(frozen=True)
+class Questions:
+    """Questions timed, one of each template that computes; cost by arithmetic; what was counted."""
+
+    count: int
+    costs: dict[str, Cost]
+    alone: tuple[Timing, ...]
+    counted: Counted
+
+
+def measure_questions(bank: Bank) -> Questions:
+    """Time the built-in questions; the counts are those recorded."""
+    computing = [one for one in map(bank.template, bank.paths) if one.chain.steps]
+    drawn = [one for one in map(draw, computing, repeat(0)) if _is_solved(one, "balls")]
+    systems = [name for name in ARITHMETICS if name != "rounded"]  # float64, rounded afterwards
+    spent = [in_turns([_solving(one, name) for name in systems], _RUNS) for one in drawn]
+    least = {name: [times[i].least for times in spent] for i, name in enumerate(systems)}
+    costs = {name: _cost(seconds, least["float64"]) for name, seconds in least.items()}
+    alone = in_turns(_ALONE, 10 * _RUNS)
+    return Questions(len(drawn), costs | {"rounded": costs["float64"]}, tuple(alone), recorded())
+
+
+def _is_solved(drawn: Draw, system: str) -> bool:
+    """Whether an arithmetic has an answer at all: balls cannot tell that two colours are equal."""
+    try:
+        solved(drawn, system)
+    except FAILURES:
+        return False
+    return True
+
+
+def _solving(drawn: Draw, system: str) -> Callable[[], object]:
+    way, chain = ARITHMETICS[system], drawn.template.chain
+    given = way.given({quantity: drawn.values[quantity] for quantity in chain.given})
+    return partial(_solve, way, chain, given)
+
+
+def _solve(way: Arithmetic, chain: Chain, given: dict[str, AnyNumber]) -> object:
+    return way.run(chain, dict(given))
+
+
+def _cost(seconds: Sequence[float], doubles: Sequence[float]) -> Cost:
+    ratios = [one / other for one, other in zip(seconds, doubles, strict=True)]
+    low, times, high = statistics.quantiles(ratios, n=4, method="inclusive")
+    more = statistics.median(one - other for one, other in zip(seconds, doubles, strict=True))
+    return Cost(statistics.median(seconds), times, low, high, more)
+
+
+def recorded() -> Counted:
+    """What was counted when it was last counted in full."""
+    return decoded((files("quizgen.tradeoff") / "counted.json").read_bytes(), Counted)

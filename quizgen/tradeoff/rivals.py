@@ -1,0 +1,148 @@
+"""Arrays of numbers: the house's functions, plain lines and other libraries, each warm.
+
+Every way gets its input as its user holds it (points for OpenCV, a picture for colours) and is
+called as its user would write it.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from quizgen.arrays.distortion import inverse_radius
+from quizgen.tradeoff import lines
+from quizgen.tradeoff.digits import digits
+from quizgen.tradeoff.formulas import BY_NAME, Columns
+from quizgen.tradeoff.lines import Column
+from quizgen.tradeoff.sweeps import EXAMS, PLACES, SEED
+from quizgen.tradeoff.timing import Timing, in_turns
+from quizgen.tradeoff.truth import truths
+
+ARRAY = 100_000
+"""Elements of a timed array."""
+_RUNS = 9
+
+Call = Callable[[], Any]
+"""A call whose input is at hand."""
+Ready = Callable[..., Call]
+"""Columns to such a call."""
+
+
+@dataclass(frozen=True)
+class Rival:
+    """One way: seconds a value, and digits of its worst result on exam and on hard inputs."""
+
+    name: str
+    time: Timing
+    exam: float
+    hard: float
+
+
+@dataclass(frozen=True)
+class Match:
+    """All ways to compute one formula, that of the printed formula first."""
+
+    formula: str
+    rivals: tuple[Rival, ...]
+
+
+def _plain(call: Callable[..., Any]) -> Ready:
+    return lambda *columns: partial(call, *columns)
+
+
+def _undistorting() -> Iterator[tuple[str, Ready]]:
+    yield "fixed-point", _plain(lines.fixed_point)
+    yield "newton", _plain(lines.newton)
+    yield "quizgen", lambda r, k: partial(inverse_radius, r, k[0])
+    import cv2
+
+    def opencv(r: Column, k: Column) -> Call:
+        points = np.stack([r, np.zeros_like(r)], axis=-1)[:, None, :]
+        lens = np.array([k[0], 0.0, 0.0, 0.0])
+        return lambda: cv2.undistortPoints(points, np.eye(3), lens)[:, 0, 0]
+
+    yield "OpenCV undistortPoints", opencv
+
+
+def _picture(*rgb: Column) -> Column:
+    return np.stack(rgb, axis=-1)[None]
+
+
+def _hues() -> Iterator[tuple[str, Ready]]:
+    yield "printed", _plain(lines.hue)
+    from matplotlib.colors import rgb_to_hsv
+
+    def matplotlib(*rgb: Column) -> Call:
+        picture = _picture(*rgb)
+        return lambda: 360 * rgb_to_hsv(picture)[0, :, 0]
+
+    yield "matplotlib rgb_to_hsv", matplotlib
+    import cv2
+
+    def opencv(*rgb: Column) -> Call:
+        picture = _picture(*rgb).astype(np.float32)
+        return lambda: cv2.cvtColor(picture, cv2.COLOR_RGB2HSV)[0, :, 0]
+
+    yield "OpenCV cvtColor, float32", opencv
+
+
+def _falloffs() -> Iterator[tuple[str, Ready]]:
+    yield "printed", _plain(lambda r, f: 1 - (1 / (1 + (r / f) ** 2)) ** 2)
+    yield "line", _plain(lines.falloff)
+
+
+def _tails() -> Iterator[tuple[str, Ready]]:
+    from scipy import special
+
+    yield "printed", _plain(lambda k: 1 - special.erf(k / 2**0.5))
+    yield "SciPy erfc", _plain(lambda k: special.erfc(k / 2**0.5))
+
+
+_MATCHES = {
+    "inverse-distortion": _undistorting,
+    "hue": _hues,
+    "vignetting": _falloffs,
+    "gaussian-tail": _tails,
+}
+
+
+def matches() -> list[Match]:
+    """Measure every formula that an array is computed of, with the libraries that are installed."""
+    with warnings.catch_warnings(), np.errstate(all="ignore"):
+        warnings.simplefilter("ignore")
+        found = [_match(name, list(_there(ways()))) for name, ways in _MATCHES.items()]
+    return [match for match in found if len(match.rivals) > 1]
+
+
+def _there(ways: Iterator[tuple[str, Ready]]) -> Iterator[tuple[str, Ready]]:
+    with suppress(ImportError):
+        yield from ways
+
+
+def _match(name: str, ways: list[tuple[str, Ready]]) -> Match:
+    formula = BY_NAME[name]
+    exam = formula.exam(np.random.default_rng(SEED), EXAMS)
+    hard = formula.path(formula.places(PLACES))
+    long = [np.resize(column, ARRAY) for column in exam]
+    times = in_turns([ready(*long) for _, ready in ways], _RUNS)
+    rivals = tuple(
+        Rival(way, time.per(ARRAY), _worst(name, ready, exam), _worst(name, ready, hard))
+        for (way, ready), time in zip(ways, times, strict=True)
+    )
+    return Match(name, rivals)
+
+
+def _worst(name: str, ready: Ready, columns: Columns) -> float:
+    formula = BY_NAME[name]
+    found = np.ma.filled(ready(*columns)(), np.nan)
+    right = truths(formula, columns)
+    return min(
+        digits(float(value), truth, formula.turn)
+        for value, truth in zip(found, right.tolist(), strict=True)
+    )

@@ -1,0 +1,86 @@
+"""The right value of a formula: exact fractions or Arb balls, for doubles taken as they are."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+from flint import arb, fmpq
+
+from quizgen.errors import MathError
+from quizgen.maths.numbers import rational
+from quizgen.maths.precision import working_precision
+from quizgen.maths.systems import compile_expr, exact
+from quizgen.tradeoff.formulas import Columns, Formula
+from quizgen.tradeoff.lines import Column
+
+_BITS = 63
+"""Certain bits of a ball, so that rounding it to 53 is right."""
+_MOST_BITS = 12800
+
+Inputs = Mapping[str, Any]
+
+
+def truths(formula: Formula, columns: Columns) -> Column:
+    """Correctly rounded values.
+
+    Parameters
+    ----------
+    formula : Formula
+    columns : list of array
+        Inputs; those of ``decimal`` formulas mean the decimals that they print as.
+
+    Raises
+    ------
+    MathError
+        If a ball does not become small enough, as where there is no answer.
+    """
+    compute = _compute(formula)
+    rows = zip(*(column.tolist() for column in columns), strict=True)
+    names = formula.names.split()
+    read = _as_decimal if formula.decimal else _as_it_is
+    return np.array([
+        _nearest(compute, dict(zip(names, map(read, row), strict=True))) for row in rows
+    ])  # fmt: skip
+
+
+def _compute(formula: Formula) -> Callable[[Inputs], Any]:
+    special = {"inverse-distortion": _radius, "poisson": _probability}
+    return special.get(formula.name) or compile_expr(formula.tree, exact())
+
+
+def _as_it_is(value: float) -> fmpq:
+    return fmpq(*value.as_integer_ratio())
+
+
+def _as_decimal(value: float) -> fmpq:
+    return rational(repr(value))
+
+
+def _nearest(compute: Callable[[Inputs], Any], given: Inputs) -> float:
+    """The nearest double, with as much precision as that takes."""
+    precision = 80
+    while precision <= _MOST_BITS:
+        with working_precision(precision):
+            try:
+                value = compute(given)
+            except MathError:  # a sign that so few bits cannot tell
+                value = None
+            if isinstance(value, fmpq):
+                return int(value.p) / int(value.q)
+            if value is not None and value.rel_accuracy_bits() >= _BITS:
+                return float(value.mid())
+        precision *= 2
+    raise MathError("a ball does not become small enough")
+
+
+def _radius(given: Inputs) -> arb:
+    """Closed form of the cubic: 2/sqrt(-3 k) sin(asin(r/fold)/3)."""
+    size = (-3 * arb(given["k"])).sqrt()
+    return 2 / size * ((3 * size * given["r"] / 2).asin() / 3).sin()
+
+
+def _probability(given: Inputs) -> arb:
+    k, lam = arb(given["k"]), arb(given["lam"])
+    return (k * lam.log() - lam - (k + 1).lgamma()).exp()

@@ -1,0 +1,18 @@
+"""One measurement for all tests of the page: every formula and array, a few questions."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import pytest
+
+from quizgen.bank.folder import builtin
+from quizgen.tradeoff.report import measure
+
+FEW = ("compare-two-gaussian-noises", "dynamic-range-of-sensor", "photon-energy-and-band")
+
+
+@pytest.fixture(scope="session")
+def report():
+    bank = builtin()
+    return measure(SimpleNamespace(paths=FEW, template=bank.template))
