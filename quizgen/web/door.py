@@ -66,7 +66,7 @@ class Door:
         if scope["path"] == ENTRANCE:
             return await self._entered(scope)
         token = _cookie(scope)
-        learner = store.remembered() or await run_in_threadpool(store.learner)
+        learner = await self._find_learner()
         if token not in self._let_in:
             if not token or not await run_in_threadpool(
                 store.accounts.is_session, token, learner.id
@@ -76,12 +76,17 @@ class Door:
         scope.setdefault("state", {}).update(learner=learner, token=token)
         return None
 
+    async def _find_learner(self) -> Learner:
+        store = self.site.store
+        found: Learner | None = store.remembered()
+        return found if found is not None else await run_in_threadpool(store.learner)
+
     async def _entered(self, scope: Scope) -> Response:
         """Begin a session of a browser that has a key."""
         store = self.site.store
         if not self.site.keys.is_good(QueryParams(scope["query_string"]).get("key", "")):
             return told("entrance", 403)
-        learner = store.remembered() or await run_in_threadpool(store.learner)
+        learner = await self._find_learner()
         token = await run_in_threadpool(store.accounts.begin, learner.id)
         self._let_in.add(token)
         scope.setdefault("state", {})
