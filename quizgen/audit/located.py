@@ -52,6 +52,8 @@ ADVICE = {
     "has numbers and no name": 'name it with its unit: ax.set_xlabel("$x$ / mm")',
     "can hardly be seen on white": "take an ink of the house (docs/figures.md) or a darker colour",
     "look alike on grey paper": "give one of them dashes, or say COLOUR = True",
+    "cannot be seen in grey": "draw values that make it larger, or say COLOUR = True",
+    "cannot be seen: ": "draw values that make it larger",
     "there is no picture": "put the file there, or mend its name",
     "picture .* cannot be read as": "save it anew as PNG, JPEG or plain SVG",
     "says is read in it": "show it in draw and alt where quiz is true, or leave it out of reads",

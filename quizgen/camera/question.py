@@ -163,8 +163,9 @@ def conjugate(says: str) -> str:
 
 
 def measure_visibility(
-    shown: Image, plain: Image, kind: str = "", *, speckles: bool = False
-) -> Visibility:
+    shown: Image | NDArray[np.uint8], plain: Image | NDArray[np.uint8], kind: str = "", *,
+    speckles: bool = False,
+) -> Visibility:  # fmt: skip
     """How two pictures differ, in colour and in grey.
 
     Parameters
@@ -180,8 +181,10 @@ def measure_visibility(
     for start, stop in pieces(len(shown), _ROWS):
         apart = _codes(shown[start:stop]) - _codes(plain[start:stop])
         found.add(np.abs(apart))
-        gray.add(np.abs(apart @ _LUMA)[..., None])
-    return replace(found.summarise(kind, speckles), grey=gray.summarise(kind, speckles))
+        if apart.shape[2] > 1:
+            gray.add(np.abs(apart @ _LUMA)[..., None])
+    seen = found.summarise(kind, speckles)
+    return replace(seen, grey=gray.summarise(kind, speckles) if gray.count else seen)
 
 
 _ROWS, _MEGAPIXEL = 64, 1e6
@@ -189,11 +192,10 @@ _ROWS, _MEGAPIXEL = 64, 1e6
 
 
 def _codes(image: Image | NDArray[np.uint8]) -> NDArray[np.floating]:
-    """Grey levels of three channels."""
+    """Grey levels, shape (H, W, 1) or (H, W, 3)."""
     levels = np.asarray(image, np.float32)
     levels = levels if image.dtype == np.uint8 else np.clip(levels * GREY_LEVELS, 0.0, GREY_LEVELS)
-    levels = levels.reshape(*levels.shape[:2], -1)
-    return np.broadcast_to(levels, (*levels.shape[:2], 3))
+    return levels.reshape(*levels.shape[:2], -1)
 
 
 class _Differences:
@@ -204,7 +206,7 @@ class _Differences:
         self.most = self.sum = self.squares = 0.0
 
     def add(self, apart: NDArray[np.float64]) -> None:
-        most = apart.max(axis=2)
+        most = np.maximum.reduce([apart[..., place] for place in range(apart.shape[2])])
         there = most[most >= LEAST_LEVELS]
         self.count += most.size
         self.there += there.size
@@ -400,10 +402,11 @@ def _measure(
 
 def read_value(image: Image, reading: Reading) -> float:
     """What is read off a finished picture."""
-    measure = reading.measure
+    levels, measure = _codes(image), reading.measure
+    levels = np.broadcast_to(levels, (*levels.shape[:2], 3))
     if isinstance(measure, str):
-        return MEASURES[measure](_codes(image))
-    return float(measure(_codes(image)))
+        return MEASURES[measure](levels)
+    return float(measure(levels))
 
 
 def _find_needed(whole: Prepared, plan: Plan, photo: Photo, reading: Reading) -> str:

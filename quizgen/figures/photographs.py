@@ -18,6 +18,33 @@ _TALLEST = 4
 """A bar that is so many times as tall as the second one is cut, with a mark of breaking."""
 
 
+def check_seen(
+    shown: NDArray[np.uint8], plain: NDArray[np.uint8], kind: str, *, speckles: bool = False,
+    grey: bool = True,
+) -> None:  # fmt: skip
+    """Refuse a picture in which nobody sees what it is asked about.
+
+    Parameters
+    ----------
+    shown, plain : ndarray of uint8
+        The picture, and the same without what is asked.
+    kind : str
+        What is asked, for the message.
+    speckles : bool
+        Whether it is noise, which is seen by the spread of single pixels.
+    grey : bool
+        Whether it must be seen in a greyscale print, too: unless the figure says ``COLOUR``.
+
+    Raises
+    ------
+    InvisibleEffectError
+        With how little of it is seen.
+    """
+    from quizgen.camera.question import check_visible, measure_visibility
+
+    check_visible(measure_visibility(shown, plain, kind, speckles=speckles), grey=grey)
+
+
 def place_photo(
     fig: Any, codes: NDArray[np.uint8], box: Box, *, palette: Any = None, number: int = 0,
     told: str = "",

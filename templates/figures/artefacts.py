@@ -97,13 +97,14 @@ def draw(fig: Any, values: Values, *, quiz: bool) -> None:
 
 @lru_cache(maxsize=64)
 def _take_pair(kind: str, variant: int, way: int) -> tuple[NDArray[np.uint8], ...]:
-    """The scene without and with the artefact, for the question and for its solution."""
-    from quizgen.camera import Camera, photographs
+    """The scene without and with the artefact: what it needs runs, and it is measured to show."""
     from quizgen.camera.filters import everywhere_alike
+    from quizgen.camera.question import photograph_question
 
-    scene, camera = make_scene(kind, variant, way)
     with everywhere_alike():
-        return tuple(photo.pixels() for photo in photographs(scene, Camera(gamma="srgb"), camera))
+        asks, grey = _ASKED.get(kind, kind), kind not in _COLOURED
+        taken = photograph_question(*make_scene(kind, variant, way), asks, grey=grey)
+        return taken.without.pixels(), taken.photo.pixels()
 
 
 def make_scene(kind: str, variant: int, way: int = 0) -> tuple[Scene, Camera]:
@@ -126,6 +127,9 @@ def make_scene(kind: str, variant: int, way: int = 0) -> tuple[Scene, Camera]:
     return Scene(*_PIXELS, things, behind, seed=variant), camera
 
 
+_ASKED = {"streak": "smear", "barrel": "distortion", "pincushion": "distortion",
+          "false colour": "demosaicing"}  # fmt: skip
+"""What the camera calls an artefact, where that has another name."""
 _LENS: dict[str, Any] = {"focal_length": 18e-3, "pixel_pitch": _PITCH}
 _CAMERAS: Mapping[str, dict[str, Any]] = {
     "blooming": {"full_well": 8000.0, "blooming": True, "shot_noise": False},
@@ -170,7 +174,7 @@ def _put(shape: str, x: float, y: float, paint: str, **named: Any) -> Thing:
     return make_thing(shape, _FINE * x, _FINE * y, _FINE, paint, depth=4.0, **named)
 
 
-_GLARE = {"streak": (14.0, 12.0, 8.0), "blooming": (4.4, 3.9, 3.0)}
+_GLARE = {"streak": (14.0, 12.0, 8.0), "blooming": (5.6, 5.0, 3.9)}
 """Colours of the lamp: what blooms must end inside the picture, or it could be a streak."""
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cache, lru_cache
+from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
 from quizgen.figures.kit import (
@@ -65,16 +66,20 @@ def take_photos(values: Values, wide: int, *settings: Setting) -> tuple[NDArray[
 def _take_photos(
     focal: float, wide: int, depths: tuple[float, ...], settings: tuple[Setting, ...]
 ) -> tuple[NDArray[np.uint8], ...]:
-    """The photographs, for the question and for its solution."""
+    """The photographs, each two measured to differ, for the question and for its solution."""
     from quizgen.camera import Camera
     from quizgen.camera.pictures import focused
+    from quizgen.figures.photographs import check_seen
 
     scene, models = _make_scene(wide)
     cameras = [
         Camera(focal / 1e3, SENSOR_MM / 1e3 / wide, number, distance, gamma="srgb")
         for distance, number in settings
     ]
-    return focused(scene, [(*depths, _BEHIND_M)[model] for model in models], *cameras)
+    photos = focused(scene, [(*depths, _BEHIND_M)[model] for model in models], *cameras)
+    for one, other in combinations(photos, 2):
+        check_seen(one, other, "depth of field")
+    return photos
 
 
 @cache

@@ -12,9 +12,10 @@ from typing import Any
 import numpy as np
 from matplotlib.path import Path
 
-from quizgen.camera import Camera, Scene, photographs
+from quizgen.camera import Camera, Scene
 from quizgen.camera.effects.vignetting import fall_off
 from quizgen.camera.filters import everywhere_alike
+from quizgen.camera.question import photograph_question
 from quizgen.camera.view import View
 from quizgen.figures.kit import (
     Parameter,
@@ -66,8 +67,8 @@ def find_shares(values: Values, distances: Sequence[float]) -> list[float]:
 def _take_photo(f: float, extent: float, rim: float) -> Any:
     """The photograph in 8-bit codes, for the question and for its solution."""
     with everywhere_alike():
-        (photo,) = photographs(*set_camera({"f": f, "extent": extent, "rim": rim}))
-    return photo.pixels()
+        scene, camera = set_camera({"f": f, "extent": extent, "rim": rim})
+        return photograph_question(scene, camera, "vignetting", grey=True).photo.pixels()
 
 
 def draw(ax: Any, values: Values, *, quiz: bool) -> None:

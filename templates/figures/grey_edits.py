@@ -74,11 +74,13 @@ def take_photo() -> NDArray[np.uint8]:
 
 def draw(fig: Any, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, show numbers without the edits."""
-    from quizgen.figures.photographs import place_photo, plot_histogram
+    from quizgen.figures.photographs import check_seen, place_photo, plot_histogram
 
     require("grey_edits", values["low"] < values["high"], "high must be larger than low")
     for place, edit in enumerate(order_edits(values["order"])):
         codes = _edit_photo(edit, values)
+        if edit != "original":
+            check_seen(codes, take_photo(), f"the edit {edit}")
         left, low = place % 2 * (_WIDE + _GAP), (1 - place // 2) * _ROW + _FOOT
         plot_histogram(fig, codes, BINS, (left, low, _WIDE, _BARS))
         box = (left, low + _BARS + _BETWEEN, _WIDE, _HIGH)

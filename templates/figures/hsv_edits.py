@@ -51,12 +51,18 @@ def order_edits(order: float) -> tuple[str, ...]:
 
 def draw(fig: Any, values: Values, *, quiz: bool) -> None:
     """Draw the figure; in a quiz, show numbers without the edits."""
-    from quizgen.figures.photographs import place_photo
+    import numpy as np
+
+    from quizgen.figures.photographs import check_seen, place_photo
 
     from ._scene import paint_scene
 
     pixels, palette = paint_scene(int(values["scene"]))
     palettes = _edit_palette(palette, values)
+    some = pixels[::4, ::4]  # what differs in a whole picture differs in a sixteenth of it
+    original, *edited = (np.array(palettes[edit], np.uint8)[some] for edit in EDITS)
+    for photo, edit in zip(edited, EDITS[1:], strict=True):
+        check_seen(photo, original, f"the edit of {edit}", grey=not COLOUR)
     for place, edit in enumerate(order_edits(values["order"])):
         box = (place % 2 * (_WIDE + _GAP), (1 - place // 2) * _ROW, _WIDE, _HIGH)
         told = "" if quiz else _write_edit(values, edit)

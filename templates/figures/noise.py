@@ -65,11 +65,13 @@ def take_photo() -> Image:
 @lru_cache(maxsize=32)
 def _take_noisy(sigma: float, p: float, seed: int) -> dict[str, NDArray[np.uint8]]:
     from quizgen.camera import pictures
+    from quizgen.figures.photographs import check_seen
 
     made = pictures.noisy(take_photo(), sigma, p, seed)
-    return {
-        kind: pictures.codes(image)[..., 0] for kind, image in zip(KINDS, made, strict=True)
-    }  # fmt: skip
+    photos = {kind: pictures.codes(one)[..., 0] for kind, one in zip(KINDS, made, strict=True)}
+    for kind in KINDS[1:]:
+        check_seen(photos[kind], photos["clean"], f"{kind} noise", speckles=True)
+    return photos
 
 
 def draw(fig: Any, values: Values, *, quiz: bool) -> None:

@@ -18,7 +18,7 @@ from svg_reader import read_labels, read_parts, read_pictures
 
 from quizgen.bank.draw import draw as draw_question
 from quizgen.camera import pictures
-from quizgen.errors import BankError
+from quizgen.errors import BankError, QuizgenError
 from quizgen.figures import complete_parameters, svg
 from quizgen.png import encode
 from quizgen.question.kinds import build
@@ -511,3 +511,16 @@ def test_each_photo_was_taken_with_the_setting_of_the_key(bank, seed):
     key = [settings[targets[place]] for _, place in sorted(built.spec.pairs.items())]
     assert [name for _, name in built.options] == ["one", "two", "three"]
     assert key == list(focus_photos.order_settings(given))
+
+
+@pytest.mark.parametrize(
+    ("name", "values", "message"),
+    [
+        ("fall_off", {"f": 1000, "r": 5}, "vignetting cannot be seen"),
+        ("hsv_edits", {"a": 1, "b": 0.2, "delta": 120}, "the edit of V cannot be seen"),
+        ("grey_edits", {"n": 8, "low": 70, "high": 180, "s": 1}, "the edit brightened cannot"),
+    ],
+)
+def test_a_picture_that_does_not_show_what_it_asks_about_is_refused(name, values, message):
+    with pytest.raises(QuizgenError, match=message):
+        draw(name, values, quiz=True)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 from by_hand import solves
-from printed_figure import lines
+from printed_figure import lines, ticks
 from printed_numbers import points
 from printed_page import Page
 
@@ -62,8 +62,8 @@ def coefficients(page: Page) -> dict[str, Any]:
 def fall_off(page: Page) -> dict[str, Any]:
     """Curriculum X-C15: cos^4 of the angle with tangent r/f; the curve is read at the mark."""
     share = math.cos(math.atan(float(page["r"] / page["f"]))) ** 4
-    (curve,), (axes,), (mark,) = (lines(page.drawing, one) for one in ("curve", "axes", "marks"))
-    floor = axes[1][1]
+    (curve,), (mark,) = (lines(page.drawing, one) for one in ("curve", "marks"))
+    floor = ticks(page.drawing)[1][0]
     read = np.interp(mark[0][0], [x for x, _ in curve], [y - floor for _, y in curve])
     seen = float(read) / (curve[0][1] - floor)
     said = ("No,", "না,") if seen < 0.9 * share else ("Yes,", "হ্যাঁ,")

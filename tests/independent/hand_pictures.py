@@ -13,7 +13,7 @@ import numpy as np
 from by_hand import solves
 from matplotlib.colors import rgb_to_hsv
 from numpy.typing import NDArray
-from printed_figure import Line, lines, pictures
+from printed_figure import Line, lines, pictures, ticks
 from printed_numbers import APERTURE, numbers, points
 from printed_page import Page
 
@@ -24,9 +24,7 @@ FIRST_TICK, TICK = 400, 50
 
 def curve(page: Page, name: str) -> Curve:
     """A curve over wavelengths, read off the drawing with its ticks for a scale."""
-    ticks = lines(page.drawing, "ticks")
-    across = sorted({x for line in ticks for x, _ in line if line[0][0] == line[1][0]})
-    up = sorted({y for line in ticks for _, y in line if line[0][1] == line[1][1]})
+    across, up = ticks(page.drawing)
     xs, ys = zip(*lines(page.drawing, name)[0], strict=True)
 
     def height(light: Fraction) -> float:
@@ -87,8 +85,10 @@ def grid(page: Page) -> dict[str, Any]:
     centre = tuple(sum(way) / len(cross) for way in zip(*cross, strict=True))
 
     def drawn_out(line: Line) -> float:
-        corner, middle = line[0], line[len(line) // 2]
-        return math.dist(corner, centre) / math.dist(middle, centre)
+        """How far a corner lies off against the middle of its upright edge."""
+        xs, ys = zip(*sorted(line, key=lambda place: place[1]), strict=True)
+        middle = float(np.interp(centre[1], ys, xs)), centre[1]
+        return math.dist(line[0], centre) / math.dist(middle, centre)
 
     bend = drawn_out(after) / drawn_out(before)
     words = (("none;", "কোনো") if abs(bend - 1) < 0.002 else ("barrel", "ব্যারেল") if bend < 1
@@ -114,7 +114,8 @@ def _sketched(k: float) -> list[Line]:
 @solves("normalisation-from-histograms", figure=True)
 def two_histograms(page: Page) -> dict[str, Any]:
     """Notes 4.3, F12 and F13: what is clamped stands up at an end of the axis."""
-    left, right = sorted(x for x, _ in lines(page.drawing, "axes")[1])
+    at = [line[0][0] for line in lines(page.drawing, "ticks")]
+    left, right = at[len(at) // 2], at[-1]
     outline = [
         place
         for line in lines(page.drawing, "histogram")
@@ -190,7 +191,7 @@ def straight_lines(page: Page) -> dict[str, Any]:
     before, after = (lines(page.drawing, name) for name in ("undistorted", "distorted"))
     centre = _middle(lines(page.drawing, "principal-point"))
     pairs = [
-        pair for one, two in zip(before, after, strict=True) for pair in zip(one, two, strict=True)
+        (one[end], two[end]) for one, two in zip(before, after, strict=True) for end in (0, -1)
     ]
     far, moved = max(pairs, key=lambda pair: math.dist(pair[0], centre))
     barrel = math.dist(moved, centre) < math.dist(far, centre)
@@ -223,7 +224,7 @@ def sharp_zone(page: Page) -> dict[str, Any]:
         numbers(one)[-1] for one in re.findall(r"0 (?:to|থেকে) \d+|আর 0 থেকে \d+", page.figure)[:2]
     )
     lattice = lines(page.drawing, "grid")
-    left, floor = lines(page.drawing, "axes")[0][1]
+    left, floor = (places[0] for places in ticks(page.drawing))
     right, top = max(line[0][0] for line in lattice), max(y for line in lattice for _, y in line)
 
     def place(line: Line) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -251,7 +252,7 @@ def sharp_zone(page: Page) -> dict[str, Any]:
 def profile(page: Page) -> dict[str, Any]:
     """Curriculum X-C15: cos^4 of the angle whose tangent is r/f; the curve begins at 1."""
     xs, ys = np.array(lines(page.drawing, "curve")[0]).T
-    floor = lines(page.drawing, "axes")[0][1][1]
+    floor = ticks(page.drawing)[1][0]
     mark = lines(page.drawing, "marks")[0][0][0]
     read = (float(np.interp(mark, xs, ys)) - floor) / (ys[0] - floor)
     law = math.cos(math.atan(page["r"] / page["f"])) ** 4

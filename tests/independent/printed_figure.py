@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import io
+import math
 import re
 from xml.etree.ElementTree import Element
 
@@ -23,6 +24,13 @@ def lines(figure: Element, name: str) -> list[Line]:
         [(float(x), -float(y)) for x, y in re.findall(r"(-?[\d.]+) (-?[\d.]+)", stroke)]
         for stroke in strokes
     ]
+
+
+def ticks(figure: Element) -> tuple[list[float], list[float]]:
+    """Where short strokes stand at the axes: along x, and along y, with y upward."""
+    short = [line for line in lines(figure, "axis") if len(line) == 2 and math.dist(*line) < 4]
+    across = sorted({x for (x, _), (end, _) in short if x == end})
+    return across, sorted({y for (_, y), (_, end) in short if y == end})
 
 
 def pictures(figure: Element) -> list[NDArray[np.uint8]]:
