@@ -87,7 +87,7 @@ def write_all(folder: Path, contents: Mapping[str, bytes], mode: int = USUAL) ->
     contents : mapping of str to bytes
         File name, or path below the folder, to content; what needs the others comes last.
     mode : int
-        Who may read the files.
+        Who may read the files; with ``PRIVATE`` none but their owner looks into new folders.
 
     Raises
     ------
@@ -103,7 +103,7 @@ def write_all(folder: Path, contents: Mapping[str, bytes], mode: int = USUAL) ->
         _sweep(around)
         _stage(stage, folder, contents, mode)
         with _undisturbed():
-            _appear(stage, folder, list(contents), new=new)
+            _appear(stage, folder, list(contents), mode, new=new)
     except OSError as error:
         place = _meant(str(error.filename or folder))
         raise RenderError(f"{place}: {error.strerror or error}") from error
@@ -114,16 +114,22 @@ def write_all(folder: Path, contents: Mapping[str, bytes], mode: int = USUAL) ->
 
 def _stage(stage: Path, folder: Path, contents: Mapping[str, bytes], mode: int) -> None:
     """Write everything where nobody looks."""
-    stage.mkdir()
+    _make_folder(stage, mode)
     for name, data in contents.items():
         if (folder / name).is_dir():
             raise RenderError(f"{folder / name}: is a folder")
-        (stage / name).parent.mkdir(parents=True, exist_ok=True)
+        _make_folder((stage / name).parent, mode)
         (stage / name).touch(mode)
         _write_synced(stage / name, data)
 
 
-def _appear(stage: Path, folder: Path, names: list[str], *, new: bool) -> None:
+def _make_folder(folder: Path, mode: int) -> None:
+    """Make a folder and those around it: names of files, such as of students, tell something."""
+    for one in reversed([path for path in (folder, *folder.parents) if not path.exists()]):
+        one.mkdir(0o700 if mode == PRIVATE else 0o777, exist_ok=True)
+
+
+def _appear(stage: Path, folder: Path, names: list[str], mode: int, *, new: bool) -> None:
     """Move what was staged to where it belongs, the last file last."""
     if new:
         stage.rename(folder)
@@ -131,7 +137,7 @@ def _appear(stage: Path, folder: Path, names: list[str], *, new: bool) -> None:
     if len(names) > 1:
         (folder / names[-1]).unlink(missing_ok=True)
     for name in names:
-        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        _make_folder((folder / name).parent, mode)
         (stage / name).replace(folder / name)
 
 

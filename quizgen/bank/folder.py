@@ -39,7 +39,7 @@ from quizgen.locale.brought import TAG
 from quizgen.maths.chain import Chain
 from quizgen.outside import NAMES, is_name, located, read_bytes
 
-SOLVERS, FIGURES = "solvers", "templates/figures"
+SOLVERS, TEMPLATES, FIGURES = "solvers", "templates", "templates/figures"
 """Where the Python of a bank stands."""
 OWN_FIGURE = "figure"
 """The module beside a template that draws its figure, if ``[figure]`` names no other."""

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import msgspec
 
-from quizgen.bank.folder import FIGURES, SOLVERS, Bank, builtin, builtin_root
+from quizgen.bank.folder import SOLVERS, TEMPLATES, Bank, builtin, builtin_root
 from quizgen.errors import BankError
 from quizgen.files import write_all
 from quizgen.kept import digest_of
@@ -58,8 +58,8 @@ def root_of(named: Path) -> Path:
 
 
 def python_of(root: Path) -> list[Path]:
-    """The Python that a bank brings."""
-    return sorted(path for kind in (SOLVERS, FIGURES) for path in (root / kind).rglob("*.py"))
+    """The Python that a bank brings: solvers, figures, and what stands beside its templates."""
+    return sorted(path for kind in (SOLVERS, TEMPLATES) for path in (root / kind).rglob("*.py"))
 
 
 def digest_of_python(root: Path) -> str:

@@ -10,12 +10,13 @@ import ast
 import importlib
 import re
 import sys
-import time
 import traceback
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import lru_cache
-from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
+from importlib.abc import MetaPathFinder
+from importlib.machinery import ModuleSpec, SourceFileLoader
+from importlib.util import spec_from_file_location
 from pathlib import Path
 from types import CodeType, ModuleType
 
@@ -35,12 +36,12 @@ _PURE = {"__future__", "fractions", "math", "quizgen", "sympy", "typing"}
 _IMPURE = {"__file__", "__import__", "open"}
 
 
-_YOUNG = 2.0
-"""Seconds in which a file may change again without its bytecode telling."""
-
-
 class _AsWritten(SourceFileLoader):
-    """Runs a file as it is now: bytecode of the same second and size would pass for it."""
+    """Compiles a file as it stands there, and keeps no bytecode.
+
+    What lies in ``__pycache__`` is not what a person read and trusted: whoever may write there
+    would run anything, since Python believes bytecode by the date of its source.
+    """
 
     def get_code(self, fullname: str) -> CodeType:
         """Compile it."""
@@ -48,24 +49,46 @@ class _AsWritten(SourceFileLoader):
         return self.source_to_code(self.get_data(path), path)
 
 
-class _Finder(PathFinder):
-    """Finds modules of the packages that ``mount`` makes."""
+class _Finder(MetaPathFinder):
+    """Finds modules of the packages that ``mount`` makes: sources, and folders of them.
 
-    @classmethod
+    No bytecode without a source and no extension module, which ``digest_of_python`` cannot count.
+    """
+
     def find_spec(
-        cls, fullname: str, path: Sequence[str] | None = None, target: ModuleType | None = None
+        self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        """Find one of them, and nothing else."""
+        """Find one of them, and nothing else.
+
+        Raises
+        ------
+        ModuleNotFoundError
+            If a bank has no such source.
+        """
+        del target
         if not fullname.startswith(_PRIVATE):
             return None
-        found = super().find_spec(fullname, path, target)
-        if (
-            found is not None
-            and isinstance(found.loader, SourceFileLoader)
-            and time.time() - Path(found.loader.path).stat().st_mtime < _YOUNG
-        ):
-            found.loader = _AsWritten(found.loader.name, found.loader.path)
-        return found
+        for folder in path or ():
+            place = Path(folder, fullname.rpartition(".")[2])
+            init, file = place / "__init__.py", place.with_name(f"{place.name}.py")
+            if init.is_file():
+                return _spec(fullname, init, [str(place)])
+            if file.is_file():
+                return _spec(fullname, file, None)
+            if place.is_dir():
+                found = ModuleSpec(fullname, None, is_package=True)
+                found.submodule_search_locations = [str(place)]
+                return found
+        # None would let the next finder look, which takes bytecode and extensions.
+        raise ModuleNotFoundError(f"No module named {fullname.partition('.')[2]!r}", name=fullname)
+
+
+_FINDER = _Finder()
+
+
+def _spec(name: str, file: Path, inside: list[str] | None) -> ModuleSpec | None:
+    loader = _AsWritten(name, str(file))
+    return spec_from_file_location(name, file, loader=loader, submodule_search_locations=inside)
 
 
 @lru_cache(maxsize=64)
@@ -77,8 +100,8 @@ def _mounted(folder: Path) -> str:
     """Private name of the package that a folder of solvers or figures is."""
     name = _private(folder.absolute())
     with LOCK:
-        if _Finder not in sys.meta_path:
-            sys.meta_path.insert(0, _Finder)
+        if _FINDER not in sys.meta_path:
+            sys.meta_path.insert(0, _FINDER)
         if name not in sys.modules:
             sys.modules[name] = ModuleType(name)
             sys.modules[name].__path__ = [str(folder)]

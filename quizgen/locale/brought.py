@@ -82,16 +82,33 @@ def over(english: Words, own: Mapping[str, Any]) -> Words:
     """English words with a language's own in their places.
 
     What has no place among them stays: letters and names that are spoken are open lists. What
-    stands where English has something of another kind is left out; ``unsound`` tells it.
+    stands where English has something of another kind is left out, and so is a sentence with
+    other blanks: it would be filled with more than the words that are meant. ``unsound`` tells it.
     """
     found = dict(english)
     for key, value in own.items():
         there = english.get(key)
         if isinstance(there, dict) and isinstance(value, dict):
             found[key] = over(there, value)
-        elif there is None or type(there) is type(value):
+        elif _can_be_filled(there, value):
             found[key] = value
     return found
+
+
+def _can_be_filled(english: object, own: object) -> bool:
+    """Whether something can stand in the place of what English has there, if it has anything."""
+    if english is not None and type(english) is not type(own):
+        return False
+    if isinstance(own, dict):
+        return all(_can_be_filled(None, value) for value in own.values())
+    if isinstance(own, list):
+        texts = english if isinstance(english, list) else []
+        few = len(texts) - len(own)
+        pairs = zip([*texts, *[None] * -few], own, strict=False)
+        return all(_can_be_filled(there, value) for there, value in pairs)
+    if not isinstance(own, str):
+        return True
+    return not any(_blanks_amiss(english if isinstance(english, str) else "", own))
 
 
 def unsound(english: Words, own: Words, open_lists: frozenset[str]) -> Iterator[tuple[str, str]]:
@@ -126,14 +143,33 @@ def _kind(value: object) -> str:
 
 
 def _blanks_amiss(english: str, own: str) -> Iterator[str]:
+    """What is wrong with the blanks of a sentence: each is a name alone, that English has, too.
+
+    ``str.format`` would look into a value at ``{page.__class__}``, and make one of gigabytes at
+    ``{page:>99999999}``.
+    """
     try:
-        wanted, found = (
-            {name for _, name, _, _ in Formatter().parse(text) if name is not None}
-            for text in (english, own)
-        )
+        wanted, _ = _blanks(english)
+        found, more = _blanks(own)
     except ValueError as error:
         yield f"{error} (write {{{{ for a brace)"
         return
     for name in sorted(found - wanted):
         known = ", ".join(f"{{{one}}}" for one in sorted(wanted)) or "none"
         yield f"there is nothing to fill {{{name}}} with (blanks here: {known})"
+    for blank in more:
+        yield f"{{{blank}}}: a blank is a name between braces and nothing more"
+
+
+def _blanks(text: str) -> tuple[set[str], list[str]]:
+    """Names of a sentence's blanks, and the blanks in which more stands than a name."""
+    names, more = set(), []
+    for _, name, form, conversion in Formatter().parse(text):
+        if name is None:
+            continue
+        names.add(name)
+        if form or conversion or not re.fullmatch(r"\w*", name):
+            more.append(
+                name + (f"!{conversion}" if conversion else "") + (f":{form}" if form else "")
+            )
+    return names, more

@@ -21,7 +21,7 @@ from quizgen.web.store import Learner
 
 COOKIE = "quizgen"
 ENTRANCE = "/enter"
-"""Where the address that is opened first leads: ``/enter?key=TOKEN``."""
+"""Where the address that is opened first leads: ``/enter?key=KEY``."""
 SIGN_IN, INVITED = "/sign-in", "/invited"
 """What somebody may see who has not signed in."""
 
@@ -42,6 +42,8 @@ class Door:
 
     def __init__(self, app: ASGIApp, site: Site) -> None:
         self.app, self.site = app, site
+        self._let_in: set[str] = set()
+        """Tokens that the database has said to be good, so that not each request asks it."""
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer at once, or hand on."""
@@ -59,16 +61,36 @@ class Door:
         await self.app(scope, receive, _with_cookie(scope, send))
 
     async def _alone(self, scope: Scope) -> Response | None:
-        """Who has the printed address is the one learner there is."""
-        token = self.site.settings.token
-        if scope["path"] == ENTRANCE:
-            return _entered(scope, token)
-        if not _same(_cookie(scope), token):
-            return told("entrance", 403)
+        """Whose browser was let in by a key is the one learner there is."""
         store = self.site.store
-        learner = store.remembered() or await run_in_threadpool(store.learner)
+        if scope["path"] == ENTRANCE:
+            return await self._entered(scope)
+        token = _cookie(scope)
+        learner = await self._find_learner()
+        if token not in self._let_in:
+            if not token or not await run_in_threadpool(
+                store.accounts.is_session, token, learner.id
+            ):
+                return told("entrance", 403)
+            self._let_in.add(token)
         scope.setdefault("state", {}).update(learner=learner, token=token)
         return None
+
+    async def _find_learner(self) -> Learner:
+        store = self.site.store
+        found: Learner | None = store.remembered()
+        return found if found is not None else await run_in_threadpool(store.learner)
+
+    async def _entered(self, scope: Scope) -> Response:
+        """Begin a session of a browser that has a key."""
+        store = self.site.store
+        if not self.site.keys.is_good(QueryParams(scope["query_string"]).get("key", "")):
+            return told("entrance", 403)
+        learner = await self._find_learner()
+        token = await run_in_threadpool(store.accounts.begin, learner.id)
+        self._let_in.add(token)
+        scope.setdefault("state", {})
+        return let_in(scope, RedirectResponse("/", 303), token)
 
     async def _signed_in(self, scope: Scope) -> Response | None:
         """Who has a session; anybody else is sent to where one signs in."""
@@ -85,7 +107,11 @@ class Door:
 
 
 def let_in(scope: Scope, response: Response, token: str) -> Response:
-    """Give a browser another token, instead of the one that it had."""
+    """Give a browser another token, instead of the one that it had.
+
+    Not ``samesite=strict``: the way in begins in a file, which browsers take for another site.
+    Posts are held off by the token in each form and by ``guard``.
+    """
     scope["state"].pop("new_token", None)
     response.set_cookie(
         COOKIE, token, httponly=True, samesite="lax", secure=scope["scheme"] == "https"
@@ -138,18 +164,6 @@ def _to_sign_in(scope: Scope) -> Response:
     if "text/html" in headers.get("accept", ""):
         return RedirectResponse(where, 303)
     return told("sign_in", 403)
-
-
-def _entered(scope: Scope, token: str) -> Response:
-    if not _same(QueryParams(scope["query_string"]).get("key", ""), token):
-        return told("entrance", 403)
-    response = RedirectResponse("/", 303)
-    response.set_cookie(COOKIE, token, httponly=True, samesite="strict", path="/")
-    return response
-
-
-def _same(given: str, token: str) -> bool:
-    return secrets.compare_digest(given.encode(), token.encode())
 
 
 def _cookie(scope: Scope) -> str:

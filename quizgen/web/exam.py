@@ -16,7 +16,7 @@ from starlette.requests import Request
 from starlette.responses import HTMLResponse, JSONResponse, Response
 from starlette.routing import Route
 
-from quizgen.errors import CodeError, QuizgenError
+from quizgen.errors import BlueprintError, CodeError, QuizgenError
 from quizgen.paper.blueprint import EVERYTHING, named_blueprint
 from quizgen.paper.code import LARGEST_SEED, parse_code
 from quizgen.practice.boxes import filled
@@ -39,6 +39,8 @@ PART = re.compile(r"[0-9]{1,4}[a-z]{0,4}[0-9]{0,2}")
 """Names of parts."""
 MINUTES = (15, 30, 45, 60, 90)
 """Lengths of a paper of a topic."""
+LONGEST_MINUTES = 300
+"""Of a paper of a topic: a longer one occupies a process that others wait for."""
 
 
 @dataclass(frozen=True)
@@ -109,12 +111,28 @@ async def begin(request: Request) -> Response:
 def _wanted(request: Request, form: FormData) -> WantedPaper:
     lang, code = lang_of(request), one(form, "code").strip()
     if code:
-        return WantedPaper(lang, code=str(parse_code(code)))
+        parsed = parse_code(code)
+        _refuse_long(parsed.blueprint)
+        return WantedPaper(lang, code=str(parsed))
     name, minutes = one(form, "blueprint"), one(form, "minutes")
     site: Site = request.app.state.site
     if minutes.isdecimal() and name not in site.bank.blueprints:
         name = f"{name}.{int(minutes[:4])}"
+    _refuse_long(name)
     return WantedPaper(lang, blueprint=name, seed=secrets.randbelow(LARGEST_SEED))
+
+
+def _refuse_long(name: str) -> None:
+    """Make nobody wait for a paper that nobody sits.
+
+    Raises
+    ------
+    BlueprintError
+        If a topic is to be asked for longer than ``LONGEST_MINUTES``.
+    """
+    minutes = name.rpartition(".")[2]
+    if minutes.isdecimal() and (len(minutes) > 3 or int(minutes) > LONGEST_MINUTES):
+        raise BlueprintError(f"{name[:80]}: more than {LONGEST_MINUTES} minutes")
 
 
 async def _sitting(request: Request) -> Sitting:

@@ -16,6 +16,7 @@ from starlette.applications import Starlette
 from quizgen.errors import StoreError
 from quizgen.web.app import application
 from quizgen.web.door import ENTRANCE, INVITED
+from quizgen.web.limits import TimedProtocol, allow_connections
 from quizgen.web.settings import LOCAL, Settings
 from quizgen.web.site import Site
 from quizgen.web.store import Store
@@ -61,7 +62,7 @@ def run(
     def ready() -> None:
         tell(f"quizgen is at {address}\nCtrl-C ends it; nothing that was answered is lost.")
         if show:
-            webbrowser.open(address)
+            webbrowser.open(_opened(site, address))
 
     _end_like_ctrl_c()
     _serve(app, settings, listening, ready)
@@ -74,8 +75,9 @@ def _serve(
     config = uvicorn.Config(
         app, log_level="warning", access_log=False, server_header=False,
         proxy_headers=settings.behind_proxy, forwarded_allow_ips=[LOCAL[0], "::1"],
-        timeout_graceful_shutdown=PATIENCE, timeout_keep_alive=IDLE,
+        timeout_graceful_shutdown=PATIENCE, timeout_keep_alive=IDLE, http=TimedProtocol,
     )  # fmt: skip
+    allow_connections()
     gc.freeze()  # what was loaded stays; looking through it each time would take 60 ms
     with contextlib.suppress(KeyboardInterrupt):  # the way in which it ends
         asyncio.run(_Server(config, ready).serve(sockets=[listening]))
@@ -111,6 +113,16 @@ def _address(site: Site, port: int, *, invite: bool) -> str:
     if invite or not accounts.managed():
         return f"{place}{INVITED}?key={accounts.invite(manages=True)}"
     return place
+
+
+def _opened(site: Site, address: str) -> str:
+    """What the browser is started with: anybody on the machine may read that."""
+    if site.settings.accounts:  # an invitation is for whoever reads the terminal
+        return address.partition("?")[0].removesuffix(INVITED)
+    from platformdirs import user_data_path
+
+    folder = user_data_path("quizgen", ensure_exists=True)
+    return site.keys.write_redirect(folder, address.partition("?")[0]).as_uri()
 
 
 def _as_before(host: str, store: Store) -> socket.socket:

@@ -34,8 +34,8 @@ class Settings:
     behind_proxy : bool
         Whether a server of this machine takes the requests, with https, and hands them on.
     token : str
-        What the opened address holds: only who has it is let in. A database that was served
-        before keeps its own.
+        What the printed address holds: it lets in while the server runs. A browser that was let
+        in has a session of its own, which outlives the server.
     workers : int
         Processes that make questions.
     classroom : pathlib.Path, optional

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import asyncio
-from dataclasses import replace
 from weakref import WeakValueDictionary
 
 from quizgen.locale import FIRST, languages
+from quizgen.web.keys import Keys
 from quizgen.web.passwords import Patience
 from quizgen.web.settings import Settings
 from quizgen.web.store import Store
@@ -29,9 +29,10 @@ class Site:
     def __init__(self, settings: Settings) -> None:
         self.bank = settings.bank
         self.store = Store(settings.database)
-        token = self.store.lasting("token", settings.token)  # open pages outlive the server
-        self.settings = replace(settings, token=token)
+        self.settings = settings
         self.workers = Workers(settings)
+        self.keys = Keys(settings.token)
+        """Keys that let a browser of this machine in."""
         self.patience = Patience()
         """With those who sign in with wrong passwords."""
         self.languages = tuple(filter(languages().__contains__, self.bank.languages)) or (FIRST,)
@@ -44,5 +45,6 @@ class Site:
 
     def close(self) -> None:
         """End the processes and give the connections back."""
+        self.keys.close()
         self.workers.close()
         self.store.close()

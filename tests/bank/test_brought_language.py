@@ -150,6 +150,22 @@ def test_another_language_names_those_of_the_bank(place):
     assert "'French' is no language" in said
 
 
+@pytest.mark.parametrize(
+    "hostile",
+    [
+        "{page.__class__.__mro__}", "{page[0]}", "{page!r}", "{page:>99999999}",
+        "{page:{pages}}", "{other}", "{", "{0}",
+    ],
+)  # fmt: skip
+def test_a_sentence_that_asks_for_more_than_its_words_is_not_used(hostile):
+    """Where nobody has run lint: a bank's text is read without trust, and never runs."""
+    english = {"paper": {"page": "Page {page} of {pages}", "notes": ["See {page}"]}}
+    own = {"paper": {"page": hostile, "notes": [hostile]}, "more": {"open": hostile}}
+    assert brought.over(english, own) == english
+    sound = {"paper": {"page": "{pages}/{page} {{", "notes": ["Voir {page}"]}}
+    assert brought.over(english, sound) == sound
+
+
 def test_all_that_is_said_can_be_translated(place):
     quizgen(place, "new", "language", "nl", "--bank", "trajets", "--all")
     made = place / "trajets" / "templates" / "locale" / "nl"
@@ -164,6 +180,10 @@ def test_all_that_is_said_can_be_translated(place):
     [
         ("fr/interface.toml", '[paper]\nexan = "Examen"', ":2: paper.exan: quizgen has no such word"),
         ("fr/interface.toml", '[paper]\npage = "{seite}"', ":2: paper.page: there is nothing to fill"),
+        ("fr/interface.toml", '[paper]\npage = "{page:>99999999}"', "a name between braces and nothing"),
+        ("fr/interface.toml", '[paper]\npage = "{page!r}"', "a name between braces and nothing"),
+        ("fr/interface.toml", '[paper]\npage = "{page.real}"', "a name between braces and nothing"),
+        ("fr/interface.toml", '[paper]\npage = "{page[0]}"', "a name between braces and nothing"),
         ("fr/interface.toml", '[paper]\npage = "{page"', ":2: paper.page: expected '}'"),
         ("fr/interface.toml", "[paper]\nexam = 3", ":2: paper.exam: is to be a text"),
         ("fr/interface.toml", "paper = 'x'", ":1: paper: is to be a table, and not a text"),

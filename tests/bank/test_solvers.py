@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import importlib.util
 import os
+import py_compile
+from importlib.machinery import EXTENSION_SUFFIXES
+from pathlib import Path
 
 import pytest
 
@@ -12,6 +16,8 @@ from quizgen.bank.folder import Bank, builtin
 from quizgen.bank.solvers import _is_pure, chain_of
 from quizgen.errors import BankError
 from quizgen.maths.notation.writer import to_text
+
+UNCHECKED = py_compile.PycInvalidationMode.UNCHECKED_HASH
 
 SOLVER = """
 from sympy import evaluate, symbols
@@ -69,6 +75,35 @@ def test_a_changed_solver_alone_is_run_again(folder, runs):
     assert [formula(folder, name) for name in ("one", "two")] == ["a - b", "b + a"]
     assert runs == ["one", "two", "one"]
     assert not list(folder.rglob("__pycache__"))
+
+
+def cached(source, place):
+    """Bytecode as Python leaves it beside a file, of another source."""
+    other = place.with_name(f"{place.stem}-other.py")
+    other.write_text(source)
+    there = Path(importlib.util.cache_from_source(place))
+    there.parent.mkdir(exist_ok=True)
+    py_compile.compile(other, there, invalidation_mode=UNCHECKED)
+    other.unlink()
+
+
+def test_bytecode_in_a_bank_is_never_run(folder, runs):
+    """Whoever may write beside a file that was trusted changes nothing of what runs."""
+    written(folder, "one")
+    cached(SOLVER.format(formula="a - b"), folder / "one.py")
+    os.utime(folder / "one.py", (0, 0))
+    assert formula(folder, "one") == "a + b"
+
+
+@pytest.mark.parametrize("name", ["common.pyc", f"common{EXTENSION_SUFFIXES[0]}"])
+def test_what_has_no_source_is_no_module_of_a_bank(folder, runs, name):
+    source = folder / "source.py"
+    source.write_text("FACTOR = 2\n")
+    py_compile.compile(source, folder / name)
+    written(folder, "one", "FACTOR * a")
+    (folder / "one.py").write_text("from .common import FACTOR\n" + (folder / "one.py").read_text())
+    with pytest.raises(BankError, match="No module named"):
+        chain_of(folder, "one")
 
 
 def test_what_a_solver_imports_from_its_bank_counts(folder, runs):

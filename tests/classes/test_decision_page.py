@@ -13,7 +13,7 @@ from starlette.testclient import TestClient
 
 from quizgen.classes.rulings import Ruling, append_rulings
 from quizgen.web.app import application
-from quizgen.web.door import form_token
+from quizgen.web.door import COOKIE, form_token
 from quizgen.web.settings import Settings
 
 ADDRESS = "http://127.0.0.1:8000"
@@ -52,9 +52,8 @@ def asked(folder, tmp_path):
     settings = Settings(f"sqlite:///{tmp_path / 'l.sqlite3'}", workers=1, classroom=folder)
     app = application(settings)
     with TestClient(app, ADDRESS) as client:
-        token = app.state.site.settings.token
-        client.get(f"/enter?key={token}")
-        yield client, form_token(token)
+        client.get(f"/enter?key={app.state.site.settings.token}")
+        yield client, form_token(client.cookies[COOKIE])
 
 
 def groups(page: str) -> list[list[str]]:

@@ -63,8 +63,7 @@ def test_papers_ask_the_same_with_other_numbers(made):
 
 def test_what_leads_to_answers_is_for_the_examiner_alone(made):
     for path in made[0].path.rglob("*"):
-        if path.is_file():
-            assert stat.S_IMODE(path.stat().st_mode) & 0o077 == 0, path
+        assert stat.S_IMODE(path.stat().st_mode) & 0o077 == 0, path
 
 
 def printed(path):

@@ -85,6 +85,17 @@ def test_who_allows_it_is_asked_once_until_it_changes(root, asked):
     assert len(questions) == 3
 
 
+@pytest.mark.parametrize(
+    "name", ["solvers/more.py", "templates/figures/more.py", "templates/push/figure.py"]
+)
+def test_all_python_that_could_run_is_asked_for(root, name):
+    found.remember(root)
+    assert found.is_remembered(root)
+    (root / name).parent.mkdir(parents=True, exist_ok=True)
+    (root / name).write_text("import os\n")
+    assert not found.is_remembered(root)
+
+
 def test_to_trust_for_once_is_not_remembered(root):
     assert run("preview", "push", "--bank", root, "--trust").exit_code == 0
     assert not found.is_remembered(root)

@@ -20,7 +20,7 @@ from quizgen.bank.mixed import opened
 from quizgen.cli import practice
 from quizgen.cli.main import group
 from quizgen.web.app import application
-from quizgen.web.door import form_token
+from quizgen.web.door import COOKIE, form_token
 from quizgen.web.settings import Settings
 
 ROOT = Path(__file__).parent.parent.parent / "examples" / "filtering"
@@ -135,7 +135,7 @@ def test_the_first_question_in_the_browser(here, bank):
     with TestClient(app, "http://127.0.0.1:8000") as client:
         key = app.state.site.settings.token
         assert "Binary pictures" in client.get(f"/enter?key={key}").text
-        wish = {"template": "count-components", "token": form_token(key)}
+        wish = {"template": "count-components", "token": form_token(client.cookies[COOKIE])}
         page = client.post("/practice", data=wish)
         assert page.status_code == 200
         assert "<svg" in page.text

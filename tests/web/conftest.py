@@ -11,7 +11,7 @@ from sqlalchemy import delete
 from starlette.testclient import TestClient
 
 from quizgen.web.app import application
-from quizgen.web.door import form_token
+from quizgen.web.door import COOKIE, form_token
 from quizgen.web.settings import Settings
 from quizgen.web.store import Which
 from quizgen.web.store.tables import LEARNER
@@ -93,8 +93,8 @@ def client(visitor, app):
 
 
 @pytest.fixture
-def token(app):
-    return form_token(app.state.site.settings.token)
+def token(client):
+    return form_token(client.cookies[COOKIE])
 
 
 @pytest.fixture

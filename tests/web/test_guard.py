@@ -14,7 +14,7 @@ def test_only_the_printed_address_lets_in(visitor, settings):
     entered = visitor.get(f"/enter?key={settings.token}", follow_redirects=False)
     assert entered.status_code == 303
     assert "httponly" in entered.headers["set-cookie"].lower()
-    assert "samesite=strict" in entered.headers["set-cookie"].lower()
+    assert "samesite=lax" in entered.headers["set-cookie"].lower()
     assert visitor.get("/").status_code == 200
 
 

@@ -154,6 +154,21 @@ def test_nothing_of_a_key_is_sent_before_it_is_handed_in(client, token, app):
     assert sum(text in done for text in told) > len(told) / 2, "the test knows how pages write it"
 
 
+@pytest.mark.parametrize(
+    "sent",
+    [
+        {"blueprint": "all.9999"}, {"blueprint": "all", "minutes": "9999"},
+        {"code": "all.9999-1-en-000000"}, {"blueprint": "all." + "9" * 5000},
+    ],
+)  # fmt: skip
+def test_no_paper_of_days_is_made(client, token, app, monkeypatch, sent):
+    asked = []
+    monkeypatch.setattr(app.state.site.workers, "_asked", asked.append)
+    answer = client.post("/exam", data={"token": token, **sent}, follow_redirects=False)
+    assert answer.headers["location"].startswith("/exam?problem=")
+    assert asked == []
+
+
 @pytest.fixture
 def outside(served):
     """A browser of a server in a process of its own, and the token of its forms."""

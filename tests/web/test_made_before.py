@@ -7,7 +7,7 @@ from starlette.testclient import TestClient
 
 from quizgen.errors import BankError
 from quizgen.web.app import application
-from quizgen.web.door import form_token
+from quizgen.web.door import COOKIE, form_token
 from quizgen.web.made import Wanted
 from quizgen.web.settings import Settings
 from quizgen.web.workers import Kept
@@ -39,8 +39,8 @@ def asked(site, monkeypatch):
 
 
 @pytest.fixture
-def token(site):
-    return {"token": form_token(site.settings.token)}
+def token(client):
+    return {"token": form_token(client.cookies[COOKIE])}
 
 
 def posted(client, at: str, **fields: str) -> str:

@@ -164,6 +164,13 @@ class Accounts:
             row = connection.execute(query).mappings().first()
         return value(row, Learner) if row else None
 
+    def is_session(self, token: str, learner: int) -> bool:
+        """Whether a token is of a browser that was let in as a learner, who may have no account."""
+        place = (SESSION.c.hash == _hash(token), SESSION.c.learner == learner)
+        query = select(SESSION.c.hash).where(*place, SESSION.c.until > time.time())
+        with self.database.reading() as connection:
+            return connection.execute(query).first() is not None
+
     def people(self) -> list[Person]:
         """Everybody who can sign in, by name."""
         query = _people(ACCOUNT.c.manages, LEARNER.c.since).order_by(ACCOUNT.c.key)

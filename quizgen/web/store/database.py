@@ -8,6 +8,7 @@ import sqlite3
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from sqlalchemy import (
@@ -25,6 +26,7 @@ from sqlalchemy.dialects import sqlite
 from sqlalchemy.exc import ArgumentError, DBAPIError, SQLAlchemyError
 
 from quizgen.errors import StoreError
+from quizgen.files import PRIVATE, private
 from quizgen.web.store.migrate import upgrade
 from quizgen.web.store.tables import LEARNER
 
@@ -55,6 +57,7 @@ class Database:
 
     def __init__(self, address: str) -> None:
         url = _read(address)
+        _keep_private(url)
         try:
             self._reader = _engine(url)
         except ModuleNotFoundError as error:
@@ -157,6 +160,21 @@ def _engine(url: URL) -> Engine:
         connection.exec_driver_sql("BEGIN IMMEDIATE" if writes else "BEGIN")
 
     return engine
+
+
+def _keep_private(url: URL) -> None:
+    """Let nobody but its owner read the file; SQLite makes the log beside it alike.
+
+    It holds answers and names, and whoever serves it chooses where: the umask is not asked.
+    """
+    if url.get_backend_name() != "sqlite" or url.database in {None, "", ":memory:"}:
+        return
+    file = Path(str(url.database))
+    with contextlib.suppress(OSError):  # SQLite says what is wrong, or it is another's
+        private(file).close()
+        for one in (file, *(file.with_name(file.name + end) for end in ("-wal", "-shm"))):
+            if one.exists():
+                one.chmod(PRIVATE)
 
 
 def _to_wal(connection: sqlite3.Connection) -> None:
