@@ -8,8 +8,6 @@ from typing import Any, get_args, get_origin, get_type_hints
 
 import msgspec
 
-from quizgen.patterns import lazy
-
 _TYPES = {
     "int": "a whole number",
     "float": "a number",
@@ -20,12 +18,12 @@ _TYPES = {
     "null": "",
 }
 _GOT = _TYPES | {"str": "a text", "array": "a list", "bool": "true or false"}
-_PLACE = lazy(r" - at `(?:key in )?\$\.?(.*)`$")
-_EXPECTED = lazy(r"Expected `(.*)`, got `(.*)`$")
-_UNKNOWN = lazy(r"Object contains unknown field `(.*)`$")
-_MISSING = lazy(r"Object missing required field `(.*)`$")
-_NONE_OF = lazy(r"Invalid enum value '?(.*?)'?$")
-_INDEX = lazy(r"\[(\d+|\.\.\.)\]")
+_PLACE = re.compile(r" - at `(?:key in )?\$\.?(.*)`$")
+_EXPECTED = re.compile(r"Expected `(.*)`, got `(.*)`$")
+_UNKNOWN = re.compile(r"Object contains unknown field `(.*)`$")
+_MISSING = re.compile(r"Object missing required field `(.*)`$")
+_NONE_OF = re.compile(r"Invalid enum value '?(.*?)'?$")
+_INDEX = re.compile(r"\[(\d+|\.\.\.)\]")
 
 
 def in_words(error: Exception, kind: type[msgspec.Struct]) -> str:

@@ -8,9 +8,8 @@ from collections.abc import Mapping
 from quizgen.locale import known, numbers_in, table
 from quizgen.marking.echo import safe
 from quizgen.maths.notation import people
-from quizgen.patterns import lazy
 
-_CLAUSE = lazy("⟨([^⟩]*)⟩")
+_CLAUSE = re.compile("⟨([^⟩]*)⟩")
 """Part of a sentence that is left out where nothing is known to fill it in."""
 
 

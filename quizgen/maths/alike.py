@@ -7,13 +7,13 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Hashable, Iterator
 from fractions import Fraction
 
 from quizgen.errors import FormulaError
 from quizgen.maths.notation import ReadError, parse
 from quizgen.maths.tree import Call, Expr, Num, Sym, names, walk
-from quizgen.patterns import lazy
 
 Form = Hashable
 """What formulas that say the same have in common."""
@@ -27,9 +27,9 @@ SUMS = frozenset({"add", "sub", "neg", "min", "max", "mod", "floor", "abs"})
 """Operators that stand in many formulas."""
 HIGHEST = 8
 """Power to which numbers are raised."""
-_COORDINATE = lazy(r"^[pq]('?)_([xyz])$")
-_ACROSS = lazy(r"^[yY](?='?$)")
-_INDEX = lazy(r"_(?:\d+|[A-Za-z])$")
+_COORDINATE = re.compile(r"^[pq]('?)_([xyz])$")
+_ACROSS = re.compile(r"^[yY](?='?$)")
+_INDEX = re.compile(r"_(?:\d+|[A-Za-z])$")
 
 
 def forms(expr: Expr) -> Iterator[Form]:

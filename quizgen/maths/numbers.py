@@ -15,7 +15,6 @@ from flint import arb, fmpq, fmpz
 from quizgen.errors import FormulaError, MathError, Undecided
 from quizgen.maths.precision import WIDE, working_precision
 from quizgen.maths.values import Value
-from quizgen.patterns import lazy
 
 MINUS = "\u2212"
 LONGEST_DECIMAL = 6
@@ -31,7 +30,9 @@ LARGEST_UNIT_FRACTION = 10_000
 """Exposure times are written as 1/n."""
 LONGEST_NUMBER = 4000
 """Characters, and size of the power of ten, of a number that is read."""
-_WRITTEN = lazy(r"\s*[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?(?P<power>\d+))?(?:/\d+)?\s*", re.ASCII)
+_WRITTEN = re.compile(
+    r"\s*[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?(?P<power>\d+))?(?:/\d+)?\s*", re.ASCII
+)
 SMALLEST_MAGNITUDE = -6
 """Power of ten below which a value is written with one."""
 

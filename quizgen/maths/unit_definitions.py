@@ -11,15 +11,14 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from quizgen.errors import FormulaError
-from quizgen.patterns import lazy
 
 SYNTAX = "expected 'name = [kind] = symbol' or 'name = 1000 * kg * m / s**2 = symbol'"
 
-_NAME = lazy(r"[^\W\d_]+(?:_[^\W\d_]+)*")
-_SYMBOL = lazy(r"[^\W\d_]+")
-_KIND = lazy(r"\[[a-z_]*\]")
-_NUMBER = lazy(r"\d+(?:\.\d+)?(?:[eE][+-]?\d{1,2})?")
-_FACTOR = lazy(r"([*/]?)\s*([^\s*/^]+)\s*(?:(?:\*\*|\^)\s*(-?\d))?\s*")
+_NAME = re.compile(r"[^\W\d_]+(?:_[^\W\d_]+)*")
+_SYMBOL = re.compile(r"[^\W\d_]+")
+_KIND = re.compile(r"\[[a-z_]*\]")
+_NUMBER = re.compile(r"\d+(?:\.\d+)?(?:[eE][+-]?\d{1,2})?")
+_FACTOR = re.compile(r"([*/]?)\s*([^\s*/^]+)\s*(?:(?:\*\*|\^)\s*(-?\d))?\s*")
 _FEWEST = 2
 
 

@@ -11,6 +11,7 @@ the system in use, which is the list itself unless somebody says ``with system.i
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -23,7 +24,6 @@ from flint import fmpq
 from quizgen.errors import FormulaError
 from quizgen.maths.numbers import rational
 from quizgen.maths.unit_definitions import Definition, read
-from quizgen.patterns import lazy
 
 Dimension = tuple[tuple[str, int], ...]
 
@@ -99,7 +99,7 @@ def _simple_units() -> dict[str, tuple[str, Fraction]]:
 SIMPLE = _simple_units()
 """Every listed simple unit: written name to (base unit, exact factor)."""
 
-_PART = lazy(r"(?P<op>[*/·]?)(?P<name>e-|[^*/·^]+)(?:\^(?P<power>-?\d))?")
+_PART = re.compile(r"(?P<op>[*/·]?)(?P<name>e-|[^*/·^]+)(?:\^(?P<power>-?\d))?")
 
 
 class System:

@@ -22,7 +22,6 @@ from quizgen.files import read_table
 from quizgen.locale import word
 from quizgen.marking.options import DECIMALS
 from quizgen.outside import defused, parse_csv, read_text
-from quizgen.patterns import lazy
 from quizgen.shapes import converted
 
 if TYPE_CHECKING:
@@ -34,11 +33,11 @@ HEAD = ("part", "question", "hint", "answer")
 """Columns of the form for spreadsheets; the answer comes last, so no comma in it can get lost."""
 SEALED = "tells quizgen whether anything was written here"
 
-_SEAL = lazy(r'^"?seal\b.*\n?', re.MULTILINE)
-_LAYOUT = lazy(r"[\s\",;]+")
+_SEAL = re.compile(r'^"?seal\b.*\n?', re.MULTILINE)
+_LAYOUT = re.compile(r"[\s\",;]+")
 """What an editor or a spreadsheet may change by itself."""
 
-_TYPED = lazy(r'^(\s*(?:"[^"\n]*"|[\w-]+)\s*=\s*)"(?!"")(.*)$', re.MULTILINE)
+_TYPED = re.compile(r'^(\s*(?:"[^"\n]*"|[\w-]+)\s*=\s*)"(?!"")(.*)$', re.MULTILINE)
 """A line of a form with a text in double quotes."""
 _COMMANDS = (
     "begin beta bar big bigl bigr binom bmod boldsymbol boxed bullet nabla ne neq not notin nu "
@@ -46,7 +45,7 @@ _COMMANDS = (
     "textit tfrac theta tilde times to top"
 )
 """Of LaTeX, those that begin as an escape of TOML does: ``\\t`` of ``\\times`` is no tab."""
-_BACKSLASH = lazy(
+_BACKSLASH = re.compile(
     rf"(\\\\)|\\(?=(?:{'|'.join(_COMMANDS.split())})(?![A-Za-z])|[^btnfr\"\\uU]"
     r"|u(?![0-9A-Fa-f]{4})|U(?![0-9A-Fa-f]{8}))"
 )

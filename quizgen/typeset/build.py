@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from fractions import Fraction
 
@@ -9,7 +10,6 @@ from quizgen.errors import RenderError
 from quizgen.maths.notation import people
 from quizgen.maths.numbers import places
 from quizgen.maths.superscripts import LOWERED
-from quizgen.patterns import lazy
 from quizgen.typeset.nodes import (
     NEGATIVE,
     PRODUCT,
@@ -27,7 +27,7 @@ from quizgen.typeset.nodes import (
 
 RELATIONS = frozenset(["=", "≠", "<", "≤", ">", "≥", "≈", "∝", "→", "∈", "±", "~", "≪", "≫", "⇒"])
 _DIGITS = r"\d[\d\u0020\u00a0\u2009\u202f]*(?:[.,]\d+)?"
-_NUMBER = lazy(
+_NUMBER = re.compile(
     rf"(?P<sign>[-−+]?)(?P<digits>{_DIGITS})"
     rf"(?:/(?P<bottom>{_DIGITS})|(?:[eE]|\s*[·×*]\s*10\^)(?P<power>[-−+]?\d+)"
     r"|·10(?P<raised>[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+))?"

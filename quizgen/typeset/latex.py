@@ -11,7 +11,6 @@ from functools import lru_cache, singledispatch
 
 from quizgen.errors import RenderError
 from quizgen.locale import numbers_in
-from quizgen.patterns import lazy
 from quizgen.typeset import nodes as n
 from quizgen.typeset.names import GREEK, KNOWN
 from quizgen.typeset.separators import separated, separator
@@ -65,9 +64,9 @@ _BRACKETS = {
 }
 _ACCENTS = {"bar": r"\bar", "hat": r"\hat", "tilde": r"\tilde"}
 _SIGNS = {"∑": r"\sum", "∏": r"\prod", "∫": r"\int"}
-_TALL = lazy(r"\\(?:[dt]?frac|begin|sum|prod|int)\b")
-_TOUCHING = lazy(r"\}(?=\})")
-_SPECIAL = lazy(r"([%#&_$])")
+_TALL = re.compile(r"\\(?:[dt]?frac|begin|sum|prod|int)\b")
+_TOUCHING = re.compile(r"\}(?=\})")
+_SPECIAL = re.compile(r"([%#&_$])")
 
 
 def latex(node: n.Node, lang: str = "en") -> str:

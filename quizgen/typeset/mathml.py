@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from functools import lru_cache, singledispatch
 from html import escape
 
 from quizgen.errors import RenderError
 from quizgen.locale import numbers_in
-from quizgen.patterns import lazy
 from quizgen.typeset import nodes as n
 from quizgen.typeset.names import GREEK_LETTERS
 from quizgen.typeset.separators import separated, separator
@@ -45,7 +45,7 @@ _PRIME = "<mtext>′</mtext>"
 _PRIME_WIDTH = 0.3
 _TIMES_NAMED = '<mo lspace="0" rspace="0.17em">\u2062</mo>'
 _BOLD = (("A", 26, 0x1D400), ("a", 26, 0x1D41A), ("Α", 25, 0x1D6A8), ("α", 25, 0x1D6C2))
-_TALL = lazy("<(?:mfrac|msqrt|mroot|mtable|munder|mo>[∑∏∫])")
+_TALL = re.compile("<(?:mfrac|msqrt|mroot|mtable|munder|mo>[∑∏∫])")
 _OPENING, _CLOSING = "([{|⌊⌈", ")]}|⌋⌉"
 
 

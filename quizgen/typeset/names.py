@@ -7,10 +7,10 @@ several letters (``SNR``, the ``max`` of ``I_max``) are upright words.
 
 from __future__ import annotations
 
+import re
 from functools import lru_cache
 
 from quizgen.errors import RenderError
-from quizgen.patterns import lazy
 from quizgen.typeset.nodes import PRODUCT, Accent, Ident, Node, Number, Op, Row, Scripts, Word
 
 GREEK = {
@@ -58,8 +58,8 @@ ACCENTS = ("bar", "hat", "tilde")
 GREEK_LETTERS = frozenset(GREEK.values())
 _AXES = frozenset("xyzuvij")
 _SIGNS = {"plus": "+", "minus": "neg"}
-_MIXED = lazy(r"(?P<stem>[^\W\d_][^\W_]*)(?P<digits>)(?P<primes>['′]*)")
-_PART = lazy(r"(?P<stem>[^\W\d_]+)(?P<digits>\d*)(?P<primes>['′]*)")
+_MIXED = re.compile(r"(?P<stem>[^\W\d_][^\W_]*)(?P<digits>)(?P<primes>['′]*)")
+_PART = re.compile(r"(?P<stem>[^\W\d_]+)(?P<digits>\d*)(?P<primes>['′]*)")
 
 
 @lru_cache(maxsize=4096)

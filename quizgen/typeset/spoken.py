@@ -6,11 +6,11 @@ where they end, so that a listener can write the formula down.
 
 from __future__ import annotations
 
+import re
 from functools import lru_cache, singledispatch
 
 from quizgen.errors import RenderError
 from quizgen.locale import numbers_in
-from quizgen.patterns import lazy
 from quizgen.typeset import nodes as n
 from quizgen.typeset.names import GREEK
 from quizgen.typeset.tables import known
@@ -21,8 +21,8 @@ _known = known("reading")
 
 _BINDING = tuple(map(n.Op, ("", "·", "×", "mod")))
 _BOUNDS = tuple(map(n.Op, "<≤"))
-_COMMAS = lazy(r"[ ,]+([,;])")
-_SPACES = lazy(r"  +")
+_COMMAS = re.compile(r"[ ,]+([,;])")
+_SPACES = re.compile(r"  +")
 _GREEK_NAMES = {char: word for word, char in GREEK.items() if word != "lamda"}
 
 

@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
+import re
 from functools import lru_cache
 from typing import NamedTuple
 
 from quizgen.errors import RenderError
 from quizgen.maths.superscripts import LOWERED
 from quizgen.maths.units import SHOWN
-from quizgen.patterns import lazy
 
 TIGHT = frozenset({"deg", "°"})
 """Units set without a space after the number."""
 
-_PART = lazy(r"(?P<sign>[*/·]?)(?P<name>e[-⁻]|[^*/·^⁻⁰-⁹²³]+)(?:\^?(?P<power>-?\d|⁻?[²³¹]))?")
+_PART = re.compile(r"(?P<sign>[*/·]?)(?P<name>e[-⁻]|[^*/·^⁻⁰-⁹²³]+)(?:\^?(?P<power>-?\d|⁻?[²³¹]))?")
 
 
-_NAME = lazy(r"[^\W\d_]+|e-|[%°1]")
+_NAME = re.compile(r"[^\W\d_]+|e-|[%°1]")
 
 
 class Part(NamedTuple):

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import operator
+import re
 import unicodedata
 from collections import Counter
 from collections.abc import Callable, Iterable
 from functools import cache, lru_cache
-
-from quizgen.patterns import lazy
 
 _BRITISH = (
     ("colour", "color"),
@@ -23,9 +22,9 @@ _BRITISH = (
     ("aluminium", "aluminum"),
 )
 _UMLAUTS = (("ä", "ae"), ("ö", "oe"), ("ü", "ue"), ("ß", "ss"))
-_ARTICLES = lazy(r"^(?:the|an|a|der|die|das|ein|eine|it is|its) (?=\S)")
-_DASH = lazy(r"[-‐‑‒–—−_/]")
-_DASHES = lazy(r"(?<=[^\W_])[-‐‑‒–—−_/]|[-‐‑‒–—−_/](?!\d)")
+_ARTICLES = re.compile(r"^(?:the|an|a|der|die|das|ein|eine|it is|its) (?=\S)")
+_DASH = re.compile(r"[-‐‑‒–—−_/]")
+_DASHES = re.compile(r"(?<=[^\W_])[-‐‑‒–—−_/]|[-‐‑‒–—−_/](?!\d)")
 """Hyphens and dashes, but not the sign of a number."""
 
 
@@ -106,7 +105,7 @@ def nearest_terms(typed: str, terms: Iterable[str]) -> tuple[list[str], int]:
     return best, least
 
 
-_PREFIXES = lazy(
+_PREFIXES = re.compile(
     r"^(?:anti|non|nicht|dis|mis|trans|over|under|super|sub|pre|post|un|in|im|ir|il|an|de|re|ab|ent|be|ver|a)"
     r"(?=.{3})"
 )

@@ -15,7 +15,6 @@ from quizgen.marking.reading.rewrites import BANGLA_LETTERS, PICTURES, normalise
 from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, correct, partial, wrong
 from quizgen.maths.notation import ReadError
-from quizgen.patterns import lazy
 
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 _TRUE = frozenset(
@@ -31,22 +30,22 @@ _SHORTEST = 4
 
 _AROUND = " .!()[]{}\"'*_।॥“”‘’«»"
 _QUOTED = " \"'*_“”«»"
-_LABELLED = lazy(
+_LABELLED = re.compile(
     r"[\[(]?(?P<mark>[A-Za-zক-ঞ]|\d{1,2})(?:[\])]? ?[).:=,-]+ ?|[\])] ?| (?!\())(?P<words>\S.+)"
 )
-_BEHIND = lazy(r"(?P<words>.{2,}?) ?[\[(](?P<mark>[A-Za-zক-ঞ])[\])]")
-_FILLING = lazy(r"^(?:option|অপশন) ", re.IGNORECASE)
-_IT_IS = lazy(
+_BEHIND = re.compile(r"(?P<words>.{2,}?) ?[\[(](?P<mark>[A-Za-zক-ঞ])[\])]")
+_FILLING = re.compile(r"^(?:option|অপশন) ", re.IGNORECASE)
+_IT_IS = re.compile(
     r"^(?:(?:it|this|that)(?: is|'s)|the statement is|বিবৃতিটি|es ist|das ist|এটা|এটি) ",
     re.IGNORECASE,
 )
-_PIECES = lazy(r"[;\n]|,(?=\s*[\[(]?[A-Za-zক-ঞ\d][\])]?\s*[).:=-])")
-_BENGALI = lazy(r"[\u0980-\u09ff]")
-_SET_OFF = lazy(r"^[\[(]?(?:[^\W_]|\d{2}) ?[\]).:=-]+ ?[^\s,;]{2}|[\[(][^\W\d_][\])]$")
+_PIECES = re.compile(r"[;\n]|,(?=\s*[\[(]?[A-Za-zক-ঞ\d][\])]?\s*[).:=-])")
+_BENGALI = re.compile(r"[\u0980-\u09ff]")
+_SET_OFF = re.compile(r"^[\[(]?(?:[^\W_]|\d{2}) ?[\]).:=-]+ ?[^\s,;]{2}|[\[(][^\W\d_][\])]$")
 """A letter with a sign before or behind words of more than one letter."""
-_UNFINISHED = lazy(r"[+/&|(\[{][\s*+/&|(\[{]*$")
+_UNFINISHED = re.compile(r"[+/&|(\[{][\s*+/&|(\[{]*$")
 """A sign behind which more was to come: no answer yet."""
-_FILLERS = lazy(
+_FILLERS = re.compile(
     r"(?<![\w\u0980-\u09ff])(?:and|und|or|option|answer|ans|এবং|ও|উত্তর)(?![\w\u0980-\u09ff])",
     re.IGNORECASE,
 )

@@ -14,7 +14,6 @@ from quizgen.marking.reading.source import Source
 from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import HALF, Verdict, correct, partial, wrong
 from quizgen.maths.notation import ReadError
-from quizgen.patterns import lazy
 
 
 class Spec(Worded, kw_only=True, frozen=True):
@@ -52,12 +51,12 @@ class Spec(Worded, kw_only=True, frozen=True):
 SET_OTHERWISE = frozenset({"output-brackets", "output-separators"})
 """Notes on output whose values are right: it earns half."""
 
-_BRACKETS = lazy(r"[\[\](){}]")
-_SEPARATORS = lazy(r"[\[\](){},\s]+")
+_BRACKETS = re.compile(r"[\[\](){}]")
+_SEPARATORS = re.compile(r"[\[\](){},\s]+")
 _STRAIGHT = {**dict.fromkeys("“”„‟«»", '"'), **dict.fromkeys("‘’‚‛", "'")}
 """Quotation marks that an editor puts in place of those of a program."""
-_QUOTES = lazy(f"[{''.join(_STRAIGHT)}]")
-_INSIDE = lazy(r"\s*([\[\](){},:=])\s*")
+_QUOTES = re.compile(f"[{''.join(_STRAIGHT)}]")
+_INSIDE = re.compile(r"\s*([\[\](){},:=])\s*")
 
 
 def folded(text: str) -> str:

@@ -17,7 +17,6 @@ from quizgen.marking.reading.source import Source
 from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, ambiguous, correct, shared, unreadable, wrong
 from quizgen.maths.notation import ReadError
-from quizgen.patterns import lazy
 
 
 class Spec(Worded, kw_only=True, frozen=True):
@@ -97,24 +96,24 @@ _SEPARATORS = tuple(
         ),
     )
 )
-_NUMBERED = lazy(r"^\s*(?:\(?\d{1,2}[).:](?!\d)(?=\s*\S)|[a-hA-H][).:](?=\s*\S))\s*")
-_NUMBER = lazy(
+_NUMBERED = re.compile(r"^\s*(?:\(?\d{1,2}[).:](?!\d)(?=\s*\S)|[a-hA-H][).:](?=\s*\S))\s*")
+_NUMBER = re.compile(
     r"(?:^|(?<=[\s,;(]))\(?"
     r"(?:(\d{1,2}) ?(?:[).:]\)?|=|→|-+>|[-–—](?=\D)|(?=[^\W\d]))|([a-h])[).])\s*"
 )
-_PAIR = lazy(r"(?<![-–—\d])(\d{1,2})\s*[-–—]\s*(\d{1,2})(?![-–—\d])")
+_PAIR = re.compile(r"(?<![-–—\d])(\d{1,2})\s*[-–—]\s*(\d{1,2})(?![-–—\d])")
 """A gap's number and a number as its word, ``1-3``."""
 _ENDINGS = ("ly", "e", "er", "en", "es", "em")
 LONG = 6
 """Letters of a term that may take an ending."""
 _ENDS = " \t\r\n,;"
 _QUOTES = "[]{}“”„‘’«»\"'"
-_JOINED = lazy(r"\s(?:and|und|এবং|ও)$")
-_MEASURE = lazy(r"\d+ ?[a-zµ]{2,3}")
+_JOINED = re.compile(r"\s(?:and|und|এবং|ও)$")
+_MEASURE = re.compile(r"\d+ ?[a-zµ]{2,3}")
 _PICTURE = "\N{FRAME WITH PICTURE}"
-_PICTURE_IS = lazy(rf"{_PICTURE} *\d+ *(?:[:=→⇒]|-+>)")
+_PICTURE_IS = re.compile(rf"{_PICTURE} *\d+ *(?:[:=→⇒]|-+>)")
 """Something said of a picture, where its number is what is asked."""
-_LABEL = lazy(r"\s*[^\W\d_]{1,12}\s*[:=]\s*\S")
+_LABEL = re.compile(r"\s*[^\W\d_]{1,12}\s*[:=]\s*\S")
 
 
 def _words(typed: str, gaps: list[list[str]]) -> list[str]:

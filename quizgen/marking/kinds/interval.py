@@ -18,7 +18,6 @@ from quizgen.marking.specs import Measured
 from quizgen.marking.verdict import HALF, Verdict, correct, partial, wrong
 from quizgen.maths.notation import ReadError, people
 from quizgen.maths.values import Value
-from quizgen.patterns import lazy
 
 
 class Spec(Measured, kw_only=True, frozen=True):
@@ -61,11 +60,11 @@ class Interval(msgspec.Struct, frozen=True):
     closed_high: bool
 
 
-_INFINITE = lazy(r"([-+]?) ?(?:∞|inf(?:inity)?|infty|oo|unendlich|অসীম)", re.IGNORECASE)
-_NAMED = lazy(rf"{NAME} ?(?:∈|in(?= )) ?|{NAME} ?[=:] ?(?=[\[\](])")
-_WRAPPED = lazy(r"[(\[{] ?[\[\](][^\[\](){}]+[\])\[] ?[)\]}]|\{[^{}]*\}")
-_BRACKETED = lazy(r"([\[\](]) ?(.+?) ?([\])\[])")
-_CHAIN = lazy(
+_INFINITE = re.compile(r"([-+]?) ?(?:∞|inf(?:inity)?|infty|oo|unendlich|অসীম)", re.IGNORECASE)
+_NAMED = re.compile(rf"{NAME} ?(?:∈|in(?= )) ?|{NAME} ?[=:] ?(?=[\[\](])")
+_WRAPPED = re.compile(r"[(\[{] ?[\[\](][^\[\](){}]+[\])\[] ?[)\]}]|\{[^{}]*\}")
+_BRACKETED = re.compile(r"([\[\](]) ?(.+?) ?([\])\[])")
+_CHAIN = re.compile(
     r"(?:(?P<low>[^<>≤≥=]+?) ?(?P<left><=?|≤) ?)?(?P<name>(?!inf\b|oo\b)[^\W\d_]\w*) ?"
     r"(?:(?P<right><=?|≤|>=?|≥) ?(?P<high>[^<>≤≥=]+))?"
 )

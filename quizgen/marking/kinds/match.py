@@ -19,10 +19,9 @@ from quizgen.marking.reading.rewrites import (
 from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, correct, shared
 from quizgen.maths.notation import ReadError
-from quizgen.patterns import lazy
 
-_SEPARATORS = lazy(r"[\s,;.|\[\]{}।॥]+")
-_ARROWS = lazy(r"\s*(?:->|=>|<->|--|[-:=>()→↔⇒⇔⟶⟷↦])+\s*")
+_SEPARATORS = re.compile(r"[\s,;.|\[\]{}।॥]+")
+_ARROWS = re.compile(r"\s*(?:->|=>|<->|--|[-:=>()→↔⇒⇔⟶⟷↦])+\s*")
 _FILLERS = frozenset(
     {"and", "und", "with", "mit", "to", "zu", "is", "ist", "goes", "belongs"}
     | {"gehoert", "passt", "এবং", "ও", "হলো", "হল", "এর", "সাথে", "সঙ্গে"}

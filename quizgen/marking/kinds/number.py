@@ -43,7 +43,6 @@ from quizgen.maths.notation import ReadError, people
 from quizgen.maths.units import shown as shown_unit
 from quizgen.maths.units import unit
 from quizgen.maths.values import Value
-from quizgen.patterns import lazy
 
 
 class Spec(OneNumber, kw_only=True, frozen=True):
@@ -140,11 +139,11 @@ def _judge_as(spec: Spec, number: Number, value: Value, options: Options) -> Ver
     return with_values(verdict, value / scale)
 
 
-_TIMES = lazy(r" ?-? ?(?<![^\W\d_])(?:times|fold|fach|mal|[xX*]|গুণ|বার|টি|টা)$", re.IGNORECASE)
-_PER_HUNDRED = lazy(r"^শতকরা (.+)$")
-_REMARK = lazy(r"(-?\d[\d.,/]*) \((?:[=≈] ?)?([^()]*\d[^()]*)\)")
-_LENS = lazy(r"[fFƒ] ?/? ?(?=\d)|1 ?: ?(?=\d)")
-_RATIO = lazy(r"(?<=\d) ?: ?(?=\d)")
+_TIMES = re.compile(r" ?-? ?(?<![^\W\d_])(?:times|fold|fach|mal|[xX*]|গুণ|বার|টি|টা)$", re.IGNORECASE)
+_PER_HUNDRED = re.compile(r"^শতকরা (.+)$")
+_REMARK = re.compile(r"(-?\d[\d.,/]*) \((?:[=≈] ?)?([^()]*\d[^()]*)\)")
+_LENS = re.compile(r"[fFƒ] ?/? ?(?=\d)|1 ?: ?(?=\d)")
+_RATIO = re.compile(r"(?<=\d) ?: ?(?=\d)")
 
 
 def _read(spec: Spec, source: Source, options: Options) -> list[Side]:

@@ -14,10 +14,9 @@ from quizgen.marking.reading.rewrites import BANGLA_LETTERS, normalise
 from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, correct, shared
 from quizgen.maths.notation import ReadError
-from quizgen.patterns import lazy
 
 MOST_STEPS = 40
-_LINE = lazy(
+_LINE = re.compile(
     r"(?<![^\s,;(])\(?(\d{1,2})(?: ?[.):]+ ?| ?[=-] ?(?=[^\W\d])| (?=[^\W\d]))"
     r"([^\s,;.:()\d]+|\d{1,2}(?![.):]))(?![^\s,;.])"
 )

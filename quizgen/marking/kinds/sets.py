@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from fractions import Fraction
 
 from quizgen.marking.options import Options
@@ -14,7 +15,6 @@ from quizgen.marking.verdict import Verdict, correct, shared, wrong
 from quizgen.maths.constants import exact_value
 from quizgen.maths.notation import ReadError, people
 from quizgen.maths.values import Value
-from quizgen.patterns import lazy
 
 
 class Spec(Numbers, kw_only=True, frozen=True):
@@ -46,8 +46,8 @@ class Spec(Numbers, kw_only=True, frozen=True):
         return "{" + "; ".join(people.number(shown(self, key)) for key in self.keys()) + "}"
 
 
-_ONE_COMMA = lazy(r"[^\W\d]?[^,;|\d]*[\[({]? *[-+−–]?\d+,\d+ *[\])}]?[^,;|\d]*")
-_NOUGHT = lazy(r"(?<!\d)[0০],")
+_ONE_COMMA = re.compile(r"[^\W\d]?[^,;|\d]*[\[({]? *[-+−–]?\d+,\d+ *[\])}]?[^,;|\d]*")
+_NOUGHT = re.compile(r"(?<!\d)[0০],")
 """How decimals begin: ``0,5`` may be one even where 0 and 5 are asked."""
 _EMPTY = frozenset({"{}", "∅", "{ }", "()", "empty", "leer", "শূন্য"})
 

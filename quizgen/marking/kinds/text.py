@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from functools import lru_cache
 
@@ -13,7 +14,6 @@ from quizgen.marking.reading.source import Source
 from quizgen.marking.specs import Worded
 from quizgen.marking.verdict import Verdict, ambiguous
 from quizgen.maths.notation import ReadError
-from quizgen.patterns import lazy
 
 
 class Spec(Worded, kw_only=True, frozen=True):
@@ -72,7 +72,7 @@ class Spec(Worded, kw_only=True, frozen=True):
         return "; ".join(self.groups())
 
 
-_WORD = lazy(r"[^\s.,;:!?()\"।/]+")
+_WORD = re.compile(r"[^\s.,;:!?()\"।/]+")
 
 
 def _occurs(term: str, words: list[str]) -> bool:

@@ -35,7 +35,6 @@ from quizgen.maths.notation.names import FUNCTIONS
 from quizgen.maths.operators import CONDITIONS
 from quizgen.maths.precision import working_precision
 from quizgen.maths.tree import Call, Expr
-from quizgen.patterns import lazy
 
 
 class Spec(Worded, kw_only=True, frozen=True):
@@ -170,8 +169,8 @@ def _side(side: Expr, env: dict[str, Any]) -> str | None:
     return people.number(exact_or_figures(value, 6))
 
 
-_FRONT = lazy(rf"({NAME}) ?(?=[(\[])")
-_SEPARATOR = lazy(rf"[;|\n]|,(?= )|(?<=\)),?|{NAMED_NEXT.pattern}")
+_FRONT = re.compile(rf"({NAME}) ?(?=[(\[])")
+_SEPARATOR = re.compile(rf"[;|\n]|,(?= )|(?<=\)),?|{NAMED_NEXT.pattern}")
 
 
 def _numbers(spec: Spec, typed: str, decimal: str) -> dict[str, Number]:

@@ -12,7 +12,6 @@ import re
 from quizgen.marking.reading.source import Source
 from quizgen.maths.notation import ReadError
 from quizgen.maths.notation.names import FUNCTIONS, GREEK
-from quizgen.patterns import lazy
 
 MOST = 40
 """Most functions read in one formula."""
@@ -21,13 +20,13 @@ _GREEK = "".join(GREEK)
 _PLAIN = "|".join(
     sorted((name for name, (_, most) in FUNCTIONS.items() if most == 1), key=len, reverse=True)
 )
-_CALL = lazy(
+_CALL = re.compile(
     rf"(?<![^\W\d_])(?P<name>{_PLAIN})(?![^\W\d_{_GREEK}]) ?"
     r"(?:(?:\^|\*\*) ?(?:(?P<power>\d+)|\((?P<signed>-?\d+)\)|(?P<minus>-\d+)) ?)?"
     rf"(?P<bare>(?<= )(?:\d+(?:[.,]\d+)? ?)?[^\W\d]\w*'*|(?<= )\d+(?:[.,]\d+)?|\d*[{_GREEK}]\w*'*)?"
 )
-_GOES_ON = lazy(r" ?(?:[\w({\[√|/:^°']|\*\*)")
-_DEGREES = lazy(r" ?°")
+_GOES_ON = re.compile(r" ?(?:[\w({\[√|/:^°']|\*\*)")
+_DEGREES = re.compile(r" ?°")
 
 
 def bracketed(source: Source, declared: frozenset[str]) -> Source:

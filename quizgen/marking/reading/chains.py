@@ -5,6 +5,7 @@ The sides of a chain must agree; names and formulas among them are passed over.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 import msgspec
@@ -29,12 +30,11 @@ from quizgen.marking.reading.unit_words import TypedUnit, plain_unit, typed_unit
 from quizgen.maths.notation import ReadError
 from quizgen.maths.units import shown as shown_unit
 from quizgen.maths.values import Value
-from quizgen.patterns import lazy
 
-_EQUAL = lazy(r" ?(?:=>|⇒|->|→|:=|==?|[≈≃≅≐∼~]) ?")
-_NAMED = lazy(rf"{WORDS}: ?(?=\S)")
-_BRACKETS = lazy(r"[\[{(]([^\[\]{}()]+)[\])}] ?(?=[^\W\d]|[%°])")
-_LETTER = lazy(r"[^\W\d_]")
+_EQUAL = re.compile(r" ?(?:=>|⇒|->|→|:=|==?|[≈≃≅≐∼~]) ?")
+_NAMED = re.compile(rf"{WORDS}: ?(?=\S)")
+_BRACKETS = re.compile(r"[\[{(]([^\[\]{}()]+)[\])}] ?(?=[^\W\d]|[%°])")
+_LETTER = re.compile(r"[^\W\d_]")
 _CLOSE = fmpq(1, 200)
 """How far apart the sides of a chain may be, if their last decimals say no more."""
 
@@ -52,7 +52,7 @@ class Side(msgspec.Struct, frozen=True):
         return number.places if number.form in {"decimal", "scientific"} else 100
 
 
-_PLAIN = lazy(r"([^a-zA-Zµμ°% ]+) ?((?:[a-zA-Zµμ°%][a-zA-Zµμ°%/]{0,24})?)")
+_PLAIN = re.compile(r"([^a-zA-Zµμ°% ]+) ?((?:[a-zA-Zµμ°%][a-zA-Zµμ°%/]{0,24})?)")
 _READ = Source("", ())
 """In place of a number part that has been read."""
 

@@ -26,7 +26,6 @@ from quizgen.maths.notation import (
 from quizgen.maths.notation.names import FUNCTIONS, folded
 from quizgen.maths.operators import CONDITIONS
 from quizgen.maths.tree import Call, Expr, Num
-from quizgen.patterns import lazy
 
 MULTI_ARGUMENT = r"(?:atan2|min|max|mod|piecewise)"
 _SYNONYMS = {
@@ -62,37 +61,37 @@ _SYNONYMS = {
     "Min": "min",
 }
 
-_WORD = lazy(r"[^\W\d_]{2}")
+_WORD = re.compile(r"[^\W\d_]{2}")
 """A text without one of these names no function."""
 
-_MARKED = lazy(r"[°%;\[\].,π:]")
+_MARKED = re.compile(r"[°%;\[\].,π:]")
 """A text without one of these needs none of the rewrites but the first."""
 
 FORMULA_REWRITES: dict[str, Rewrite] = {
     "function synonyms": (
-        lazy(
+        re.compile(
             r"(?<![^\W\d_])(?:"
             + "|".join(sorted(_SYNONYMS, key=len, reverse=True))
             + r")(?= ?(?:\(|\^|\*\*| [\w(]))"
         ),
         lambda m: _SYNONYMS[m[0]],
     ),
-    "degrees": (lazy(r"(\d+(?:[.,]\d+)?) ?°"), lambda m: f"({m[1]}*pi/180)"),
-    "percent": (lazy(r"(\d+(?:[.,]\d+)?) ?%"), lambda m: f"({m[1]}/100)"),
-    "semicolon arguments": (lazy(r";"), lambda _m: ", "),
-    "square brackets": (lazy(r"[\[\]]"), lambda m: "(" if m[0] == "[" else ")"),
-    "leading point": (lazy(r"(?<![\w.,)\]'])[.,](?=\d)"), lambda _m: "0."),
-    "pi": (lazy(r"π"), lambda _m: " pi "),
-    "colon": (lazy(r"(?<=[\w)']) ?: ?(?=[\w(√])"), lambda _m: "/"),
+    "degrees": (re.compile(r"(\d+(?:[.,]\d+)?) ?°"), lambda m: f"({m[1]}*pi/180)"),
+    "percent": (re.compile(r"(\d+(?:[.,]\d+)?) ?%"), lambda m: f"({m[1]}/100)"),
+    "semicolon arguments": (re.compile(r";"), lambda _m: ", "),
+    "square brackets": (re.compile(r"[\[\]]"), lambda m: "(" if m[0] == "[" else ")"),
+    "leading point": (re.compile(r"(?<![\w.,)\]'])[.,](?=\d)"), lambda _m: "0."),
+    "pi": (re.compile(r"π"), lambda _m: " pi "),
+    "colon": (re.compile(r"(?<=[\w)']) ?: ?(?=[\w(√])"), lambda _m: "/"),
 }
 """Rewrites that only formulas need, in order."""
 
 _NAMES, *_MARKS = FORMULA_REWRITES.values()
 
-_EULER = lazy(r"(?<![^\W_])e ?(?:\^|\*\*) ?(?=[(\w-])")
-_ARGUMENTS = lazy(rf"{MULTI_ARGUMENT} ?\([^()]*\d,\d")
-_GROUPED = lazy(r"\d[. ]\d{3}(?!\d)")
-_LITERAL = lazy(r"(?<![^\W\d_])(?<![\w'])\d+(?:[.,]\d+)*")
+_EULER = re.compile(r"(?<![^\W_])e ?(?:\^|\*\*) ?(?=[(\w-])")
+_ARGUMENTS = re.compile(rf"{MULTI_ARGUMENT} ?\([^()]*\d,\d")
+_GROUPED = re.compile(r"\d[. ]\d{3}(?!\d)")
+_LITERAL = re.compile(r"(?<![^\W\d_])(?<![\w'])\d+(?:[.,]\d+)*")
 
 
 class Formula(msgspec.Struct, frozen=True):

@@ -10,7 +10,6 @@ import re
 
 from quizgen.marking.reading.source import Rewrite, Source
 from quizgen.maths.notation.names import GREEK
-from quizgen.patterns import lazy
 
 DEEPEST = 40
 """Rounds from the innermost braces outwards."""
@@ -81,7 +80,7 @@ def _subscript(match: re.Match[str]) -> str:
     return "_" + re.sub(r"[\s,{}\\]", "", match[1])
 
 
-_DOLLAR = lazy(r"\$")
+_DOLLAR = re.compile(r"\$")
 _INNERMOST: tuple[Rewrite, ...] = (
     (re.compile(r"\\(?:SI|qty) ?\{([^{}]*)\} ?\{([^{}]*)\}"), lambda m: f"{m[1]} {m[2]}"),
     (re.compile(rf"\\(?:{_WRAPPERS})\*? ?\{{([^{{}}]*)\}}"), _wrapped),

@@ -10,20 +10,19 @@ from quizgen.marking.reading.rewrites import LONGEST, LONGEST_PROSE, normalise
 from quizgen.marking.reading.source import Source
 from quizgen.maths.notation import ReadError
 from quizgen.maths.notation.names import FUNCTIONS
-from quizgen.patterns import lazy
 
 BRACKETS = {"(": ")", "[": "]", "{": "}", "<": ">"}
-_HARD = lazy(r"[;|\n]")
-_COMMA = lazy(r",")
-_BLANK_BEFORE = lazy(r" +(?=[,;|])")
-_JOINING = lazy(r"[,;]? (?:and|und|&|এবং|ও) ")
-_UNIT_BEHIND = lazy(r"[^;,|\d(\[{]*| ?[\[(][^;,|\d\[\](){}]+[\])]")
-_NAMES = lazy(rf"\(? ?({NAME}(?: ?[,;|] ?{NAME})+) ?\)? ?(?::=|[=:≈]) ?(?=\S)")
-_FRONT = lazy(rf"({NAME})(?: {NAME})* ?(?::=|[=:≈])? ?(?=[(\[{{<])")
-NAMED_NEXT = lazy(rf"(?:[,;]? +|[,;])(?={NAME} ?(?::=|[=:≈]|->|→) ?\S)")
+_HARD = re.compile(r"[;|\n]")
+_COMMA = re.compile(r",")
+_BLANK_BEFORE = re.compile(r" +(?=[,;|])")
+_JOINING = re.compile(r"[,;]? (?:and|und|&|এবং|ও) ")
+_UNIT_BEHIND = re.compile(r"[^;,|\d(\[{]*| ?[\[(][^;,|\d\[\](){}]+[\])]")
+_NAMES = re.compile(rf"\(? ?({NAME}(?: ?[,;|] ?{NAME})+) ?\)? ?(?::=|[=:≈]) ?(?=\S)")
+_FRONT = re.compile(rf"({NAME})(?: {NAME})* ?(?::=|[=:≈])? ?(?=[(\[{{<])")
+NAMED_NEXT = re.compile(rf"(?:[,;]? +|[,;])(?={NAME} ?(?::=|[=:≈]|->|→) ?\S)")
 """Where the next of several named values begins."""
-_TORN = lazy(r"\d+ +\d+(?<! \d{3})")
-_SPACED = lazy(r"(?<=[\d)%°A-Za-z]) +(?=[-+]?[\d.(])")
+_TORN = re.compile(r"\d+ +\d+(?<! \d{3})")
+_SPACED = re.compile(r"(?<=[\d)%°A-Za-z]) +(?=[-+]?[\d.(])")
 
 
 def read_list(typed: str, count: int | None, decimal: str) -> tuple[list[Source], Source]:
@@ -62,9 +61,9 @@ def read_list(typed: str, count: int | None, decimal: str) -> tuple[list[Source]
     return items, tail
 
 
-_EITHER_SIGN = lazy(r"-?[0-9]+(?:[.,][0-9]+)?")
-_POINT = lazy(r"-?[0-9]+(?:\.[0-9]+)?")
-_PLAIN = lazy(
+_EITHER_SIGN = re.compile(r"-?[0-9]+(?:[.,][0-9]+)?")
+_POINT = re.compile(r"-?[0-9]+(?:\.[0-9]+)?")
+_PLAIN = re.compile(
     rf"(\()?(?:{_EITHER_SIGN.pattern}(?:; ?{_EITHER_SIGN.pattern})+"
     rf"|({_POINT.pattern}(?:(?:, {_POINT.pattern})+|(?:,{_POINT.pattern})+)))(?(1)\))"
 )

@@ -8,15 +8,14 @@ import msgspec
 
 from quizgen.marking.reading.source import Source
 from quizgen.maths.notation import ReadError
-from quizgen.patterns import lazy
 
-LITERAL = lazy(r"[.,]?\d+(?:(?:[.,]+|[ '](?=\d{3}(?!\d)))\d+)*\.?")
+LITERAL = re.compile(r"[.,]?\d+(?:(?:[.,]+|[ '](?=\d{3}(?!\d)))\d+)*\.?")
 """A run of digits with marks and groups, as typed."""
 
-_ONE_MARK = lazy(r"(\d*)([.,])(\d+)")
-_GROUPS = lazy(r"\d{1,3}(?:([.,])\d{3})(?:\1\d{3})+|\d{1,2}(?:,\d{2})+,\d{3}")
-_LAKHS = lazy(r"\d{1,2}(?:,\d{2})+,\d{3}\.\d+")
-_GROUPED_DECIMAL = lazy(r"\d{1,3}(?:([.,])\d{3})+(?!\1)([.,])\d+")
+_ONE_MARK = re.compile(r"(\d*)([.,])(\d+)")
+_GROUPS = re.compile(r"\d{1,3}(?:([.,])\d{3})(?:\1\d{3})+|\d{1,2}(?:,\d{2})+,\d{3}")
+_LAKHS = re.compile(r"\d{1,2}(?:,\d{2})+,\d{3}\.\d+")
+_GROUPED_DECIMAL = re.compile(r"\d{1,3}(?:([.,])\d{3})+(?!\1)([.,])\d+")
 
 
 class Doubt(msgspec.Struct, frozen=True):
@@ -86,8 +85,8 @@ def _several_marks(compact: str, column: int) -> str:
     raise ReadError("bad-number", column, compact)
 
 
-_ODD = lazy(r"(?<![\d.,])\d+[.,](?:10 ?(?:\^|\*\*)|\(\d)")
-_GROUPS_BEHIND = lazy(r"(?<![\d.,])\d+[.,]\d{3}(?:[ ']\d{3})*[ ']\d{1,2}(?![\d.,'/]| [\d/])")
+_ODD = re.compile(r"(?<![\d.,])\d+[.,](?:10 ?(?:\^|\*\*)|\(\d)")
+_GROUPS_BEHIND = re.compile(r"(?<![\d.,])\d+[.,]\d{3}(?:[ ']\d{3})*[ ']\d{1,2}(?![\d.,'/]| [\d/])")
 
 
 def tidied(source: Source) -> Source:
@@ -130,4 +129,4 @@ def pointed(source: Source, decimal: str) -> tuple[Source, Source | None, Doubt 
     return main, source.sub(_STANDING, second), doubts[0]
 
 
-_STANDING = lazy(rf"(?<![^\W\d_])(?<![\w'])(?:{LITERAL.pattern})")
+_STANDING = re.compile(rf"(?<![^\W\d_])(?<![\w'])(?:{LITERAL.pattern})")

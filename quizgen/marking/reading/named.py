@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import re
+
 from quizgen.marking.reading.source import Source
 from quizgen.maths.notation import ReadError
 from quizgen.maths.notation.names import folded
-from quizgen.patterns import lazy
 
 SIGNS = "\u0981-\u0983\u09bc\u09be-\u09cd\u09d7"
 """Signs of Bangla vowels and joined letters: parts of words that are no letters of their own."""
@@ -17,8 +18,8 @@ _WORD = rf"(?:[^\W\d_]|[{SIGNS}]){{2,}}"
 WORDS = rf"{_WORD}(?: {_WORD})+"
 """A name in several words: ``focal length``."""
 
-_INSIDE = lazy(r"[\s_.-]")
-_NAME = lazy(rf"([^\W\d][\w' ./{SIGNS}-]*?) ?(?::=|[=:≈]|->|→) ?")
+_INSIDE = re.compile(r"[\s_.-]")
+_NAME = re.compile(rf"([^\W\d][\w' ./{SIGNS}-]*?) ?(?::=|[=:≈]|->|→) ?")
 
 
 def split_name(item: Source) -> tuple[str, Source]:
@@ -69,7 +70,7 @@ def reordered(items: list[Source], names: list[str], error: ReadError) -> list[S
     return [placed[name] for name in names]
 
 
-_LEADING = lazy(rf"(?:{NAME}|{WORDS}) ?(?:=|≈|:|:=) ?")
+_LEADING = re.compile(rf"(?:{NAME}|{WORDS}) ?(?:=|≈|:|:=) ?")
 
 
 def without_name(source: Source) -> Source:

@@ -10,9 +10,8 @@ from quizgen.errors import FormulaError
 from quizgen.marking.reading.source import Source
 from quizgen.marking.reading.unit_words import TypedUnit, suggestion, typed_unit
 from quizgen.maths.notation import ReadError
-from quizgen.patterns import lazy
 
-_NUMBER_PART = lazy(
+_NUMBER_PART = re.compile(
     r"(?:[\d.,' +()√π^*/-]|[eE](?=[-+]?\d)|sqrt(?=\()|pi(?![^\W\d_])|[xX](?= ?10))*"
 )
 

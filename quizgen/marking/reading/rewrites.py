@@ -15,7 +15,6 @@ from quizgen.marking.reading.source import Rewrite, Source
 from quizgen.maths.notation import ReadError
 from quizgen.maths.notation.people import BELOW, FROM_BELOW
 from quizgen.maths.superscripts import LOWERED
-from quizgen.patterns import lazy
 
 LONGEST = 200
 """Most characters in one typed formula, number or list."""
@@ -30,10 +29,10 @@ _BLANKS = "\t \u00a0\u2000-\u200a\u202f\u205f\u3000"
 BANGLA_LETTERS = str.maketrans("কখগঘঙচছজঝঞ", "ABCDEFGHIJ")
 """Letters that count options in Bangla, and the Latin ones in the same places."""
 
-LONE_LETTER = lazy("(?<![\u0980-\u09ff])[ক-ঞ](?![\u0980-\u09ff])")
+LONE_LETTER = re.compile("(?<![\u0980-\u09ff])[ক-ঞ](?![\u0980-\u09ff])")
 """A Bangla letter that is no part of a word."""
 
-PICTURES = lazy(
+PICTURES = re.compile(
     r"(?:(?<=[\s,;])|(?<=[:=()→–-])|^)(?:picture|photo|image|figure|version|number|no\.?|nr\.?|bild|foto|ছবি|চিত্র|নম্বর|নং)s?(?=\s|$)",
     re.IGNORECASE,
 )
@@ -41,10 +40,10 @@ PICTURES = lazy(
 
 _APPROXIMATE = r"ca\.|approx(?:\.|imately)?|about|circa|etwa|ungefähr|rund|প্রায়|প্রায়"
 
-_ABOUT = lazy(rf"^ *(?:≈|~|∼|=|(?:{_APPROXIMATE})(?![^\W\d_])) *", re.IGNORECASE)
+_ABOUT = re.compile(rf"^ *(?:≈|~|∼|=|(?:{_APPROXIMATE})(?![^\W\d_])) *", re.IGNORECASE)
 
 _IS = r"(?: *(?:is|ist|lautet|হলো|হল|হচ্ছে)(?![^\W_]) *[:=]? *| *[:=ঃ] *)"
-ANSWER = lazy(
+ANSWER = re.compile(
     r"^ *(?:(?:the|my|die|das|meine) )?"
     rf"(?:(?:answer|ans|antwort|উত্তর)(?![^\W_])\.?(?:{_IS}| +)"
     rf"|(?:lösung|ergebnis|result|solution|formula|formel|ফলাফল|ফল|সমাধান|সূত্র)(?![^\W_]){_IS})(?=\S)",
@@ -52,7 +51,7 @@ ANSWER = lazy(
 )
 """What stands before an answer that is a sentence."""
 
-_X = lazy(r"(?<=[\d)])(?<!^0)(?<![^\d.,]0) *[xXхХ] *(?=\d)")
+_X = re.compile(r"(?<=[\d)])(?<!^0)(?<![^\d.,]0) *[xXхХ] *(?=\d)")
 
 
 _TENS = {
@@ -80,53 +79,53 @@ def _on_line(match: re.Match[str]) -> str:
 
 
 REWRITES: dict[str, Rewrite] = {
-    "direction marks around": (lazy(f"^[{_DIRECTION}]+|[{_DIRECTION}]+$"), lambda _m: ""),
-    "blanks": (lazy(f"[{_BLANKS}]"), lambda _m: " "),
+    "direction marks around": (re.compile(f"^[{_DIRECTION}]+|[{_DIRECTION}]+$"), lambda _m: ""),
+    "blanks": (re.compile(f"[{_BLANKS}]"), lambda _m: " "),
     "letters with a dot": (
-        lazy("[\u09dc\u09dd\u09df]"),
+        re.compile("[\u09dc\u09dd\u09df]"),
         lambda m: unicodedata.normalize("NFC", m[0]),
     ),
     "digits": (
-        lazy(r"[^\W0-9A-Za-z_²³¹]"),
+        re.compile(r"[^\W0-9A-Za-z_²³¹]"),
         lambda m: str(unicodedata.decimal(m[0], m[0])),
     ),
-    "full-width forms": (lazy(r"[！-～]"), lambda m: chr(ord(m[0]) - 0xFEE0)),
-    "minus and dashes": (lazy(r"[−‐‑‒–—﹣⁻](?![⁰¹²³⁴⁵⁶⁷⁸⁹])"), lambda _m: "-"),
-    "degrees": (lazy(r"[º˚]"), lambda _m: "°"),
-    "times": (lazy(r"[×·∙⋅∗✕✖•⨯]"), lambda _m: "*"),
-    "division": (lazy(r"[÷∕∶⁄]"), lambda _m: "/"),
-    "decimal marks": (lazy(r"[٫˙]"), lambda _m: "."),
-    "quotes and primes": (lazy(r"[′’‘ʹ`´]"), lambda _m: "'"),
-    "double primes": (lazy(r"[″]"), lambda _m: "''"),
-    "semicolons": (lazy(r"[；؛]"), lambda _m: ";"),
-    "angle brackets": (lazy(r"[⟨⟩〈〉]"), _table(dict(zip("⟨⟩〈〉", "()()", strict=True)))),
+    "full-width forms": (re.compile(r"[！-～]"), lambda m: chr(ord(m[0]) - 0xFEE0)),
+    "minus and dashes": (re.compile(r"[−‐‑‒–—﹣⁻](?![⁰¹²³⁴⁵⁶⁷⁸⁹])"), lambda _m: "-"),
+    "degrees": (re.compile(r"[º˚]"), lambda _m: "°"),
+    "times": (re.compile(r"[×·∙⋅∗✕✖•⨯]"), lambda _m: "*"),
+    "division": (re.compile(r"[÷∕∶⁄]"), lambda _m: "/"),
+    "decimal marks": (re.compile(r"[٫˙]"), lambda _m: "."),
+    "quotes and primes": (re.compile(r"[′’‘ʹ`´]"), lambda _m: "'"),
+    "double primes": (re.compile(r"[″]"), lambda _m: "''"),
+    "semicolons": (re.compile(r"[；؛]"), lambda _m: ";"),
+    "angle brackets": (re.compile(r"[⟨⟩〈〉]"), _table(dict(zip("⟨⟩〈〉", "()()", strict=True)))),
     "superscripts": (
-        lazy(r"[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+"),
+        re.compile(r"[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+"),
         lambda m: "^" + (f"({t})" if len(t := m[0].translate(LOWERED)) > 1 else t),
     ),
-    "subscripts": (lazy(f"[{BELOW}]+"), _on_line),
-    "vulgar fractions": (lazy(r"(\d*) ?([¼-¾⅐-⅞])"), _fraction),
-    "classifiers": (lazy(r"(?<=\d) ?-?(?:টি|টা|খানা|খানি)(?=[ ;,।.]|$)"), lambda _m: ""),
+    "subscripts": (re.compile(f"[{BELOW}]+"), _on_line),
+    "vulgar fractions": (re.compile(r"(\d*) ?([¼-¾⅐-⅞])"), _fraction),
+    "classifiers": (re.compile(r"(?<=\d) ?-?(?:টি|টা|খানা|খানি)(?=[ ;,।.]|$)"), lambda _m: ""),
     "answer": (ANSWER, lambda _m: ""),
     "about": (_ABOUT, lambda _m: ""),
     "x between numbers": (_X, lambda _m: "*"),
-    "ties": (lazy(r"(?<=\d)~(?=[^\W\d_]|[%°])"), lambda _m: " "),
+    "ties": (re.compile(r"(?<=\d)~(?=[^\W\d_]|[%°])"), lambda _m: " "),
     "powers of ten in words": (
-        lazy(rf"(?<=\d) ?({'|'.join(_EXPONENTS)})(?![^\W\d_])\.?", re.IGNORECASE),
+        re.compile(rf"(?<=\d) ?({'|'.join(_EXPONENTS)})(?![^\W\d_])\.?", re.IGNORECASE),
         lambda m: f"*10^{_EXPONENTS[m[1].lower()]}",
     ),
 }
 """Name to pattern and replacement, in the order they are applied."""
 
 _ALWAYS = ("answer", "about", "classifiers", "x between numbers", "ties", "powers of ten in words")
-_RAISED = lazy(r"[-+−–]?\d+·(?!10)\d{2,}")
+_RAISED = re.compile(r"[-+−–]?\d+·(?!10)\d{2,}")
 _STOPS = ".;।॥"
-_UNFINISHED = lazy(r"[-+]?(?:\d+;|\d{1,3}(?:\.\d{3}){2,}\.)")
-_FENCED = lazy(r"\s*(?:```[^\W\d]\w*\n(?!\s*`)|`{1,3})([^`]*)`{1,3}\s*")
+_UNFINISHED = re.compile(r"[-+]?(?:\d+;|\d{1,3}(?:\.\d{3}){2,}\.)")
+_FENCED = re.compile(r"\s*(?:```[^\W\d]\w*\n(?!\s*`)|`{1,3})([^`]*)`{1,3}\s*")
 """Marks of code in notes and chats, maybe with the name of its language in a line of its own."""
-_EXOTIC = lazy(r"[^ -~]")
-_LATEX = lazy(r"[\\${]")
-"""A text without one of these holds no LaTeX; its many patterns are made when it is first met."""
+_EXOTIC = re.compile(r"[^ -~]")
+_LATEX = re.compile(r"[\\${]")
+"""A text without one of these holds no LaTeX."""
 
 _CONTROL = frozenset({"Cc", "Cf", "Co", "Cs", "Cn", "Zl", "Zp"})
 

@@ -16,7 +16,6 @@ from quizgen.maths.notation import ReadError, parse_pieces, people, to_text, tok
 from quizgen.maths.notation.lexer import LARGEST_EXPONENT, LONGEST_NUMBER, SMALLEST_EXPONENT
 from quizgen.maths.tree import Expr
 from quizgen.maths.values import Value
-from quizgen.patterns import lazy
 
 LARGEST_VALUE = fmpq(10) ** LARGEST_EXPONENT
 """Largest number read."""
@@ -83,26 +82,28 @@ def as_fraction(number: Number) -> Number:
     return replace(number, value=number.value / 100, form=form, places=places, percent=False)
 
 
-_FAST = lazy(
+_FAST = re.compile(
     r"([-−–]?)([0-9]{1,30})(?:([.,])([0-9]{1,30}))?(?:[eE]([-+]?[0-9]{1,2})|/([0-9]{1,30}))?"
 )
 _DIGITS = str.maketrans("০১২৩৪৫৬৭৮৯０１２３４５６７８９", "01234567890123456789")
-_SCIENTIFIC = lazy(
+_SCIENTIFIC = re.compile(
     r"(?P<sign>[-+]?) ?(?P<whole>\d*)(?:\.(?P<digits>\d*))?"
     r"(?: ?(?:[eE] ?(?P<e>[-+]?\d{1,5})"
     r"|\* ?10 ?(?:\^|\*\*) ?(?P<p>[-+]?\d{1,5}|\([-+]?\d{1,5}\))))?",
     re.ASCII,
 )
-_TEN = lazy(r"(?P<sign>[-+]?) ?10 ?(?:\^|\*\*) ?(?P<p>[-+]?\d{1,5}|\([-+]?\d{1,5}\))", re.ASCII)
-_FRACTION = lazy(
+_TEN = re.compile(
+    r"(?P<sign>[-+]?) ?10 ?(?:\^|\*\*) ?(?P<p>[-+]?\d{1,5}|\([-+]?\d{1,5}\))", re.ASCII
+)
+_FRACTION = re.compile(
     r"(?P<sign>[-+]?) ?\(?(?P<top>\d+) ?/ ?(?P<minus>-?) ?(?P<bottom>\d+)\)?", re.ASCII
 )
-_MIXED = lazy(
+_MIXED = re.compile(
     r"(?P<sign>[-+]?) ?(?P<whole>\d+) +(?P<top>\d+) ?/ ?(?P<bottom>\d+)"
     r"|(?P<sign2>[-+]?) ?\((?P<whole2>\d+)\+(?P<top2>\d+)/(?P<bottom2>\d+)\)",
     re.ASCII,
 )
-_E_SPACED = lazy(r"(?<=[\d.]) ?[eE] ?(?=[-+]?\d)")
+_E_SPACED = re.compile(r"(?<=[\d.]) ?[eE] ?(?=[-+]?\d)")
 
 
 def quick(typed: str, decimal: str) -> Readings | None:

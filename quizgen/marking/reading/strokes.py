@@ -8,7 +8,6 @@ from collections.abc import Iterable, Iterator, Sequence
 from quizgen.marking.reading.rewrites import LONGEST_PROSE, normalise
 from quizgen.marking.reading.source import Source
 from quizgen.maths.notation import ReadError
-from quizgen.patterns import lazy
 
 Point = tuple[float, float]
 Stroke = Sequence[Point]
@@ -20,9 +19,9 @@ BEYOND = 0.1
 """Share of the field by which a point may lie outside of it."""
 
 _NUMBER = r"([-+]?(?:\d+\.?\d*|\.\d+)(?:e-?\d{1,2})?)"
-_POINT = lazy(rf"[(\[]? ?{_NUMBER} ?[,|] ?{_NUMBER} ?[)\]]?(?=[ ,(\[]|$)", re.IGNORECASE)
-_NAME = lazy(r"[^\d:=,.+-]*[:=]")
-_BETWEEN = lazy(r"[ ,]*")
+_POINT = re.compile(rf"[(\[]? ?{_NUMBER} ?[,|] ?{_NUMBER} ?[)\]]?(?=[ ,(\[]|$)", re.IGNORECASE)
+_NAME = re.compile(r"[^\d:=,.+-]*[:=]")
+_BETWEEN = re.compile(r"[ ,]*")
 
 
 def read_strokes(typed: str, view: View) -> list[list[Point]]:

@@ -14,7 +14,6 @@ from quizgen.errors import FormulaError
 from quizgen.maths.numbers import rational
 from quizgen.maths.precision import working_precision
 from quizgen.maths.units import SIMPLE, System, Unit, units_in_use
-from quizgen.patterns import lazy
 
 WORDS = {
     "pixel": "px",
@@ -212,10 +211,10 @@ def _spellings(known: System) -> _Spellings:
     return _Spellings(words, {word.lower(): to for word, to in words.items() if len(word) > 3})
 
 
-_POINTS = lazy(r"\. ?")
-_BRACKETS = lazy(r"[(\[]([^()\[\]*/· ]+)[)\]]")
-_SQUARE = lazy(r"(?:square |quadrat|বর্গ ?)([^\W\d_][^*/· ]*)", re.IGNORECASE)
-_PART = lazy(r"[*/·]|[^*/·]+")
+_POINTS = re.compile(r"\. ?")
+_BRACKETS = re.compile(r"[(\[]([^()\[\]*/· ]+)[)\]]")
+_SQUARE = re.compile(r"(?:square |quadrat|বর্গ ?)([^\W\d_][^*/· ]*)", re.IGNORECASE)
+_PART = re.compile(r"[*/·]|[^*/·]+")
 
 
 class TypedUnit(msgspec.Struct, frozen=True):

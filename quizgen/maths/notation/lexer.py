@@ -13,7 +13,6 @@ from quizgen.errors import FormulaError
 from quizgen.maths.notation.names import CONSTANTS, FUNCTIONS, KEYWORDS, folded, spellings, split
 from quizgen.maths.operators import Typed, typed_as
 from quizgen.maths.tree import Num
-from quizgen.patterns import lazy
 
 LARGEST_EXPONENT = 250
 """Largest decimal exponent read: beyond anything measurable, and every unit keeps it a float."""
@@ -88,7 +87,7 @@ RELATIONS = {sign: row.name for row in typed_as(Typed.RELATION) for sign in row.
 
 _SIGNS = "|".join(map(re.escape, sorted({*OPERATORS, *RELATIONS}, key=len, reverse=True)))
 
-TOKEN = lazy(
+TOKEN = re.compile(
     r"(?P<space>\s+)"
     r"|(?P<number>(?:\d+\.\d*|\.\d+|\d+)(?:[eE][+-]?\d+)?)"
     r"|(?P<literal>\{[^{}]*\})"
@@ -97,7 +96,7 @@ TOKEN = lazy(
     rf"|(?P<op>{_SIGNS})"
 )
 
-_LITERAL = lazy(r"\{(-?)(\d+)(?:\.(\d*))?(?:/(\d+)(\.?))?\}")
+_LITERAL = re.compile(r"\{(-?)(\d+)(?:\.(\d*))?(?:/(\d+)(\.?))?\}")
 _ENDS = frozenset({"NUMBER", "NAME", "RPAR", "RBAR", "CONSTANT"})
 _STARTS = frozenset({"NUMBER", "NAME", "LPAR", "LBAR", "CONSTANT", "FUNCTION", "ROOT"})
 _BREAKS = frozenset({"PLUS", "MINUS", "TIMES", "RELATION", "COMMA", "AND", "OR", "NOT"})

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from functools import cache
 
 from quizgen.maths.operators import Typed, typed_as
-from quizgen.patterns import lazy
 
 FUNCTIONS = {row.name: (row.least, row.most) for row in typed_as(Typed.FUNCTION)}
 """Function name to the smallest and largest number of arguments."""
@@ -15,7 +15,7 @@ CONSTANTS = {sign: row.name for row in typed_as(Typed.CONSTANT) for sign in row.
 
 KEYWORDS = frozenset(row.name for row in typed_as(Typed.WORD))
 
-NAME = lazy(r"[^\W\d_][^\W_]*'*(?:_[^\W_]+'*)*")
+NAME = re.compile(r"[^\W\d_][^\W_]*'*(?:_[^\W_]+'*)*")
 """A letter, letters and digits, primes, then subscripts: ``f``, ``k_1``, ``p'_x``, ``Delta``."""
 
 GREEK = {

@@ -15,7 +15,6 @@ from functools import lru_cache
 
 from quizgen.maths.notation.names import FUNCTIONS, GREEK, KEYWORDS
 from quizgen.maths.superscripts import RAISED
-from quizgen.patterns import lazy
 
 GAP = "\u202f"
 """Between groups of three digits: narrow, and no line ends at it."""
@@ -27,9 +26,11 @@ SMALLEST_ZEROS = 4
 
 _RAISED = "[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+"
 _DIGITS = r"\d+(?:\.\d+)?"
-_NUMBER = lazy(rf"(?P<sign>[-−+]?)(?P<top>{_DIGITS})(?:/(?P<bottom>\d+)|[eE](?P<power>[-−+]?\d+))?")
-_SMALL = lazy(rf"0\.(?P<zeros>0{{{SMALLEST_ZEROS},}})(?P<first>[1-9])(?P<rest>\d*)")
-POWER = lazy(rf"(?P<sign>[-−]?)(?P<mantissa>{_DIGITS})·10(?P<power>{_RAISED})")
+_NUMBER = re.compile(
+    rf"(?P<sign>[-−+]?)(?P<top>{_DIGITS})(?:/(?P<bottom>\d+)|[eE](?P<power>[-−+]?\d+))?"
+)
+_SMALL = re.compile(rf"0\.(?P<zeros>0{{{SMALLEST_ZEROS},}})(?P<first>[1-9])(?P<rest>\d*)")
+POWER = re.compile(rf"(?P<sign>[-−]?)(?P<mantissa>{_DIGITS})·10(?P<power>{_RAISED})")
 """A number with a power of ten, as it is written here."""
 
 
@@ -93,7 +94,7 @@ TO_BELOW, FROM_BELOW = str.maketrans(_ON_LINE, BELOW), str.maketrans(BELOW, _ON_
 LETTERS = {word: letter for letter, word in GREEK.items() if letter not in "µ∆"}
 _ACCENTS = {"bar": "\u0304", "hat": "\u0302", "tilde": "\u0303"}
 _SIGNS = {"plus": "+", "minus": "-"}
-_BASE = lazy(r"(?P<stem>[^\W\d_]+)(?P<digits>\d*)(?P<primes>['′]*)")
+_BASE = re.compile(r"(?P<stem>[^\W\d_]+)(?P<digits>\d*)(?P<primes>['′]*)")
 _KEPT = frozenset({*FUNCTIONS, *KEYWORDS})
 
 
@@ -142,7 +143,7 @@ def _stem(stem: str) -> str:
     return LETTERS.get(stem, stem)
 
 
-_FORMULA = lazy(
+_FORMULA = re.compile(
     r"`(?P<quoted>[^`]+)`"
     r"|(?P<log>log(?:2|10)(?=\())"
     r"|(?P<root>(?<![^\W_])sqrt(?=\())"
@@ -153,7 +154,7 @@ _FORMULA = lazy(
     rf"|(?P<number>(?<![\d.{GAP}]){_DIGITS}(?:[eE][-+]?\d+)?)"
     r"|(?P<sign><=|>=|!=|\*|-)"
 )
-_DOUBLED = lazy(r"\(\(([^()]+)\)\)")
+_DOUBLED = re.compile(r"\(\(([^()]+)\)\)")
 """Brackets in brackets, where a number stands alone in those of a function."""
 _SPELLED = {"<=": "≤", ">=": "≥", "!=": "≠", "*": "·", "-": MINUS}
 
@@ -203,7 +204,7 @@ _WRITERS: dict[str, Callable[[str], str]] = {
 }
 
 
-_WITH_INDEX = lazy(r"[^\W\d_]+['′]*_[^\W_]+['′]*|(?<![^\W_])[^\W\d_]'(?![^\W_])")
+_WITH_INDEX = re.compile(r"[^\W\d_]+['′]*_[^\W_]+['′]*|(?<![^\W_])[^\W\d_]'(?![^\W_])")
 _INDEXED = "_'"
 """One of which every such name has."""
 
@@ -221,8 +222,8 @@ def names_in(text: str) -> str:
     return _WITH_INDEX.sub(lambda m: name(m[0]), text)
 
 
-_SIGNED = lazy(r"(?<![\w)\]}.,'\"−-])-(?=\d)|(?<=\d )-(?= \d)")
-_LONG = lazy(rf"(?<![\w.,{GAP}])\d{{{LONGEST_UNGROUPED + 1},}}(?![\w{GAP}])")
+_SIGNED = re.compile(r"(?<![\w)\]}.,'\"−-])-(?=\d)|(?<=\d )-(?= \d)")
+_LONG = re.compile(rf"(?<![\w.,{GAP}])\d{{{LONGEST_UNGROUPED + 1},}}(?![\w{GAP}])")
 
 
 def prose(text: str) -> str:
